@@ -8,6 +8,7 @@ child to coordinates of the parent: ``p_parent = T_parent_child @ p_child``.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -19,6 +20,9 @@ Xyzw = tuple[float, float, float, float]
 """A rotation as ROS and RViz write it."""
 Wxyz = tuple[float, float, float, float]
 """A rotation as viser wants it."""
+IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
+"""The rotation that turns nothing."""
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 Rgba = tuple[float, float, float, float]
 """A colour with its opacity, each 0 to 1."""
 
@@ -112,6 +116,20 @@ def xyzw_product(a: Xyzw, b: Xyzw) -> Xyzw:
     )
 
 
+def xyzw_rotated(xyzw: Xyzw, vector: Vector3) -> Vector3:
+    """Return a vector turned by a unit quaternion (x, y, z, w)."""
+    qx, qy, qz, qw = xyzw
+    x, y, z = vector
+    tx = 2.0 * (qy * z - qz * y)
+    ty = 2.0 * (qz * x - qx * z)
+    tz = 2.0 * (qx * y - qy * x)
+    return (
+        x + qw * tx + qy * tz - qz * ty,
+        y + qw * ty + qz * tx - qx * tz,
+        z + qw * tz + qx * ty - qy * tx,
+    )
+
+
 def xyzw_from_matrix(matrix: Matrix) -> Xyzw:
     """Return the unit quaternion (x, y, z, w) of a (4, 4) transform, KDL's sign."""
     # Dividing by the largest of the four components keeps all digits.
@@ -141,6 +159,26 @@ def wxyz_from_matrix(T: Matrix) -> Wxyz:
     """Return the unit quaternion (w, x, y, z) of a (4, 4) or (3, 3) matrix."""
     x, y, z, w = xyzw_from_matrix(T)
     return (w, x, y, z)
+
+
+def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
+    """Return a quaternion (w, x, y, z) with length 1; `IDENTITY` where it has none."""
+    w, x, y, z = wxyz
+    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    if not 0.0 < norm < math.inf:
+        return IDENTITY
+    return (w / norm, x / norm, y / norm, z / norm)
+
+
+def wxyz_product(a: Wxyz, b: Wxyz) -> Wxyz:
+    """Return the rotation b followed by the rotation a, both (w, x, y, z)."""
+    x, y, z, w = xyzw_product((*a[1:], a[0]), (*b[1:], b[0]))
+    return (w, x, y, z)
+
+
+def wxyz_rotated(wxyz: Wxyz, vector: Vector3) -> Vector3:
+    """Return a vector turned by a unit quaternion (w, x, y, z)."""
+    return xyzw_rotated((*wxyz[1:], wxyz[0]), vector)
 
 
 def wxyz_from_z(direction: Vector3) -> Wxyz:

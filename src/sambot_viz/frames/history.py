@@ -27,7 +27,11 @@ from sambot_viz.frames.samples import (
     number_faults,
 )
 from sambot_viz.frames.transform import Transform
-from sambot_viz.geometry import Vector3, Xyzw, rotation_from_xyzw, xyzw_product
+from sambot_viz.geometry import (
+    rotation_from_xyzw,
+    xyzw_product,
+    xyzw_rotated,
+)
 
 DURATION = 10.0
 """The time for which tf2's listeners keep a transform [s]."""
@@ -267,29 +271,16 @@ class _Way:
         return LookupRefused(self._target, self._source, reason, times=times)
 
 
-def _rotated(q: Xyzw, v: Vector3) -> Vector3:
-    qx, qy, qz, qw = q
-    x, y, z = v
-    tx = 2.0 * (qy * z - qz * y)
-    ty = 2.0 * (qz * x - qx * z)
-    tz = 2.0 * (qx * y - qy * x)
-    return (
-        x + qw * tx + qy * tz - qz * ty,
-        y + qw * ty + qz * tx - qx * tz,
-        z + qw * tz + qx * ty - qy * tx,
-    )
-
-
 def _product(a: Pose, b: Pose) -> Pose:
     """Return the pose of c in a, from those of b in a and of c in b."""
-    (x, y, z), (dx, dy, dz) = a[0], _rotated(a[1], b[0])
+    (x, y, z), (dx, dy, dz) = a[0], xyzw_rotated(a[1], b[0])
     return (x + dx, y + dy, z + dz), xyzw_product(a[1], b[1])
 
 
 def _inverse(pose: Pose) -> Pose:
     qx, qy, qz, qw = pose[1]
     back = (-qx, -qy, -qz, qw)
-    x, y, z = _rotated(back, pose[0])
+    x, y, z = xyzw_rotated(back, pose[0])
     return (-x, -y, -z), back
 
 

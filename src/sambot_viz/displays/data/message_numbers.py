@@ -10,10 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz
 
 Floats = npt.NDArray[np.float64]
-UPRIGHT: Wxyz = (1.0, 0.0, 0.0, 0.0)
 MOST_POSES = 100_000
 """So many poses of one message are drawn at most."""
 
@@ -46,10 +45,16 @@ def points_of(points: Any) -> Floats:
         MessageRefused: one is not finite, or there are too many.
     """
     require_few(len(points))
-    found = np.array([(p.x, p.y, p.z) for p in points], np.float64)
+    found = coordinates_of(points)
     if not np.isfinite(found).all():
         raise MessageRefused(INVALID_FLOATS)
-    return found if len(found) else np.zeros((0, 3))
+    return found
+
+
+def coordinates_of(points: Any) -> Floats:
+    """Return geometry_msgs/Points, (N, 3) [m], which need not be finite."""
+    values = (value for point in points for value in (point.x, point.y, point.z))
+    return np.reshape(np.fromiter(values, np.float64, 3 * len(points)), (-1, 3))
 
 
 def wxyz_of(quaternion: Any) -> Wxyz:
@@ -65,11 +70,7 @@ def wxyz_of(quaternion: Any) -> Wxyz:
         float(quaternion.z),
     )
     require_finite(found)
-    norm = math.sqrt(sum(value * value for value in found))
-    if not 0.0 < norm < math.inf:
-        return UPRIGHT
-    w, x, y, z = (value / norm for value in found)
-    return (w, x, y, z)
+    return unit_wxyz(found)
 
 
 def poses_of(poses: Any) -> tuple[Floats, Floats]:

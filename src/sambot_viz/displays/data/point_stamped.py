@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.displays.data.kept_messages import KeptSolidsDisplay
-from sambot_viz.displays.data.message_numbers import UPRIGHT, point_of
+from sambot_viz.displays.data.message_numbers import point_of
 from sambot_viz.displays.data.poses.pose_shapes import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid
-from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.geometry import IDENTITY, Matrix, Vector3
 from sambot_viz.rviz import ColorProperty, IntProperty
 
 MOST_POINTS = 10_000
@@ -51,4 +51,4 @@ class PointStampedDisplay(KeptSolidsDisplay):
         size = float(self.config.get("Radius"))
         color, alpha = self.config.get("Color"), float(self.config.get("Alpha"))
         sizes = (size, size, size)
-        return Solid("sphere", UPRIGHT, position_of(T), sizes, color, alpha)
+        return Solid("sphere", IDENTITY, position_of(T), sizes, color, alpha)

@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN, move, single
+from sambot_viz.displays.scene.glb_node import move, single
 from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
 from sambot_viz.displays.scene.solids import Compact, linear
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Floats = npt.NDArray[np.float32]

@@ -10,10 +10,10 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.scene.glb_node import IDENTITY
 from sambot_viz.displays.scene.solid_nodes import Kind, Solid
 from sambot_viz.displays.scene.solids import AXIS_COLORS, Rgb
 from sambot_viz.geometry import (
+    IDENTITY,
     Matrix,
     Vector3,
     Wxyz,

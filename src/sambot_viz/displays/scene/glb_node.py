@@ -17,13 +17,11 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import glb_file
 from sambot_viz.viser_private import set_pose
 
 Array = npt.NDArray[Any]
-IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
-ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 POINTS, LINES, TRIANGLES = 0, 1, 4
 _UINT8, _UINT32, _FLOAT = 5121, 5125, 5126
 ONE_PIXEL = base64.b64decode(

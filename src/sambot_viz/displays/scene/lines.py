@@ -10,9 +10,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.glb_node import (
-    IDENTITY,
     LINES,
-    ORIGIN,
     GlbNode,
     drawn_glb,
     rgba_rows,
@@ -20,7 +18,7 @@ from sambot_viz.displays.scene.glb_node import (
 )
 from sambot_viz.displays.scene.nodes import any_gone, remove_all
 from sambot_viz.displays.scene.solids import Rgb, linear
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM, glb_file
 
 _FLOAT, _LINES = 5126, 1

@@ -9,16 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.glb_node import (
-    IDENTITY,
-    ONE_PIXEL,
-    ORIGIN,
-    GlbNode,
-    drawn_glb,
-    move,
-)
+from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb, move
 from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all, short_id
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 
 Cells = npt.NDArray[np.uint8]
 Palette = npt.NDArray[np.uint8]

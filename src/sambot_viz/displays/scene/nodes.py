@@ -7,7 +7,6 @@ frame carries the fixed frame: its pose is T_fixed_root.
 
 from __future__ import annotations
 
-import math
 import string
 from collections.abc import Callable, Iterable, Sequence
 
@@ -16,7 +15,14 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.frames import FrameTree
-from sambot_viz.geometry import Matrix, Vector3, Wxyz, inverse_matrix, wxyz_from_matrix
+from sambot_viz.geometry import (
+    Matrix,
+    Vector3,
+    Wxyz,
+    inverse_matrix,
+    unit_wxyz,
+    wxyz_from_matrix,
+)
 from sambot_viz.viser_private import is_removed, set_pose
 
 _AS_CREATED = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -133,10 +139,7 @@ def position_of(T: Matrix) -> Vector3:
 
 def placed(wxyz: Sequence[float], position: Sequence[float]) -> tuple[Wxyz, Vector3]:
     """Return a pose that may be sent: finite, without a rotation where it has none."""
-    w, x, y, z = (float(value) for value in wxyz)
-    norm = math.sqrt(w * w + x * x + y * y + z * z)
-    good = 0.0 < norm < math.inf
-    turn = (w / norm, x / norm, y / norm, z / norm) if good else (1.0, 0.0, 0.0, 0.0)
+    turn = unit_wxyz([float(value) for value in wxyz])
     return turn, (_shown(position[0]), _shown(position[1]), _shown(position[2]))
 
 

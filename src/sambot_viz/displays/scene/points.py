@@ -8,15 +8,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.scene.glb_node import (
-    IDENTITY,
-    ORIGIN,
-    POINTS,
-    GlbNode,
-    drawn_glb,
-    single,
-)
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.displays.scene.glb_node import POINTS, GlbNode, drawn_glb, single
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 PointShape = Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"]

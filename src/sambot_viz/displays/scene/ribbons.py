@@ -7,16 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.scene.glb_node import (
-    IDENTITY,
-    ORIGIN,
-    GlbNode,
-    drawn_glb,
-    rgba_rows,
-    single,
-)
+from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Points = npt.NDArray[np.float32]

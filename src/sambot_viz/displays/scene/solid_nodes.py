@@ -14,7 +14,6 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.scene.batch_node import BatchNode
-from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN
 from sambot_viz.displays.scene.solids import (
     AXIS_COLORS,
     AXIS_WXYZ,
@@ -26,7 +25,7 @@ from sambot_viz.displays.scene.solids import (
     cylinder,
     sphere,
 )
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 
 Numbers = npt.NDArray[np.float64]
 Kind = Literal["box", "cone", "cylinder", "sphere"]

@@ -6,15 +6,9 @@ import math
 
 import numpy as np
 
-from sambot_viz.displays.scene.glb_node import (
-    IDENTITY,
-    ONE_PIXEL,
-    ORIGIN,
-    GlbNode,
-    drawn_glb,
-)
+from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import Vector3
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3
 from sambot_viz.text import text as printable
 
 LONGEST = 2000

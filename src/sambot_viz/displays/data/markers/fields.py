@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.scene.glb_node import IDENTITY
+from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.frames import Transform
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, Vector3, Wxyz, unit_wxyz, wxyz_product
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 
@@ -38,10 +37,7 @@ class MarkerPose:
     def of(self, pose: Any) -> tuple[Wxyz, Vector3]:
         """Return a geometry_msgs/Pose in the frame that it is drawn in."""
         p, q = pose.position, pose.orientation
-        norm = math.sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z)
-        turn: Wxyz = IDENTITY
-        if 0.0 < norm < math.inf:
-            turn = (q.w / norm, q.x / norm, q.y / norm, q.z / norm)
+        turn = unit_wxyz((q.w, q.x, q.y, q.z))
         if self._turn is None:
             return turn, (p.x, p.y, p.z)
         a, b, c = self._turn
@@ -51,32 +47,7 @@ class MarkerPose:
             b[0] * p.x + b[1] * p.y + b[2] * p.z + y,
             c[0] * p.x + c[1] * p.y + c[2] * p.z + z,
         )
-        return product(self._wxyz, turn), at
-
-
-def product(a: Wxyz, b: Wxyz) -> Wxyz:
-    """Return the rotation that turns by b, then by a."""
-    aw, ax, ay, az = a
-    bw, bx, by, bz = b
-    return (
-        aw * bw - ax * bx - ay * by - az * bz,
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-    )
-
-
-def turned(wxyz: Wxyz, v: Vector3) -> Vector3:
-    """Return a vector turned by a rotation."""
-    w, x, y, z = wxyz
-    cx = 2.0 * (y * v[2] - z * v[1])
-    cy = 2.0 * (z * v[0] - x * v[2])
-    cz = 2.0 * (x * v[1] - y * v[0])
-    return (
-        v[0] + w * cx + y * cz - z * cy,
-        v[1] + w * cy + z * cx - x * cz,
-        v[2] + w * cz + x * cy - y * cx,
-    )
+        return wxyz_product(self._wxyz, turn), at
 
 
 def rgb_of(color: Any) -> Rgb:
@@ -94,12 +65,8 @@ def alpha_of(color: Any) -> float:
 
 def points_of(marker: Any) -> npt.NDArray[np.float32]:
     """Return the points of a marker, (N, 3) [m]."""
-    points = marker.points
-    flat = np.fromiter(
-        (c for p in points for c in (p.x, p.y, p.z)), np.float64, 3 * len(points)
-    )
     with np.errstate(over="ignore"):
-        return np.reshape(flat, (-1, 3)).astype(np.float32)
+        return coordinates_of(marker.points).astype(np.float32)
 
 
 def rgba_of(colors: Any) -> npt.NDArray[np.uint8]:

@@ -6,16 +6,10 @@ import math
 from typing import Any
 
 from sambot_viz.displays.data.markers.checks import ARROW, CUBE, SPHERE
-from sambot_viz.displays.data.markers.fields import (
-    MarkerPose,
-    alpha_of,
-    product,
-    rgb_of,
-    turned,
-)
+from sambot_viz.displays.data.markers.fields import MarkerPose, alpha_of, rgb_of
 from sambot_viz.displays.scene.solid_nodes import Kind, Solid
 from sambot_viz.displays.scene.solids import AXIS_WXYZ, Rgb
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_z
+from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_z, wxyz_product, wxyz_rotated
 
 _TO_X, _TO_Y = AXIS_WXYZ[0], AXIS_WXYZ[1]
 """Rotations that turn z to x, and z to y."""
@@ -38,7 +32,7 @@ def solids_of(marker: Any, place: MarkerPose) -> tuple[Solid, ...]:
     if kind == SPHERE:
         # RViz's sphere of markers has its poles on y.
         size = (scale.x, scale.z, scale.y)
-        return (Solid("sphere", product(wxyz, _TO_Y), at, size, color, alpha),)
+        return (Solid("sphere", wxyz_product(wxyz, _TO_Y), at, size, color, alpha),)
     size = (scale.x, scale.y, scale.z)
     return (Solid("cylinder", wxyz, at, size, color, alpha),)
 
@@ -48,7 +42,7 @@ def _arrow_along(
 ) -> tuple[Solid, ...]:
     """An arrow along x of the pose; its sides may differ."""
     shaft, head = _SHAFT * scale.x, _HEAD * scale.x
-    turn, ahead = product(wxyz, _TO_X), turned(wxyz, (1.0, 0.0, 0.0))
+    turn, ahead = wxyz_product(wxyz, _TO_X), wxyz_rotated(wxyz, (1.0, 0.0, 0.0))
     parts: list[Solid] = []
     for kind, middle, size in _parts(shaft, head):
         wide = 1.0 if kind == "cylinder" else 2.0
@@ -69,9 +63,9 @@ def _arrow_between(
         return ()
     scale = marker.scale
     head = min(max(scale.z, 0.0), length) if scale.z else _HEAD * length
-    from_origin = turned(wxyz, (begin.x, begin.y, begin.z))
+    from_origin = wxyz_rotated(wxyz, (begin.x, begin.y, begin.z))
     start = _along(at, from_origin, 1.0)
-    ahead = turned(wxyz, (way[0] / length, way[1] / length, way[2] / length))
+    ahead = wxyz_rotated(wxyz, (way[0] / length, way[1] / length, way[2] / length))
     turn = wxyz_from_z(ahead)
     parts: list[Solid] = []
     for kind, middle, size in _parts(length - head, head):

@@ -30,9 +30,16 @@ from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
 from sambot_viz.displays.scene.nodes import position_of
-from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode, products, rotated
+from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.frames import Transform
-from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.geometry import (
+    Matrix,
+    Vector3,
+    Wxyz,
+    wxyz_from_matrix,
+    wxyz_product,
+    wxyz_rotated,
+)
 from sambot_viz.rviz import DisplayConfig, EnumProperty, FloatProperty, IntProperty
 from sambot_viz.sources.message import Recorded
 
@@ -61,10 +68,7 @@ class _PastPose:
         self.wxyz, self.position = wxyz, position
         self._frame = wxyz_from_matrix(T_fixed_frame)
         self._at = position_of(T_fixed_frame)
-        self.fixed = (
-            _product(self._frame, wxyz),
-            _moved(self._frame, self._at, position),
-        )
+        self.fixed = _moved(self._frame, self._at, wxyz, position)
         self._covariance = covariance
         self._look: CovarianceLook | None = None
         self._solids: list[Solid] = []
@@ -172,8 +176,9 @@ class OdometryDisplay(MessageFilterDisplay):
         last = self._kept[-1]
         if math.dist(position, last.position) >= self._tolerance("Position"):
             return True
-        turned = products(np.array([wxyz]), np.array(_conjugate(last.wxyz)))[0]
-        angle = 2 * math.atan2(float(np.linalg.norm(turned[1:])), float(turned[0]))
+        w, x, y, z = last.wxyz
+        turned, *axis = wxyz_product(wxyz, (w, -x, -y, -z))
+        angle = 2 * math.atan2(math.hypot(*axis), turned)
         return angle >= self._tolerance("Angle")
 
     def _tolerance(self, of: str) -> float:
@@ -190,22 +195,15 @@ class OdometryDisplay(MessageFilterDisplay):
         self._solids.draw([solid for one in self._kept for solid in one.solids(look)])
 
 
-def _conjugate(wxyz: Wxyz) -> Wxyz:
-    w, x, y, z = wxyz
-    return (w, -x, -y, -z)
+def _moved(
+    frame: Wxyz, at: Vector3, wxyz: Wxyz, position: Vector3
+) -> tuple[Wxyz, Vector3]:
+    """Return a pose of a frame where that frame was."""
+    dx, dy, dz = wxyz_rotated(frame, position)
+    return wxyz_product(frame, wxyz), (at[0] + dx, at[1] + dy, at[2] + dz)
 
 
-def _product(one: Wxyz, other: Wxyz) -> Wxyz:
-    w, x, y, z = products(np.array([one]), np.array(other))[0].tolist()
-    return (w, x, y, z)
-
-
-def _moved(wxyz: Wxyz, at: Vector3, point: Vector3) -> Vector3:
-    x, y, z = (rotated(np.array([wxyz]), np.array(point))[0] + at).tolist()
-    return (x, y, z)
-
-
-def _placed(solid: Solid, wxyz: Wxyz, at: Vector3) -> Solid:
+def _placed(solid: Solid, frame: Wxyz, at: Vector3) -> Solid:
     """Return a solid of a frame where that frame was."""
-    turn, position = _product(wxyz, solid.wxyz), _moved(wxyz, at, solid.position)
-    return Solid(solid.kind, turn, position, solid.scale, solid.color, solid.alpha)
+    wxyz, position = _moved(frame, at, solid.wxyz, solid.position)
+    return Solid(solid.kind, wxyz, position, solid.scale, solid.color, solid.alpha)

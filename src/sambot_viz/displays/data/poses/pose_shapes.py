@@ -9,11 +9,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.glb_node import IDENTITY, ORIGIN
 from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.rviz import ColorProperty, ConfigItem, FloatProperty, Property
 
 Floats = npt.NDArray[np.float64]
