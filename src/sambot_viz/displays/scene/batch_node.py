@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.glb_node import move, single
-from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
+from sambot_viz.displays.scene.glb_node import single
+from sambot_viz.displays.scene.nodes import placed
+from sambot_viz.displays.scene.posed_node import Pose, PosedNode
 from sambot_viz.displays.scene.solids import Compact, linear
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
@@ -17,24 +18,13 @@ from sambot_viz.meshes.glb import OPAQUE_FROM
 Floats = npt.NDArray[np.float32]
 
 
-class BatchNode:
+class BatchNode(PosedNode[viser.BatchedMeshHandle]):
     """Copies of one shape in one node.
 
     Args:
         scene: where to draw.
         name: of the node; it is drawn in the frame of the node above.
     """
-
-    def __init__(self, scene: viser.SceneApi, name: str) -> None:
-        self._scene = scene
-        self._name = name
-        self._handle: viser.BatchedMeshHandle | None = None
-        self._pose = (IDENTITY, ORIGIN)
-
-    @property
-    def is_gone(self) -> bool:
-        """Return whether the node was removed together with one above it."""
-        return self._handle is not None and any_gone([self._handle])
 
     def show(
         self,
@@ -91,10 +81,10 @@ class BatchNode:
         scales: Floats,
         colors: npt.NDArray[np.uint8],
         alphas: Floats | None,
-        pose: tuple[Wxyz, Vector3],
+        pose: Pose,
     ) -> None:
         if self._handle is None or self.is_gone:
-            self._handle = self._scene.add_batched_meshes_simple(
+            handle = self._scene.add_batched_meshes_simple(
                 self._name,
                 shape.vertices,
                 shape.faces,
@@ -110,6 +100,7 @@ class BatchNode:
                 wxyz=pose[0],
                 position=pose[1],
             )
+            self.has_made(handle, pose)
         else:
             # viser sends what differs from what it has.
             handle = self._handle
@@ -119,14 +110,7 @@ class BatchNode:
             handle.batched_scales = scales
             handle.batched_colors = colors
             handle.batched_opacities = alphas
-            move(handle, self._pose, pose)
-        self._pose = pose
-
-    def remove(self) -> None:
-        """Take the node out of the scene."""
-        if self._handle is not None:
-            remove_all([self._handle])
-            self._handle = None
+            self.move(pose)
 
 
 @cache

@@ -16,10 +16,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all
+from sambot_viz.displays.scene.nodes import placed
+from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import glb_file
-from sambot_viz.viser_private import set_pose
 
 Array = npt.NDArray[Any]
 POINTS, LINES, TRIANGLES = 0, 1, 4
@@ -32,7 +32,7 @@ ONE_PIXEL = base64.b64decode(
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
-class GlbNode:
+class GlbNode(PosedNode[viser.GlbHandle]):
     """One node of viser made from a GLB file.
 
     Args:
@@ -41,16 +41,8 @@ class GlbNode:
     """
 
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
-        self._scene = scene
-        self._name = name
-        self._handle: viser.GlbHandle | None = None
+        super().__init__(scene, name)
         self._digest = b""
-        self._pose = (IDENTITY, ORIGIN)
-
-    @property
-    def is_gone(self) -> bool:
-        """Return whether the node was removed together with one above it."""
-        return self._handle is not None and any_gone([self._handle])
 
     def show(
         self,
@@ -71,7 +63,7 @@ class GlbNode:
         digest = digest_of(content)
         pose = placed(wxyz, position)
         if self._handle is None or self.is_gone:
-            self._handle = self._scene.add_glb(
+            handle = self._scene.add_glb(
                 self._name,
                 make(),
                 cast_shadow=False,
@@ -79,31 +71,12 @@ class GlbNode:
                 wxyz=pose[0],
                 position=pose[1],
             )
+            self.has_made(handle, pose)
         else:
             if digest != self._digest:
                 self._handle.glb_data = make()
-            move(self._handle, self._pose, pose)
-        self._digest, self._pose = digest, pose
-
-    def remove(self) -> None:
-        """Take the node out of the scene."""
-        if self._handle is not None:
-            remove_all([self._handle])
-            self._handle = None
-
-
-def move(
-    handle: viser.SceneNodeHandle,
-    before: tuple[Wxyz, Vector3],
-    now: tuple[Wxyz, Vector3],
-) -> None:
-    """Send what has changed of a pose."""
-    if before != now:
-        set_pose(
-            handle,
-            now[0] if now[0] != before[0] else None,
-            now[1] if now[1] != before[1] else None,
-        )
+            self.move(pose)
+        self._digest = digest
 
 
 def digest_of(content: Sequence[object]) -> bytes:

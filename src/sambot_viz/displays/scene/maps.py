@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb, move
-from sambot_viz.displays.scene.nodes import any_gone, placed, remove_all, short_id
+from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
+from sambot_viz.displays.scene.nodes import placed, short_id
+from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 
 Cells = npt.NDArray[np.uint8]
@@ -64,7 +65,7 @@ def palette(scheme: str, is_binary: bool = False, threshold: int = 100) -> Palet
     return colors.astype(np.uint8)
 
 
-class MapNode:
+class MapNode(PosedNode[viser.FrameHandle]):
     """The cells of one map, in squares of `TILE` cells below a node with its pose.
 
     What a square shows is sent again only if one of its cells has changed; the palette,
@@ -76,19 +77,11 @@ class MapNode:
     """
 
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
-        self._scene = scene
-        self._name = name
-        self._frame: viser.FrameHandle | None = None
-        self._pose = (IDENTITY, ORIGIN)
+        super().__init__(scene, name)
         self._look = GlbNode(scene, f"{name}/~")
         self._tiles: dict[tuple[int, int], GlbNode] = {}
         self._cells: Cells | None = None
         self._resolution = 0.0
-
-    @property
-    def is_gone(self) -> bool:
-        """Return whether the node was removed together with one above it."""
-        return self._frame is not None and any_gone([self._frame])
 
     def draw(
         self,
@@ -160,19 +153,17 @@ class MapNode:
         """Take the map out of the scene."""
         self._drop_tiles()
         self._look.remove()
-        if self._frame is not None:
-            remove_all([self._frame])
-            self._frame = None
+        super().remove()
 
     def _place(self, wxyz: Wxyz, position: Vector3) -> None:
         pose = placed(wxyz, position)
-        if self._frame is None:
-            self._frame = self._scene.add_frame(
+        if self._handle is None:
+            frame = self._scene.add_frame(
                 self._name, show_axes=False, wxyz=pose[0], position=pose[1]
             )
+            self.has_made(frame, pose)
         else:
-            move(self._frame, self._pose, pose)
-        self._pose = pose
+            self.move(pose)
 
     def _drop_tiles(self) -> None:
         for tile in self._tiles.values():
