@@ -10,7 +10,6 @@ from typing import Any
 from sambot_viz.rviz.declarations import Declared, UnknownPropertyError
 from sambot_viz.rviz.item_map import ItemMap
 from sambot_viz.rviz.properties.property import KeptProperty, Property
-from sambot_viz.rviz.properties.texts import EnumProperty
 from sambot_viz.rviz.undo_log import DocumentPlace, FinishChange, Leaves, Restore, note
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
@@ -212,9 +211,7 @@ class ConfigItem(ItemMap):
         return True
 
     def _holds(self, path: str, wanted: object) -> bool:
-        value, prop = self.get(path), self._declared[path].property
-        if isinstance(prop, EnumProperty):
-            value = prop.meaning(value)
+        value = self.acting(path)
         return value in wanted if isinstance(wanted, tuple) else value == wanted
 
     def _unknown(self, path: str) -> UnknownPropertyError:

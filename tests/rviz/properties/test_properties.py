@@ -171,7 +171,7 @@ def test_a_colour_takes_numbers_and_texts_and_clamps():
 def test_an_unknown_option_is_kept_and_acts_as_the_first():
     value, said = read(STYLE, "Dots")
     assert value == "Dots"
-    assert STYLE.meaning(value) == "Lines"
+    assert STYLE.acting(value) == "Lines"
     assert said == [
         "'Style' is 'Dots', which is not one of 'Lines', 'Billboards'; "
         "it acts as 'Lines', as in RViz"
@@ -179,12 +179,12 @@ def test_an_unknown_option_is_kept_and_acts_as_the_first():
 
 
 def test_an_enum_without_options_acts_as_it_is_written():
-    assert EnumProperty("Style").meaning("x") == "x"
+    assert EnumProperty("Style").acting("x") == "x"
 
 
 def test_the_empty_text_that_rviz_writes_for_an_option_is_not_reported():
     assert read(STYLE, "''") == ("", [])
-    assert STYLE.meaning("") == "Lines"
+    assert STYLE.acting("") == "Lines"
 
 
 def test_an_editable_enum_takes_any_text():
@@ -359,4 +359,4 @@ def test_a_refusal_names_the_property_and_its_range():
 
 def test_an_empty_option_as_rviz_writes_it_is_kept_and_not_reported():
     assert read(STYLE, '""') == ("", [])
-    assert STYLE.meaning("") == "Lines"
+    assert STYLE.acting("") == "Lines"

@@ -12,7 +12,7 @@ from sambot_viz.displays.data.message_numbers import (
     require_finite,
 )
 from sambot_viz.displays.data.newest_message import NewestMessageDisplay
-from sambot_viz.displays.data.poses.pose_shapes import alpha_property
+from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from sambot_viz.displays.data.kept_messages import KeptMessagesDisplay
 from sambot_viz.displays.data.message_numbers import poses_of
-from sambot_viz.displays.data.poses.pose_shapes import metres
+from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.lines import LineNode, chain_segments

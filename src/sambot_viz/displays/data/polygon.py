@@ -6,7 +6,7 @@ from typing import Any
 
 from sambot_viz.displays.data.message_numbers import Floats, points_of
 from sambot_viz.displays.data.newest_message import NewestMessageDisplay
-from sambot_viz.displays.data.poses.pose_shapes import alpha_property
+from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.lines import LineNode, chain_segments

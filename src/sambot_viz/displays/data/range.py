@@ -9,7 +9,7 @@ import numpy as np
 
 from sambot_viz.displays.data.kept_messages import KeptSolidsDisplay
 from sambot_viz.displays.data.message_numbers import require_finite
-from sambot_viz.displays.data.poses.pose_shapes import alpha_property
+from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid

@@ -86,8 +86,8 @@ class EnumProperty(Property):
 
     default: str = ""
 
-    def meaning(self, value: object) -> str:
-        """Return the option a value acts as: itself, or the first option."""
+    def acting(self, value: object) -> str:
+        """Return the option that a value acts as: itself, or the first option."""
         if value in self.options or not self.options:
             return str(value)
         return self.options[0]

@@ -17,6 +17,7 @@ from sambot_viz.displays.data.cloud.colors import (
 from sambot_viz.displays.data.cloud.properties import (
     CHANNEL,
     CLOUD_PROPERTIES,
+    STYLES,
     TRANSFORMER,
     color_options,
 )
@@ -24,7 +25,7 @@ from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.nodes import position_of, short_id
-from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
+from sambot_viz.displays.scene.points import PointNode, PointStyle
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.rviz import DisplayConfig, Property
@@ -34,14 +35,6 @@ _NS = 1_000_000_000
 _LOOKS = ("Style", "Size (m)", "Size (Pixels)", "Alpha")
 """Properties that do not change the colours of points."""
 POINTS = "Points"
-_SHAPES: dict[str, PointShape] = {
-    "Points": "Points",
-    "Squares": "Squares",
-    "Flat Squares": "Flat Squares",
-    "Spheres": "Spheres",
-    "Boxes": "Boxes",
-    "Tiles": "Tiles",
-}
 
 
 @dataclass(slots=True)
@@ -183,8 +176,8 @@ class CloudDisplay(MessageFilterDisplay):
 
     def _style(self) -> PointStyle:
         get = self.config.get
-        style = str(get("Style"))
-        shape = _SHAPES.get(style, "Points")
+        style = self.config.acting("Style")
+        shape = STYLES[STYLES.index(style)]
         edge = float(get("Size (Pixels)" if shape == "Points" else "Size (m)"))
         return PointStyle(shape, (edge, edge, edge), float(get("Alpha")))
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 from sambot_viz.displays.data.cloud.colors import ColorOptions
+from sambot_viz.displays.scene.points import PointShape
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,
@@ -13,7 +16,7 @@ from sambot_viz.rviz import (
     Property,
 )
 
-STYLES = ("Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles")
+STYLES: tuple[PointShape, ...] = get_args(PointShape)
 TRANSFORMER = "Color Transformer"
 CHANNEL = "Channel Name"
 _OF_INTENSITY = (TRANSFORMER, ("Intensity", ""))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.scene.covariance import CovarianceLook
 from sambot_viz.rviz import (
     BoolProperty,
@@ -16,12 +17,6 @@ from sambot_viz.rviz import (
 
 def _least(name: str, help: str, unit: str = "") -> FloatProperty:
     return FloatProperty(name, default=1.0, minimum=0.0, unit=unit, help=help)
-
-
-def _alpha(default: float) -> FloatProperty:
-    return FloatProperty(
-        "Alpha", default=default, minimum=0.0, maximum=1.0, help="How opaque it is."
-    )
 
 
 COVARIANCE = BoolProperty(
@@ -37,7 +32,7 @@ COVARIANCE = BoolProperty(
                 ColorProperty(
                     "Color", default=(204, 51, 204), help="Of the ellipsoid."
                 ),
-                _alpha(0.3),
+                alpha_property(0.3),
                 _least("Scale", "Its semi-axes in standard deviations."),
             ),
         ),
@@ -65,7 +60,7 @@ COVARIANCE = BoolProperty(
                     help="Of all.",
                     hidden_unless=("Covariance/Orientation/Color Style", "Unique"),
                 ),
-                _alpha(0.5),
+                alpha_property(0.5),
                 _least("Offset", "How far they are from the pose.", "m"),
                 _least("Scale", "Their angles in standard deviations."),
             ),

@@ -18,12 +18,12 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
     AXES,
     PoseShapes,
-    alpha_property,
     arrow_properties,
     axes_properties,
     color_property,
     look_of,
 )
+from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.covariance import covariance_solids

@@ -12,13 +12,12 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     FLAT_ARROW,
     SOLID_ARROW,
     PoseShapes,
-    alpha_property,
     arrow_properties,
     axes_properties,
     color_property,
     look_of,
-    metres,
 )
+from sambot_viz.displays.data.properties import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.geometry import Vector3, Wxyz

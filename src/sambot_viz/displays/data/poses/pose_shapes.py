@@ -9,11 +9,12 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
-from sambot_viz.rviz import ColorProperty, ConfigItem, FloatProperty, Property
+from sambot_viz.rviz import ColorProperty, ConfigItem, Property
 
 Floats = npt.NDArray[np.float64]
 ARROW, AXES = "Arrow", "Axes"
@@ -113,32 +114,6 @@ class PoseShapes:
             node.remove()
 
 
-def alpha_property(default: float = 1.0, **more: Any) -> FloatProperty:
-    """Return the property of an alpha between 0 and 1."""
-    return FloatProperty(
-        "Alpha",
-        default=default,
-        minimum=0.0,
-        maximum=1.0,
-        help="How opaque it is.",
-        **more,
-    )
-
-
-def metres(name: str, default: float, help: str, shape: Any = None) -> FloatProperty:
-    """Return the property of a length [m].
-
-    Args:
-        name: of the property.
-        default: [m].
-        help: a sentence.
-        shape: path and values of the property that must be chosen; None for always.
-    """
-    return FloatProperty(
-        name, default=default, minimum=0.0, unit="m", help=help, hidden_unless=shape
-    )
-
-
 def arrow_properties(
     shape: Any,
     lengths: tuple[float, float, float, float] = (1.0, 0.05, 0.3, 0.1),
@@ -188,10 +163,8 @@ def look_of(config: ConfigItem, path: str = "") -> PoseLook:
     def get(name: str) -> Any:
         return config.get(path + name)
 
-    shape = config.declared["Shape"].property
-    meaning = getattr(shape, "meaning", str)(config.get("Shape"))
     return PoseLook(
-        shape=str(meaning),
+        shape=str(config.acting("Shape")),
         color=get("Color"),
         alpha=float(get("Alpha")),
         shaft=(float(get("Shaft Length")), float(get("Shaft Radius"))),
