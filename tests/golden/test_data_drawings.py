@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 import pytest
+from pictures import SAME, Image, drawn, flat, near_part, picture
 
 if TYPE_CHECKING:
     import viser
@@ -24,9 +25,6 @@ pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent / "data"
 BACKGROUND = 48
-DRAWN = 12
-SAME = 8
-Picture = npt.NDArray[np.int16]
 Draw = Callable[["viser.SceneApi"], object]
 DrawMessages = Callable[["viser.SceneApi", dict[str, list[Any]]], object]
 
@@ -49,17 +47,13 @@ def messages(name: str) -> dict[str, list[Any]]:
     return found
 
 
-def recorded(name: str) -> Picture:
-    from PIL import Image
-
-    opened: Image.Image = Image.open(DATA / name / "render.png")
-    with opened:
-        return np.asarray(opened.convert("RGB"), np.int16)
+def recorded(name: str) -> Image:
+    return picture(DATA / name / "render.png")
 
 
 def picture_of(
     chromium: Chromium, config: RvizConfig, shape: tuple[int, ...], draw: Draw
-) -> Picture:
+) -> Image:
     """What a server shows with a config, without messages, and with more to draw."""
     from sambot_viz.export.view_picture import snapshot
     from sambot_viz.options import Options
@@ -70,13 +64,13 @@ def picture_of(
         session = server.sessions.all()[0]
         draw(session.audience.scene)
         view = session.document_view.camera
-        picture = snapshot(server, chromium, shape[1], shape[0], view)
-        return picture.astype(np.int16)
+        found = snapshot(server, chromium, shape[1], shape[0], view)
+        return found.astype(np.int16)
     finally:
         server.stop()
 
 
-def ours(chromium: Chromium, name: str, draw: DrawMessages) -> Picture:
+def ours(chromium: Chromium, name: str, draw: DrawMessages) -> Image:
     """What is drawn of the messages of a recording."""
     from sambot_viz import load_config
 
@@ -90,37 +84,16 @@ def points_of(positions: list[Any]) -> npt.NDArray[np.float64]:
     return np.array([(p.x, p.y, p.z) for p in positions])
 
 
-def flat(picture: Picture) -> npt.NDArray[np.bool_]:
-    """The middles of squares of 5 pixels of one colour."""
-    windows = np.lib.stride_tricks.sliding_window_view(picture, (5, 5), (0, 1))
-    even = (windows.max(axis=(-1, -2)) - windows.min(axis=(-1, -2))).max(axis=-1) <= 2
-    return np.asarray(np.pad(even, 2))
-
-
-def near(mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """The pixels with one of the mask within one pixel."""
-    height, width = mask.shape
-    around = np.pad(mask, 1)
-    shifted = [
-        around[y : y + height, x : x + width] for y in range(3) for x in range(3)
-    ]
-    return np.asarray(np.any(shifted, axis=0))
-
-
-def patches(a: Picture, b: Picture) -> float:
+def patches(a: Image, b: Image) -> float:
     """The part of RViz's flat patches whose pixels have the same colour in ours."""
-    counts = flat(b) & (np.abs(b - BACKGROUND).max(axis=-1) > DRAWN)
+    counts = flat(b) & drawn(b, BACKGROUND)
     return float((np.abs(a - b).max(axis=-1) <= SAME)[counts].mean())
 
 
-def outline(a: Picture, b: Picture) -> float:
+def outline(a: Image, b: Image) -> float:
     """The part of what is drawn that is in the other picture within one pixel."""
     # Half a pixel of a line at the edge is in one picture and not in the other.
-    one, other = (
-        np.abs(p[1:-1, 1:-1] - BACKGROUND).max(axis=-1) > DRAWN for p in (a, b)
-    )
-    found = (one & near(other)).sum() + (other & near(one)).sum()
-    return float(found / (one.sum() + other.sum()))
+    return near_part(*(drawn(one[1:-1, 1:-1], BACKGROUND) for one in (a, b)))
 
 
 def draw_paths(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
@@ -258,22 +231,22 @@ def draw_texts(scene: viser.SceneApi, said: dict[str, list[Any]]) -> None:
 def test_the_picture_is_rvizs(
     chromium: Chromium, name: str, draw: DrawMessages
 ) -> None:
-    picture, golden = ours(chromium, name, draw), recorded(name)
+    found, golden = ours(chromium, name, draw), recorded(name)
     # Lines of one pixel have no flat patch.
-    assert name == "path_lines" or patches(picture, golden) >= 0.99
-    assert outline(picture, golden) >= 0.97
+    assert name == "path_lines" or patches(found, golden) >= 0.99
+    assert outline(found, golden) >= 0.97
 
 
-def box(picture: Picture, area: tuple[slice, slice]) -> npt.NDArray[np.float64]:
+def box(found: Image, area: tuple[slice, slice]) -> npt.NDArray[np.float64]:
     """Left, top, right and bottom of what is coloured in a part of a picture."""
-    bright = picture[area].max(axis=-1)
+    bright = found[area].max(axis=-1)
     rows, columns = np.nonzero(bright > (bright.max() + BACKGROUND) / 2)
     top, left = area[0].start, area[1].start
     right, bottom = left + columns.max() + 1, top + rows.max() + 1
     return np.array((left + columns.min(), top + rows.min(), right, bottom), float)
 
 
-def color(part: Picture) -> npt.NDArray[np.float64]:
+def color(part: Image) -> npt.NDArray[np.float64]:
     """The colour of letters, away from their edges and from lines below them."""
     bright = part.max(axis=-1)
     inside = bright > BACKGROUND + 0.8 * (np.percentile(bright, 99) - BACKGROUND)
@@ -290,9 +263,9 @@ TEXTS = {
 def test_texts_have_the_boxes_and_colours_of_rviz(chromium: Chromium) -> None:
     """RViz 2's letters are 0.889 of the height of a line, the recording's 0.857."""
     name = "marker_text"
-    picture, golden = ours(chromium, name, draw_texts), recorded(name)
+    found, golden = ours(chromium, name, draw_texts), recorded(name)
     for text, area in TEXTS.items():
-        us, them = box(picture, area), box(golden, area)
+        us, them = box(found, area), box(golden, area)
         assert (us[:2] + us[2:]) / 2 == pytest.approx((them[:2] + them[2:]) / 2, abs=2)
         larger = 0.889 / 0.857
         width, height = them[2:] - them[:2]
@@ -300,17 +273,17 @@ def test_texts_have_the_boxes_and_colours_of_rviz(chromium: Chromium) -> None:
         height *= 1.0 if text == "two lines" else larger
         assert us[2:] - us[:2] == pytest.approx((width * larger, height), abs=2)
     # Half of (0, 255, 255) over the background; the recording's letters are blurred.
-    assert color(picture[TEXTS["Ag"]]) == pytest.approx((24, 151.5, 151.5), abs=3)
+    assert color(found[TEXTS["Ag"]]) == pytest.approx((24, 151.5, 151.5), abs=3)
     assert color(golden[TEXTS["Ag"]]) == pytest.approx((24, 151.5, 151.5), abs=12)
 
 
 def test_each_value_of_a_cell_has_its_colour(chromium: Chromium) -> None:
     """The middles of all 256 cells, 28 pixels apart."""
     name = "map_palette_map"
-    picture, golden = ours(chromium, name, draw_map(1.0)), recorded(name)
+    found, golden = ours(chromium, name, draw_map(1.0)), recorded(name)
     at = slice(240 - 7 * 28 - 14, 240 + 8 * 28, 28), slice(320 - 7 * 28 - 14, 558, 28)
-    assert picture[at].shape == (16, 16, 3)
-    assert np.abs(picture[at] - golden[at]).max() <= 1
+    assert found[at].shape == (16, 16, 3)
+    assert np.abs(found[at] - golden[at]).max() <= 1
 
 
 EDGE_ON = """
@@ -347,12 +320,12 @@ def test_wide_lines_of_a_grid_end_where_the_lines_end(chromium: Chromium) -> Non
     from sambot_viz.rviz import RvizConfig
 
     config = RvizConfig.parse(EDGE_ON, declarations())
-    picture = picture_of(chromium, config, (751, 756), lambda scene: None)
-    covered = np.abs(picture - BACKGROUND).max(axis=-1) > DRAWN
+    found = picture_of(chromium, config, (751, 756), lambda scene: None)
+    covered = drawn(found, BACKGROUND)
     columns = np.nonzero(covered.any(axis=0))[0]
     assert abs(columns[0] - 15) <= 1
     assert abs(columns[-1] - 740) <= 1
-    assert (picture[:, 17:739] == (255, 255, 0)).all()
+    assert (found[:, 17:739] == (255, 255, 0)).all()
 
 
 def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
@@ -370,12 +343,12 @@ def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
 
     text = EDGE_ON.replace("Enabled: true", "Enabled: false")
     config = RvizConfig.parse(text, declarations())
-    picture = picture_of(chromium, config, (400, 600), draw)
+    found = picture_of(chromium, config, (400, 600), draw)
     # Each of many lines over the background and over those behind it: only the ratio
     # of red and blue is known.
-    red, green, blue = picture[200, 300].tolist()
+    red, green, blue = found[200, 300].tolist()
     assert green < 48
     assert red == pytest.approx(blue, abs=SAME)
-    left, right = picture[200, 210].tolist(), picture[200, 390].tolist()
+    left, right = found[200, 210].tolist(), found[200, 390].tolist()
     assert left[0] > left[2] + 60
     assert right[2] > right[0] + 60

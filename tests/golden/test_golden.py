@@ -28,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 import yaml
+from pictures import SAME, Image, Mask, counting, drawn, flat, near_part, picture
 
 if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
@@ -36,14 +37,6 @@ pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent / "data"
 COLLECTION = Path(__file__).resolve().parents[2].parent / "shared/data/golden"
-DIFFERENT = 12
-"""A channel this far from the background belongs to something that is drawn."""
-PATCH = 5
-"""Edge of the square that must be of one colour around a pixel of a flat patch."""
-SAME = 8
-
-Image = npt.NDArray[np.int16]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -98,28 +91,13 @@ def _left_out(name: str) -> bool:
     return name in NOT_OURS or name.startswith("view_") or name == "tf_label_one"
 
 
-def picture(path: Path) -> Image:
-    from PIL import Image as Pillow
-
-    opened: Pillow.Image = Pillow.open(path)
-    with opened:
-        return np.asarray(opened.convert("RGB"), np.int16)
-
-
 def recorded(name: str) -> tuple[Path, dict[str, Any], Image, Mask]:
     """A case: its folder, what it says, RViz's picture, and which pixels count."""
     folder = DATA / name
     folder = folder if folder.is_dir() else COLLECTION / "images" / name
     case = yaml.safe_load((folder / "case.yaml").read_text())
     golden = picture(folder / "render.png")
-    doubtful = folder / "ambiguous_mask.png"
-    # Where RViz's own order is undefined, either picture is right.
-    counts = (
-        picture(doubtful)[..., 0] == 0
-        if doubtful.exists()
-        else np.ones(golden.shape[:2], bool)
-    )
-    return folder, case, golden, counts
+    return folder, case, golden, counting(folder, golden)
 
 
 def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image:
@@ -148,38 +126,15 @@ def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image
         server.stop()
 
 
-def shown(image: Image, background: Image) -> Mask:
-    return np.asarray(np.abs(image - background).max(axis=-1) > DIFFERENT)
-
-
-def dilated(mask: Mask) -> Mask:
-    """All pixels with a pixel of the mask within one pixel."""
-    out: Mask = np.array(mask)
-    padded = np.pad(mask, 1)
-    height, width = mask.shape
-    for y in range(3):
-        for x in range(3):
-            out |= padded[y : y + height, x : x + width]
-    return out
-
-
-def flat(image: Image, foreground: Mask) -> Mask:
-    """The pixels in the middle of a square of one colour."""
-    windows = np.lib.stride_tricks.sliding_window_view(image, (PATCH, PATCH), (0, 1))
-    even = (windows.max(axis=(-1, -2)) - windows.min(axis=(-1, -2))).max(axis=-1) <= 2
-    return np.asarray(np.pad(even, PATCH // 2) & foreground)
-
-
 def measures(ours: Image, golden: Image, counts: Mask, background: Image) -> Limits:
     """What a pair of pictures reaches."""
-    a, b = shown(ours, background) & counts, shown(golden, background) & counts
-    patches = flat(golden, b) & counts
+    a, b = drawn(ours, background) & counts, drawn(golden, background) & counts
+    patches = flat(golden) & b
     same = np.abs(ours - golden).max(axis=-1) <= SAME
-    near = (a & dilated(b)).sum() + (b & dilated(a)).sum()
     return Limits(
         float((a & b).sum() / max(1, (a | b).sum())),
         float((same & patches).sum() / max(1, patches.sum())) if patches.any() else 1.0,
-        float(near / max(1, a.sum() + b.sum())),
+        near_part(a, b),
         "",
     )
 

@@ -22,8 +22,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
+from pictures import SAME, Image, Mask, counting, drawn, near_part, picture
 
 from sambot_viz import Visualizer
 
@@ -33,14 +33,8 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent / "messages"
-DIFFERENT = 12
-"""A channel this far from the background belongs to something that is drawn."""
-SAME = 8
 ABOUT = 40
 BACKGROUND = 48
-
-Image = npt.NDArray[np.int16]
-Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -59,14 +53,6 @@ CASES["marker_text"] = Limits(
 )
 
 
-def picture(path: Path) -> Image:
-    from PIL import Image as Pillow
-
-    opened: Pillow.Image = Pillow.open(path)
-    with opened:
-        return np.asarray(opened.convert("RGB"), np.int16)
-
-
 def drawn_by_us(chromium: Chromium, folder: Path, golden: Image) -> Image:
     """The messages of a case at their end, through the view of its config."""
     from sambot_viz.export.view_picture import snapshot
@@ -81,21 +67,6 @@ def drawn_by_us(chromium: Chromium, folder: Path, golden: Image) -> Image:
         return snapshot(viz.server, chromium, width, height, view).astype(np.int16)
 
 
-def shown(image: Image) -> Mask:
-    return np.asarray(np.abs(image - BACKGROUND).max(axis=-1) > DIFFERENT)
-
-
-def dilated(mask: Mask) -> Mask:
-    """All pixels with a pixel of the mask within one pixel."""
-    out: Mask = np.array(mask)
-    padded = np.pad(mask, 1)
-    height, width = mask.shape
-    for y in range(3):
-        for x in range(3):
-            out |= padded[y : y + height, x : x + width]
-    return out
-
-
 def probes(folder: Path) -> list[dict[str, Any]]:
     path = folder / "values.json"
     if not path.exists():
@@ -104,9 +75,7 @@ def probes(folder: Path) -> list[dict[str, Any]]:
 
 
 def outline(ours: Image, golden: Image, counts: Mask) -> float:
-    a, b = shown(ours) & counts, shown(golden) & counts
-    near = (a & dilated(b)).sum() + (b & dilated(a)).sum()
-    return float(near / max(1, a.sum() + b.sum()))
+    return near_part(*(drawn(one, BACKGROUND) & counts for one in (ours, golden)))
 
 
 def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) -> None:
@@ -124,7 +93,7 @@ def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) 
 
 
 def colors(ours: Image, golden: Image, counts: Mask) -> float:
-    wanted = shown(golden) & counts
+    wanted = drawn(golden, BACKGROUND) & counts
     height, width = wanted.shape
     padded = np.pad(ours, ((1, 1), (1, 1), (0, 0)), "edge")
     found = np.zeros_like(wanted)
@@ -140,11 +109,7 @@ def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
     folder, limits = DATA / name, CASES[name]
     golden = picture(folder / "render.png")
     ours = drawn_by_us(chromium, folder, golden)
-    doubtful = folder / "ambiguous_mask.png"
-    counts = np.ones(golden.shape[:2], bool)
-    if doubtful.exists():
-        # Where RViz's own order is undefined, either picture is right.
-        counts = picture(doubtful)[..., 0] == 0
+    counts = counting(folder, golden)
     # A line along the border belongs to the picture or does not, by a rounding.
     counts[[0, -1]] = counts[:, [0, -1]] = False
     assert outline(ours, golden, counts) >= limits.outline, limits.reason

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from inside import session_of
-from live_peers import WAIT
-from patience import until
+from live_peers import eventually
 from robot_peer import RobotPeer
 
 from sambot_viz import Visualizer
-from sambot_viz.sources.bag import open_recording
 
 CONFIG = """
 Visualization Manager:
@@ -27,14 +25,6 @@ Visualization Manager:
 
 
 @pytest.fixture
-def peer(repository: Path) -> Iterator[RobotPeer]:
-    with open_recording(repository / "assets" / "square.mcap") as recording:
-        peer = RobotPeer(recording)
-        yield peer
-        peer.stop()
-
-
-@pytest.fixture
 def viz(peer: RobotPeer, tmp_path: Path) -> Iterator[Visualizer]:
     """Opens the robot with a display of its scans."""
     config = tmp_path / "scan.rviz"
@@ -42,10 +32,6 @@ def viz(peer: RobotPeer, tmp_path: Path) -> Iterator[Visualizer]:
     with Visualizer(source=peer.uri, config=config, port=0) as viz:
         eventually(lambda: {"/scan", "/tf"} <= set(peer.subscribed()))
         yield viz
-
-
-def eventually(condition: Callable[[], Any]) -> None:
-    until(condition, WAIT, not_yet=(Exception,), why="it never came")
 
 
 def scan(viz: Visualizer) -> Any:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from inside import session_of
-from live_peers import WAIT, FoxglovePeer
-from patience import until
+from live_peers import WAIT, FoxglovePeer, eventually
 from protocol_client import CAMERA, ProtocolClient
 from robot_peer import RobotPeer
 
@@ -26,23 +24,11 @@ LEFT = "drivewhl_l_joint"
 
 
 @pytest.fixture
-def peer(repository: Path) -> Iterator[RobotPeer]:
-    with open_recording(repository / "assets" / "square.mcap") as recording:
-        peer = RobotPeer(recording)
-        yield peer
-        peer.stop()
-
-
-@pytest.fixture
 def viz(peer: RobotPeer) -> Iterator[Visualizer]:
     with Visualizer(source=peer.uri, port=0) as viz:
         eventually(lambda: session_of(viz).robot.model.name == "sam_bot")
         eventually(lambda: {"/tf", "/joint_states"} <= set(peer.subscribed()))
         yield viz
-
-
-def eventually(condition: Callable[[], Any]) -> None:
-    until(condition, WAIT, not_yet=(Exception,), why="it never came")
 
 
 def place(viz: Visualizer) -> tuple[float, float]:

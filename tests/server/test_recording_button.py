@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from live_peers import WAIT, FoxglovePeer
-from patience import until
+from live_peers import FoxglovePeer, eventually
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
@@ -23,10 +22,6 @@ def peer() -> Iterator[FoxglovePeer]:
     made.advertise("/a")
     yield made
     made.stop()
-
-
-def eventually(condition: Callable[[], Any]) -> None:
-    until(condition, WAIT, not_yet=(Exception,), why="it never came")
 
 
 def recording(client: ProtocolClient) -> Any:

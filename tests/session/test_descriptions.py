@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from inside import session_of
-from live_peers import WAIT, FoxglovePeer
+from live_peers import FoxglovePeer, eventually
 from made_recording import described, write_recording
-from patience import until
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.display import Status
@@ -34,10 +32,6 @@ Visualization Manager:
       Description Topic: {Value: %s}
   Global Options: {Fixed Frame: odom}
 """
-
-
-def eventually(condition: Callable[[], Any]) -> None:
-    until(condition, WAIT, not_yet=(Exception,), why="it never came")
 
 
 @pytest.fixture

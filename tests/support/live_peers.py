@@ -9,6 +9,7 @@ from __future__ import annotations
 import random
 import socket
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -177,3 +178,8 @@ class FoxglovePeer(LivePeer, ServerListener):
     def on_unsubscribe(self, client: Client, channel: ChannelView) -> None:
         if (client.id, channel.topic) in self._subscribed:
             self._subscribed.remove((client.id, channel.topic))
+
+
+def eventually(condition: Callable[[], Any]) -> None:
+    """Wait until a live source has done what a condition asks for."""
+    until(condition, WAIT, not_yet=(Exception,), why="it never came")
