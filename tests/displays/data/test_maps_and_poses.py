@@ -110,6 +110,25 @@ def test_paths_stay_up_to_the_buffer_length(messages: Open) -> None:
     assert len(shown.node_names()) == 1
 
 
+def test_only_a_path_that_has_changed_is_drawn(
+    messages: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from sambot_viz.displays.scene.lines import LineNode
+
+    shown = messages("Path", path_of(0, 1), path_of(0, 2), **{"Buffer Length": 2})
+    draw, drawn = LineNode.draw, list[LineNode]()
+
+    def count(node: LineNode, *args: Any, **options: Any) -> None:
+        drawn.append(node)
+        draw(node, *args, **options)
+
+    monkeypatch.setattr(LineNode, "draw", count)
+    shown.set("Buffer Length", 3)
+    assert drawn == []
+    shown.set("Alpha", 0.5)
+    assert len(drawn) == len(set(drawn)) == 2
+
+
 def test_an_empty_path_and_one_without_numbers_show_nothing(messages: Open) -> None:
     assert messages("Path", path_of()).node_names() == []
     shown = messages("Path", path_of(0, float("nan")))

@@ -37,7 +37,7 @@ _IF_AXES, _IF_ARROWS = ("Pose Style", AXES), ("Pose Style", ARROWS)
 Floats = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class _Path:
     """A path and the nodes that draw it.
 
@@ -45,6 +45,7 @@ class _Path:
         turns: (N, 4), w, x, y, z of its poses.
         points: (N, 3) [m].
         T_fixed_frame: (4, 4), of the frame they are given in.
+        drawn: the settings that they were drawn with last.
     """
 
     turns: Floats
@@ -54,10 +55,16 @@ class _Path:
     ribbon: RibbonNode
     axes: AxesNode
     arrows: ArrowsNode
+    drawn: tuple[Any, ...] | None = None
+
+    @property
+    def nodes(self) -> tuple[LineNode, RibbonNode, AxesNode, ArrowsNode]:
+        """What draws it."""
+        return self.lines, self.ribbon, self.axes, self.arrows
 
     def remove(self) -> None:
         """Take it out of the scene."""
-        for node in (self.lines, self.ribbon, self.axes, self.arrows):
+        for node in self.nodes:
             node.remove()
 
 
@@ -128,12 +135,10 @@ class PathDisplay(KeptMessagesDisplay):
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Take a path; the oldest one that is too many goes."""
         turns, points = poses_of([one.pose for one in message.poses])
-        self._limit()
         T = T_fixed_frame.matrix
         # The nodes of a path that goes are used again.
-        if len(self._paths) == self.most:
-            old = self._paths.pop(0)
-            nodes = (old.lines, old.ribbon, old.axes, old.arrows)
+        if len(self._paths) >= self.most:
+            nodes = self._paths.pop(0).nodes
         else:
             self._made += 1
             name, scene = f"/{self.key}{short_id(self._made)}", self.context.scene
@@ -153,13 +158,14 @@ class PathDisplay(KeptMessagesDisplay):
 
     def show_taken(self) -> None:
         """Draw the paths as they look now."""
-        self._limit()
-        for path in self._paths:
-            self._show(path)
-
-    def _limit(self) -> None:
         while len(self._paths) > self.most:
             self._paths.pop(0).remove()
+        names = (one.name for one in self.properties if one.name != self.length)
+        look = tuple(self.config.get(name) for name in names)
+        for path in self._paths:
+            if path.drawn != look or any(node.is_gone for node in path.nodes):
+                self._show(path)
+                path.drawn = look
 
     def _show(self, path: _Path) -> None:
         get = self.config.get
