@@ -26,7 +26,7 @@ FOR = ["--for", str(patience(1.5))]
 
 @pytest.fixture
 def busy(repository: Path) -> Iterator[BusyPeer]:
-    with square_peer(repository) as peer:
+    with square_peer(repository, BusyPeer) as peer:
         yield peer
 
 
@@ -198,7 +198,7 @@ def test_a_recording_of_the_command_line_says_what_it_has(
         page = protocol(int(address(process).rsplit(":", 1)[1]))
         # What is loaded by then can be ended, too.
         page.wait_until(lambda: "joints/none" in page.rows)
-        until(lambda: path.stat().st_size > 200, WAIT)
+        until(lambda: path.exists() and path.stat().st_size > 200, WAIT)
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=patience(20))
     (said,) = err.splitlines()

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from pictures import picture
 
 if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
@@ -38,15 +39,13 @@ ALLOWED = 0.004
     ],
 )
 def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> None:
-    from PIL import Image
-
     from sambot_viz import load_config, load_robot
     from sambot_viz.export.view_picture import snapshot
     from sambot_viz.options import Options
     from sambot_viz.server.server import Server
 
     folder = DATA / name
-    golden = np.asarray(Image.open(folder / "render.png").convert("RGB"), np.int16)
+    golden = picture(folder / "render.png")
     height, width, _ = golden.shape
     options = Options(port=0, panels=False)
     server = Server(options, lambda: load_config(folder / "config.rviz"))
@@ -54,10 +53,8 @@ def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> Non
         server.sessions.show_robot(load_robot(DATA / "view_robot.urdf"))
         session = server.sessions.shared
         assert session is not None
-        picture = snapshot(
-            server, chromium, width, height, session.document_view.camera
-        )
+        ours = snapshot(server, chromium, width, height, session.document_view.camera)
     finally:
         server.stop()
-    difference = np.abs(picture.astype(np.int16) - golden).max(axis=2)
+    difference = np.abs(ours.astype(np.int16) - golden).max(axis=2)
     assert (difference > VISIBLE).mean() < ALLOWED

@@ -193,7 +193,7 @@ class LiveOpened(Opened):
 
 @pytest.fixture
 def peer(repository: Path) -> Iterator[BusyPeer]:
-    with square_peer(repository) as peer:
+    with square_peer(repository, BusyPeer) as peer:
         yield peer
 
 

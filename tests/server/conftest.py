@@ -6,15 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from robot_peer import RobotPeer
-
-from sambot_viz.sources.bag import open_recording
+from robot_peer import RobotPeer, square_peer
 
 
 @pytest.fixture
 def peer(repository: Path) -> Iterator[RobotPeer]:
     """Publishes what the recording of a driven square holds, when it is told to."""
-    with open_recording(repository / "assets" / "square.mcap") as recording:
-        peer = RobotPeer(recording)
+    with square_peer(repository, RobotPeer) as peer:
         yield peer
-        peer.stop()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import foxglove
 from foxglove.websocket import ChannelView, Client
@@ -14,6 +14,7 @@ from live_peers import FoxglovePeer
 from sambot_viz.sources.bag import Recording, open_recording
 
 START = 1_750_000_000_000_000_000
+_Peer = TypeVar("_Peer", bound="RobotPeer")
 
 
 class RobotPeer(FoxglovePeer):
@@ -65,10 +66,10 @@ class BusyPeer(RobotPeer):
 
 
 @contextmanager
-def square_peer(repository: Path) -> Generator[BusyPeer]:
-    """A robot that drives the square of `assets/`, as soon as somebody wants it."""
+def square_peer(repository: Path, kind: type[_Peer]) -> Generator[_Peer]:
+    """A robot that drives the square of `assets/`."""
     with open_recording(repository / "assets" / "square.mcap") as recording:
-        peer = BusyPeer(recording)
+        peer = kind(recording)
         try:
             yield peer
         finally:
