@@ -27,11 +27,7 @@ from sambot_viz.frames.samples import (
     number_faults,
 )
 from sambot_viz.frames.transform import Transform
-from sambot_viz.geometry import (
-    rotation_from_xyzw,
-    xyzw_product,
-    xyzw_rotated,
-)
+from sambot_viz.geometry import rotation_from_xyzw, xyzw_product, xyzw_rotated
 
 DURATION = 10.0
 """The time for which tf2's listeners keep a transform [s]."""

@@ -25,11 +25,6 @@ class KeptMessagesDisplay(MessageFilterDisplay):
         return self.most == 1
 
     @property
-    def depth_s(self) -> float:
-        """How far back messages count after a jump in a recording [s]."""
-        return 1.0 if self.most == 1 else 60.0
-
-    @property
     def most(self) -> int:
         """So many messages are shown."""
         return int(self.config.acting(self.length))

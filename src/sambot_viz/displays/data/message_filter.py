@@ -22,6 +22,9 @@ TRANSFORM = "Transform"
 """Key of a status."""
 LONGEST_WAIT_NS = 1_000_000_000
 """What has waited so long while nothing is shown is said to wait [ns]."""
+KEPT_DEPTH_S = 60.0
+"""After a jump in a recording, older messages are not looked for where several are
+shown [s]."""
 _NEVER = ("extrapolation-past", "empty-name")
 """What will not be known later either."""
 
@@ -74,12 +77,22 @@ class MessageFilterDisplay(TopicDisplay):
         """Whether only the newest message that has a place is drawn."""
         return True
 
+    @property
+    def depth_s(self) -> float:
+        """How far back messages count after a jump in a recording [s]."""
+        return super().depth_s if self.needs_last_only else KEPT_DEPTH_S
+
+    @property
+    def waits(self) -> bool:
+        """Whether there is something to do also when no message comes."""
+        return bool(self._held)
+
     def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
         """Return those of some messages that are worth a look, the oldest first."""
         return came
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Take a message; `show` draws what several have brought.
+        """Take a message; `show_taken` draws what several have brought.
 
         Args:
             message: with its fields.
@@ -157,7 +170,7 @@ class MessageFilterDisplay(TopicDisplay):
             self.show_taken()
         self._leave_waiting(last_only)
         if self.subscription is not None:
-            self.subscription.waits = bool(self._held)
+            self.subscription.waits = self.waits
         self._report_waiting()
 
     def _leave_waiting(self, last_only: bool) -> None:

@@ -17,7 +17,6 @@ from sambot_viz.displays.data.cloud.colors import (
 from sambot_viz.displays.data.cloud.properties import (
     CHANNEL,
     CLOUD_PROPERTIES,
-    STYLES,
     TRANSFORMER,
     color_options,
 )
@@ -25,7 +24,7 @@ from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.nodes import position_of, short_id
-from sambot_viz.displays.scene.points import PointNode, PointStyle
+from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.rviz import DisplayConfig, Property
@@ -176,8 +175,7 @@ class CloudDisplay(MessageFilterDisplay):
 
     def _style(self) -> PointStyle:
         get = self.config.get
-        style = self.config.acting("Style")
-        shape = STYLES[STYLES.index(style)]
+        shape: PointShape = self.config.acting("Style")
         edge = float(get("Size (Pixels)" if shape == "Points" else "Size (m)"))
         return PointStyle(shape, (edge, edge, edge), float(get("Alpha")))
 

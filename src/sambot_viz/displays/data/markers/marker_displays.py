@@ -18,8 +18,6 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
 
 DUPLICATES = "Duplicate Marker Check"
-DEPTH_S = 60.0
-"""After a jump in a recording, older markers are not looked for [s]."""
 MOST_BYTES = 8_000_000
 """After a jump so much of the newest messages is looked at [bytes]."""
 _NAMESPACES = GroupProperty(
@@ -54,9 +52,9 @@ class MarkerDisplay(MessageFilterDisplay):
         return False
 
     @property
-    def depth_s(self) -> float:
-        """How far back messages count after a jump in a recording [s]."""
-        return DEPTH_S
+    def waits(self) -> bool:
+        """Whether there is something to do without a message: markers grow old."""
+        return super().waits or self._markers.some_grow_old
 
     @property
     def most_waiting(self) -> int:
@@ -133,8 +131,6 @@ class MarkerDisplay(MessageFilterDisplay):
         if messages is not None:
             self._markers.expire(messages.now_ns())
         self._markers.draw()
-        if self.subscription is not None and self._markers.some_grow_old:
-            self.subscription.waits = True
 
     def redraw(self) -> None:
         """Place the markers again in another fixed frame, or below other nodes."""

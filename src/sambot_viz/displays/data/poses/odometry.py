@@ -138,11 +138,6 @@ class OdometryDisplay(MessageFilterDisplay):
         """Return False: earlier poses stay."""
         return False
 
-    @property
-    def depth_s(self) -> float:
-        """How far back poses count after a jump in a recording [s]."""
-        return 60.0
-
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Keep a pose if it is apart from the last one."""
         pose = message.pose.pose
@@ -160,17 +155,12 @@ class OdometryDisplay(MessageFilterDisplay):
             return
         covariance = covariance_of(message.pose)
         self._kept.append(_PastPose(wxyz, position, T_fixed_frame.matrix, covariance))
-        del self._kept[: -self._most]
 
     def drop(self) -> None:
         """Take all poses out of the scene."""
         self._kept.clear()
         self._shapes.remove()
         self._solids.remove()
-
-    @property
-    def _most(self) -> int:
-        return min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)
 
     def _is_apart(self, wxyz: Wxyz, position: Vector3) -> bool:
         last = self._kept[-1]
@@ -186,7 +176,7 @@ class OdometryDisplay(MessageFilterDisplay):
 
     def show_taken(self) -> None:
         """Draw the poses as they look now."""
-        del self._kept[: -self._most]
+        del self._kept[: -min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)]
         if not self._kept:
             return
         turns, places = zip(*(one.fixed for one in self._kept), strict=True)

@@ -25,9 +25,8 @@ from sambot_viz.rviz import DisplayConfig, EnumProperty
 
 _IF_ARROW = ("Shape", (FLAT_ARROW, SOLID_ARROW))
 _IF_SOLID = ("Shape", SOLID_ARROW)
-
-
 Poses = tuple[Floats, Floats]
+"""Rotations, (N, 4), and positions, (N, 3) [m]."""
 
 
 class PoseArrayDisplay(NewestMessageDisplay[Poses]):
