@@ -91,6 +91,41 @@ def test_nothing_goes_out_while_changes_belong_together(
     assert len(set(frames)) == 1
 
 
+def test_messages_are_collected_once_for_all_clients(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    frames = [server.scene.add_frame(f"/{number}") for number in range(100)]
+    clients = [protocol(server.get_port()) for _ in range(4)]
+    for client in clients:
+        client.settle(server)
+    buffer.message_from_id = asked = Asked(buffer.message_from_id)
+    with server.atomic():
+        for frame in frames:
+            frame.position = (1.0, 0.0, 0.0)
+    for client in clients:
+        client.wait_until(lambda c=client: c.types()["SetPositionMessage"] == 100)
+    assert asked.count < 2 * len(frames)
+
+
+def test_a_message_that_one_client_does_not_get_reaches_the_others(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    moved = server.scene.add_frame("/moved")
+    clients = [protocol(server.get_port()) for _ in range(3)]
+    without = list(server.get_clients())[1]
+    for client in clients:
+        client.settle(server)
+    with server.atomic():
+        moved.position = (1.0, 0.0, 0.0)
+        newest = buffer.message_from_id[buffer.message_counter - 1]
+        newest.excluded_self_client = without
+    for client in clients:
+        client.settle(server)
+    assert [c.types()["SetPositionMessage"] for c in clients] == [1, 0, 1]
+
+
 def test_a_thread_that_adds_a_message_touches_nobody_who_waits(
     server: viser.ViserServer,
 ) -> None:

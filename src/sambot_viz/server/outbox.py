@@ -13,6 +13,7 @@ import asyncio
 import math
 from collections.abc import AsyncGenerator, Callable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import Any, cast
 
 import viser
@@ -49,16 +50,16 @@ def _replace(
     buffer: viser_private.MessageBuffer,
     last_for: Callable[[int], float] = lambda _: math.inf,
 ) -> None:
-    cache = FrameCache()
+    cache, shared = FrameCache(), SharedBatch()
     if not isinstance(buffer.message_event, LoopEvent):
         buffer.message_event = LoopEvent(buffer.event_loop)
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = cast(Connection, viser_private.connection_of(server, client_id))
         last = last_for(client_id)
-        return Sender(
-            connection, cache, batches(buffer, client_id, backlog_end, marker, last)
-        )
+        cursor = MessageCursor(buffer, client_id, shared)
+        parts = batches(buffer, cursor, marker, backlog_end, last)
+        return Sender(connection, cache, parts)
 
     viser_private.replace_window_loop(buffer, loop)
 
@@ -125,21 +126,21 @@ class Sender:
 
 async def batches(
     buffer: viser_private.MessageBuffer,
-    client_id: int,
-    backlog_end: int,
+    cursor: MessageCursor,
     marker: viser_private.Message | None,
+    backlog_end: int,
     last: float = math.inf,
 ) -> AsyncGenerator[Batch, None]:
     """Yield the messages for one client, several at a time, as they come.
 
     Args:
         buffer: where they are.
-        client_id: the number of the client.
+        cursor: how far the client has come.
+        marker: a message that goes out right behind the backlog.
         backlog_end: number of the last message that was there when it came.
-        marker: a message that goes out right behind that one.
         last: number of the last message that is for this client.
     """
-    cursor = MessageCursor(buffer, client_id)
+    client_id = cursor.client_id
     flush = buffer.event_loop.create_task(buffer.flush_event.wait())
     buffer.generator_cursors[client_id] = cursor.last
     try:
@@ -171,21 +172,41 @@ async def batches(
         await asyncio.gather(flush, return_exceptions=True)
 
 
+@dataclass(slots=True)
+class SharedBatch:
+    """Keep the newest batch: clients that have had everything before get the same.
+
+    Attributes:
+        after: number of the last message before it.
+        end: number of its last message.
+        batch: all messages between them.
+    """
+
+    after: int = -1
+    end: int = -1
+    batch: Batch = field(default_factory=lambda: Batch((), (), 0))
+
+
 class MessageCursor:
     """Remember how far one client has come in the messages.
 
     Args:
         buffer: where they are.
         client_id: the number of the client.
+        shared: of all clients of the buffer.
 
     Attributes:
+        client_id: as given.
         last: the number of the last message that it had, or that is not for it.
     """
 
-    def __init__(self, buffer: viser_private.MessageBuffer, client_id: int) -> None:
+    def __init__(
+        self, buffer: viser_private.MessageBuffer, client_id: int, shared: SharedBatch
+    ) -> None:
+        self.client_id = client_id
         self.last = -1
         self._buffer = buffer
-        self._client_id = client_id
+        self._shared = shared
         self._ahead: Sequence[int] = ()
         self._place = 0
 
@@ -201,14 +222,29 @@ class MessageCursor:
             end: number of the last message that may be among them; never a smaller
                 one than before.
         """
+        shared, after = self._shared, self.last
+        has_all = self._place == len(self._ahead)
+        if has_all and not self.held and (after, end) == (shared.after, shared.end):
+            self.last = end
+            return shared.batch
+        batch, is_for_all = self._collect(end)
+        is_whole = has_all and self.last == end and bool(batch.messages)
+        if is_whole and is_for_all and batch.weight < HEAVY:
+            shared.after, shared.end, shared.batch = after, end, batch
+        return batch
+
+    def _collect(self, end: int) -> tuple[Batch, bool]:
+        """Return the next messages, and whether any client would get the same."""
         found: list[tuple[int, viser_private.Message]] = []
-        most, heavy = self._buffer.max_window_size, 0
+        most, heavy, is_for_all = self._buffer.max_window_size, 0, True
         while self.last < end and len(found) < most and heavy < HEAVY and not self.held:
             if self._place == len(self._ahead):
                 self._ahead, self._place = self._numbers(end), 0
             number = self._ahead[self._place]
             message = self._buffer.message_from_id.get(number)
-            if message is not None and message.excluded_self_client != self._client_id:
+            if message is not None:
+                is_for_all = is_for_all and message.excluded_self_client is None
+            if message is not None and message.excluded_self_client != self.client_id:
                 more = weight(message)
                 if found and more >= HEAVY:
                     break
@@ -218,7 +254,7 @@ class MessageCursor:
             self.last = number
             self._forget(number)
         numbers, messages = tuple(n for n, _ in found), [m for _, m in found]
-        return Batch(numbers, messages, heavy)
+        return Batch(numbers, messages, heavy), is_for_all
 
     def _numbers(self, end: int) -> Sequence[int]:
         """The numbers to ask for, up to `end`, which is the last of them."""

@@ -134,7 +134,8 @@ def position_of(T: Matrix) -> Vector3:
     viser keeps what it is given for every browser that comes later, so this is the
     last place where an absurd number can be stopped.
     """
-    return (_shown(T[0, 3]), _shown(T[1, 3]), _shown(T[2, 3]))
+    x, y, z = T[:3, 3].tolist()
+    return (_shown(x), _shown(y), _shown(z))
 
 
 def placed(wxyz: Sequence[float], position: Sequence[float]) -> tuple[Wxyz, Vector3]:

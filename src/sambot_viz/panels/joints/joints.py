@@ -57,6 +57,7 @@ class JointsPanel(Panel):
     """
 
     name = "joints"
+    period = 0.1
 
     def __init__(
         self,
