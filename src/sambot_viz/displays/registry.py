@@ -17,6 +17,7 @@ from sambot_viz.displays.data.cloud.point_clouds import (
     PointCloud2Display,
     PointCloudDisplay,
 )
+from sambot_viz.displays.data.depth_cloud.depth_cloud import DepthCloudDisplay
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.map import MapDisplay
@@ -59,7 +60,6 @@ NOT_SHOWN: dict[str, str] = {
         "AccelStamped": "An acceleration as arrows.",
         "Camera": "A camera image with the scene overlaid.",
         "CameraInfo": "What a camera sees, as a pyramid.",
-        "DepthCloud": "The points of a depth image.",
         "Effort": "The efforts of the joints as arrows about their axes.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
         "TwistStamped": "A velocity as arrows.",
@@ -73,6 +73,7 @@ DISPLAYS: dict[str, type[Display]] = {
     display.kind: display
     for display in (
         AxesDisplay,
+        DepthCloudDisplay,
         FluidPressureDisplay,
         GridCellsDisplay,
         GridDisplay,

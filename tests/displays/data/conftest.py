@@ -47,8 +47,18 @@ class Opened:
 
     def node_names(self) -> list[str]:
         """The nodes that the display has in the scene."""
-        names = self.viz.viser.scene._handle_from_node_name  # pyright: ignore[reportPrivateUsage]
-        return sorted(name for name in names if f"/{self.display.key}" in name)
+        return sorted(self._nodes)
+
+    def glb(self) -> bytes:
+        """The GLB file of the only node of the display."""
+        (node,) = self._nodes.values()
+        return node.glb_data
+
+    @property
+    def _nodes(self) -> dict[str, Any]:
+        nodes = self.viz.viser.scene._handle_from_node_name  # pyright: ignore[reportPrivateUsage]
+        key = f"/{self.display.key}"
+        return {name: node for name, node in nodes.items() if key in name}
 
 
 @pytest.fixture

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import struct
 from collections.abc import Callable
 from typing import Any
 
@@ -11,6 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 import viser
+from glb_parts import document_of, numbers_of
 
 from sambot_viz import viser_private
 
@@ -58,24 +57,6 @@ class Drawn:
 @pytest.fixture
 def drawn() -> Drawn:
     return Drawn()
-
-
-def document_of(glb: bytes) -> dict[str, Any]:
-    """The document of a GLB file."""
-    return json.loads(glb[20 : 20 + struct.unpack_from("<I", glb, 12)[0]])
-
-
-def numbers_of(glb: bytes, attribute: str) -> np.ndarray[Any, Any]:
-    """An attribute of the vertices of a GLB file, or its "indices"."""
-    document = document_of(glb)
-    primitive = document["meshes"][0]["primitives"][0]
-    all_of_them = {"indices": primitive.get("indices"), **primitive["attributes"]}
-    accessor = document["accessors"][all_of_them[attribute]]
-    view = document["bufferViews"][accessor["bufferView"]]
-    kind = {5126: "<f4", 5125: "<u4", 5121: "u1"}[accessor["componentType"]]
-    start = 28 + struct.unpack_from("<I", glb, 12)[0] + view["byteOffset"]
-    data = np.frombuffer(glb[start : start + view["byteLength"]], kind)
-    return data.reshape(accessor["count"], -1)
 
 
 @pytest.fixture

@@ -87,6 +87,11 @@ class MessageFilterDisplay(TopicDisplay):
         """Whether there is something to do also when no message comes."""
         return bool(self._held)
 
+    @property
+    def most_held(self) -> int:
+        """So many messages are held at most."""
+        return int(self.config.get(f"{TOPIC}/Filter size"))
+
     def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
         """Return those of some messages that are worth a look, the oldest first."""
         return came
@@ -181,7 +186,7 @@ class MessageFilterDisplay(TopicDisplay):
                 kept.append(one)
             elif last_only:
                 break
-        size = int(self.config.get(f"{TOPIC}/Filter size")) if kept else 0
+        size = self.most_held if kept else 0
         for dropped in kept[size:]:
             if dropped.refused is not None:
                 self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)

@@ -71,6 +71,8 @@ class TopicDisplay(Display):
 
     types: ClassVar[frozenset[str]]
     """The types of messages that it draws."""
+    topic_path: ClassVar[str] = TOPIC
+    """The path of the property that names the topic."""
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
@@ -125,7 +127,7 @@ class TopicDisplay(Display):
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
-        if self.shown and path == TOPIC:
+        if self.shown and path == self.topic_path:
             self._stop()
             self.forget()
             self.status.clear()
@@ -139,7 +141,14 @@ class TopicDisplay(Display):
     @property
     def topic(self) -> str:
         """The name of the topic; empty when none is set."""
-        return str(self.config.get(TOPIC))
+        return str(self.config.get(self.topic_path))
+
+    @property
+    def wanted_qos(self) -> WantedQos:
+        """The quality of service that it asks for."""
+        get = self.config.get
+        reliability = str(get(f"{TOPIC}/Reliability Policy"))
+        return WantedQos(reliability, str(get(f"{TOPIC}/Durability Policy")))
 
     def _listen(self) -> None:
         messages = self.context.messages
@@ -195,28 +204,26 @@ class TopicDisplay(Display):
         return Status("Ok", f"{count} messages received at {rate:.1f} hz.")
 
     def _doubt(self) -> TopicDoubt | None:
-        messages, get = self.context.messages, self.config.get
+        messages = self.context.messages
         if messages is None or not self.topic:
             return None
-        reliability = str(get(f"{TOPIC}/Reliability Policy"))
-        durability = str(get(f"{TOPIC}/Durability Policy"))
-        qos = WantedQos(reliability, durability)
-        return messages.doubt(self.topic, self.types, qos)
+        return messages.doubt(self.topic, self.types, self.wanted_qos)
 
     def notes(self) -> Mapping[str, str]:
         """Return why nothing comes, where no messages come at all."""
-        return {TOPIC: NO_SOURCE} if self.context.messages is None else {}
+        return {self.topic_path: NO_SOURCE} if self.context.messages is None else {}
 
     def options(self) -> Mapping[str, Sequence[str]]:
         """Return the topics that it could draw."""
         messages = self.context.messages
         if messages is None:
             return {}
-        return {TOPIC: topics_of_types(messages.types(), self.types)}
+        return {self.topic_path: topics_of_types(messages.types(), self.types)}
 
     def repairs(self) -> Mapping[str, Repair]:
         """Return a button for the topic that was meant."""
         doubt = self._doubt()
         if doubt is None or not doubt.instead:
             return {}
-        return {TOPIC: Repair(f"Use {doubt.instead}", TOPIC, doubt.instead)}
+        repair = Repair(f"Use {doubt.instead}", self.topic_path, doubt.instead)
+        return {TOPIC: repair}

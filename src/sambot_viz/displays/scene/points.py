@@ -27,6 +27,8 @@ class PointStyle:
         normal: of Tiles, in the frame of the cloud.
         up: of Tiles: the direction of their y.
         is_twice: RViz draws some clouds twice, so that they are less transparent.
+        is_by_depth: the size is that of a point at z = 1 m in the frame of the cloud;
+            it grows with z.
     """
 
     shape: PointShape
@@ -35,6 +37,7 @@ class PointStyle:
     normal: Vector3 = (0.0, 0.0, -1.0)
     up: Vector3 = (0.0, 1.0, 0.0)
     is_twice: bool = False
+    is_by_depth: bool = False
 
 
 class PointNode(GlbNode):
@@ -89,6 +92,7 @@ def points_glb(
         "size": list(style.size),
         "alpha": style.alpha,
         "twice": style.is_twice,
+        "byDepth": style.is_by_depth,
         "normal": list(style.normal),
         "up": list(style.up),
     }

@@ -4,8 +4,8 @@
  * boxes with sides of fixed brightness, and tiles in a plane. Nothing of it is lit.
  */
 
-/** @typedef {{shape: string, size: number[], alpha: number, twice: boolean, normal: number[],
- *   up: number[], color?: number[]}} Style */
+/** @typedef {{shape: string, size: number[], alpha: number, twice: boolean, byDepth: boolean,
+ *   normal: number[], up: number[], color?: number[]}} Style */
 
 const VERTEX = `
 #include <common>
@@ -29,6 +29,9 @@ void main() {
   gl_Position.xy += position.xy * uSize.x * uPixel * gl_Position.w;
 #else
   vec3 corner = position * uSize;
+#ifdef BY_DEPTH
+  corner *= center.z;
+#endif
 #ifdef BOXES
   vShade = normal.z > 0.5 ? 0.9 : normal.z < -0.5 ? 0.5 : normal.y > 0.5 ? 0.4
     : normal.y < -0.5 ? 1.0 : 0.6;
@@ -153,6 +156,7 @@ export function dressPoints(object) {
   const pixel = { value: { x: 0, y: 0 } };
   const { material } = object;
   const defines = [...(DEFINES[style.shape] || []), `TINT ${color ? "tint" : "uTint"}`];
+  if (style.byDepth) defines.push("BY_DEPTH");
   const head = defines.map((one) => `#define ${one}\n`).join("");
   material.onBeforeCompile = (/** @type {any} */ shader) => {
     shader.vertexShader = head + VERTEX;

@@ -126,7 +126,7 @@ class CloudDisplay(MessageFilterDisplay):
         if not self._clouds:
             return
         self._let_decay()
-        style = self._style()
+        style = self.style()
         for shown in self._clouds:
             shown.draw(style)
 
@@ -173,7 +173,8 @@ class CloudDisplay(MessageFilterDisplay):
             return {CHANNEL: f"The points have no {channel}, so all are white: {known}"}
         return {}
 
-    def _style(self) -> PointStyle:
+    def style(self) -> PointStyle:
+        """Return how all points look."""
         get = self.config.get
         shape: PointShape = self.config.acting("Style")
         edge = float(get("Size (Pixels)" if shape == "Points" else "Size (m)"))

@@ -60,6 +60,21 @@ def require_size(width: int, height: int) -> None:
         raise MessageRefused(f"The image has {size}: {most}", IMAGE)
 
 
+def read_values(message: Any) -> Values | None:
+    """Return the numbers of a sensor_msgs/Image, (H, W); None where it has colours.
+
+    Raises:
+        MessageRefused: it cannot be read, and why.
+    """
+    native: Any = _SCALED.get(str(message.encoding))
+    if native is None:
+        return None
+    dtype: Any = native.newbyteorder(">" if message.is_bigendian else "<")
+    rows: Any = np.ascontiguousarray(_rows(message, native.itemsize))
+    values: Any = rows.view(dtype)
+    return values.astype(native, copy=False)
+
+
 def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
     """Return the pixels of a sensor_msgs/Image, (H, W) grey or (H, W, 3) RGB.
 
@@ -70,13 +85,9 @@ def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
     Raises:
         MessageRefused: it cannot be shown, and why.
     """
-    encoding = str(message.encoding)
-    if encoding in _SCALED:
-        native: Any = _SCALED[encoding]
-        dtype: Any = native.newbyteorder(">" if message.is_bigendian else "<")
-        rows: Any = np.ascontiguousarray(_rows(message, native.itemsize))
-        values: Any = rows.view(dtype)
-        return scale(values.astype(native, copy=False))
+    encoding, values = str(message.encoding), read_values(message)
+    if values is not None:
+        return scale(values)
     if encoding in _YUV:
         return _from_yuv(_rows(message, 2), *_YUV[encoding])
     places = (0,) if encoding.startswith("bayer") else _CHANNELS.get(encoding)

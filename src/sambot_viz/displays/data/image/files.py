@@ -14,15 +14,18 @@ from sambot_viz.displays.data.image.encodings import (
     IMAGE,
     Bytes,
     Values,
+    read_image,
+    read_values,
     require_size,
 )
+from sambot_viz.displays.data.image.ranges import Ranges, scaled
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.pictures import CameraPicture
 
 FEW_PIXELS = 100_000
 """Up to so many the pixels are kept exactly; a larger picture becomes a JPEG."""
 QUALITY = 90
-_DEPTH_HEADER = 12
+_DEPTH, _DEPTH_HEADER = "compressedDepth", 12
 _TYPES = {"JPEG": "image/jpeg", "PNG": "image/png"}
 
 
@@ -52,12 +55,48 @@ def compressed(message: Any, scale: Callable[[Values], Bytes]) -> CameraPicture:
         MessageRefused: it cannot be shown, and why.
     """
     content, of = bytes(message.data), str(message.format)
-    if "compressedDepth" in of:
-        return _depth(content, of, scale)
+    if _DEPTH in of:
+        return file_of(scale(_depths(content, of)))
     image = _open(content, of)
     if image.mode.startswith(("I", "F")):
         return file_of(scale(np.asarray(image, np.uint16)))
     return CameraPicture(_TYPES[image.format], image.width, image.height, content)
+
+
+def read_depths(message: Any) -> Values:
+    """Return the numbers of a depth image, of whichever kind, (H, W).
+
+    Raises:
+        MessageRefused: it cannot be read, or has colours.
+    """
+    values = None
+    if not hasattr(message, "format"):
+        kind, values = str(message.encoding), read_values(message)
+    elif _DEPTH in (kind := str(message.format)):
+        values = _depths(bytes(message.data), kind)
+    if values is None:
+        raise MessageRefused(f"An image of {kind[:60]} has no depths", IMAGE)
+    return values
+
+
+def read_colors(message: Any) -> Bytes:
+    """Return the pixels of an image, of whichever kind, (H, W, 3) RGB.
+
+    Raises:
+        MessageRefused: it cannot be read.
+    """
+    if hasattr(message, "format"):
+        image = _open(bytes(message.data), str(message.format))
+        return np.asarray(image.convert("RGB"))
+    pixels = read_image(message, _grey)
+    grey = pixels.ndim == 2
+    return np.repeat(pixels[..., None], 3, axis=2) if grey else pixels
+
+
+def _grey(values: Values) -> Bytes:
+    ranges = Ranges()
+    ranges.add(values)
+    return scaled(values, ranges.median(1))
 
 
 def _open(content: bytes, of: str) -> Any:
@@ -75,13 +114,13 @@ def _open(content: bytes, of: str) -> Any:
     return image
 
 
-def _depth(content: bytes, of: str, scale: Callable[[Values], Bytes]) -> CameraPicture:
-    """Return the file of a picture with depths behind a short head of their own."""
+def _depths(content: bytes, of: str) -> Values:
+    """Return the depths of a picture behind a short head of their own, (H, W)."""
     image = _open(content[_DEPTH_HEADER:], of)
     stored = np.asarray(image, np.uint16)
     if not of.startswith("32FC1"):
-        return file_of(scale(stored))
+        return stored
     quant_a, quant_b = struct.unpack_from("<ff", content, 4)
     with np.errstate(all="ignore"):
         metres = quant_a / (stored.astype(np.float32) - quant_b)
-    return file_of(scale(np.where(stored == 0, np.nan, metres).astype(np.float32)))
+    return np.where(stored == 0, np.nan, metres).astype(np.float32)

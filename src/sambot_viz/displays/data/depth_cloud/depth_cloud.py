@@ -1,0 +1,291 @@
+"""DepthCloud: the pixels of a depth image as points, with the colours of another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from sambot_viz.displays.data.cloud.cloud import Cloud
+from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
+from sambot_viz.displays.data.cloud.properties import CLOUD_PROPERTIES
+from sambot_viz.displays.data.depth_cloud.depth_points import (
+    Occluded,
+    cloud_of_depth,
+    focus_of,
+    metres_of,
+)
+from sambot_viz.displays.data.depth_cloud.depth_sync import DepthMessage, DepthSync
+from sambot_viz.displays.data.depth_cloud.properties import (
+    AUTO_SIZE,
+    COLOR_HINT,
+    COLOR_TOPIC,
+    DEPTH_HINT,
+    DEPTH_PROPERTIES,
+    DEPTH_TOPIC,
+    FACTOR,
+    OCCLUSION,
+    QUEUE_SIZE,
+    TIME_OUT,
+)
+from sambot_viz.displays.data.image.camera_info import (
+    CAMERA_INFO,
+    TRANSPORTS,
+    CameraNumbers,
+    info_topic,
+    no_info,
+    numbers_of,
+)
+from sambot_viz.displays.data.image.encodings import Bytes
+from sambot_viz.displays.data.image.files import read_colors, read_depths
+from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.topic_display import MOST_WAITING
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.displays.scene.points import PointStyle
+from sambot_viz.displays.topic_messages import topics_of_types
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix
+from sambot_viz.rviz import DisplayConfig, Property
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.subscription import Subscription
+
+COLOR_IMAGE = "Color Image"
+"""Key of a status."""
+MOST_POINTS = 4_000_000
+"""A depth image of more pixels is not drawn."""
+_NAMES = {DEPTH_TOPIC: ("depth",), COLOR_TOPIC: ("color", "rgb", "bgr", "gray", "mono")}
+"""What a name in the list of topics has in it, where the list is filtered."""
+_WHITE: Bytes = np.full(3, 255, np.uint8)
+_NS = 1_000_000_000
+
+
+class DepthCloudDisplay(CloudDisplay):
+    """The points of depth images, each with the camera info and colours of its time."""
+
+    kind = "rviz_default_plugins/DepthCloud"
+    help = "The points of a depth image."
+    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    topic_path = DEPTH_TOPIC
+    properties: ClassVar[tuple[Property, ...]] = (*DEPTH_PROPERTIES, *CLOUD_PROPERTIES)
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._sync = DepthSync(1, False)
+        self._of: Subscription | None = None
+        self._came: DepthMessage | None = None
+        self._focus = 0.0
+        self._occluded = Occluded()
+
+    # Its topics
+
+    @property
+    def topic(self) -> str:
+        """The topic of the depth images, as they are sent."""
+        return self._sent(DEPTH_TOPIC, DEPTH_HINT)
+
+    @property
+    def color_topic(self) -> str:
+        """The topic of the colour images, as they are sent; empty for none."""
+        return self._sent(COLOR_TOPIC, COLOR_HINT)
+
+    def _sent(self, path: str, hint: str) -> str:
+        topic, transport = str(self.config.get(path)), str(self.config.get(hint))
+        is_plain = transport not in TRANSPORTS or topic.rpartition("/")[2] in TRANSPORTS
+        return topic if is_plain or not topic else f"{topic}/{transport}"
+
+    def other_topics(self) -> Sequence[str]:
+        """Return the topics of the camera infos and of the colour images."""
+        color = self.color_topic
+        return (info_topic(self.topic), *([color] if color else []))
+
+    @property
+    def wanted_qos(self) -> WantedQos:
+        """The quality of service that it asks for; this display spells it its way."""
+        reliability = str(self.config.get("Reliability Policy"))
+        return WantedQos(reliability.replace("effort", "Effort"), "Volatile")
+
+    @property
+    def most_held(self) -> int:
+        """So many messages are held at most."""
+        return int(self.config.acting(QUEUE_SIZE))
+
+    @property
+    def most_waiting(self) -> int:
+        """So many messages wait at most between two pictures, of the three topics."""
+        return 3 * MOST_WAITING
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return the topics, and what the points have fields for."""
+        options = dict(super().options())
+        messages = self.context.messages
+        if messages is None:
+            return options
+        found = topics_of_types(messages.types(), self.types)
+        for path, words in _NAMES.items():
+            options[path] = found
+            if self.config.get("Topic Filter"):
+                lower = ((topic, topic.lower()) for topic in found)
+                options[path] = [
+                    topic for topic, name in lower if any(w in name for w in words)
+                ]
+        return options
+
+    # What comes
+
+    def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
+        """Return the depth images that have what belongs to them."""
+        for one in came:
+            key = COLOR_IMAGE if one.topic == self.color_topic else MESSAGE
+            try:
+                with refusing(key, "read"):
+                    self._sort(one)
+            except MessageRefused as refused:
+                self.status.set(refused.key, "Error", refused.text)
+        ready = self._sync.ready()
+        self._report_lacking()
+        return ready
+
+    def _sort(self, one: Recorded) -> None:
+        assert self.subscription is not None
+        if one.topic == self.topic:
+            self._sync.take_depth(one, self.subscription.decode)
+        elif one.topic == self.color_topic:
+            self._sync.take_color(one, self.subscription.decode)
+        else:
+            self._sync.info = one
+
+    def _report_lacking(self) -> None:
+        """Say what the depth images lack, if they lack something."""
+        messages, info = self.context.messages, info_topic(self.topic)
+        if messages is None or not self.topic:
+            return
+        if self._sync.info is None:
+            qos = self.wanted_qos
+            doubt = messages.doubt(info, {"sensor_msgs/msg/CameraInfo"}, qos)
+            text = no_info(info, [doubt.sentence] if doubt else [])
+            self.status.set(CAMERA_INFO, "Warn", text)
+        if self._sync.waits_for_color and COLOR_IMAGE not in self.status.rows:
+            text = f"No image received on [{self.color_topic}]"
+            self.status.set(COLOR_IMAGE, "Warn", text)
+
+    def drop(self) -> None:
+        """Take all points out of the scene."""
+        super().drop()
+        self._occluded = Occluded()
+
+    def draw(self) -> None:
+        """Listen to the topics, and draw what has come."""
+        super().draw()
+        self._report_lacking()
+
+    def messages_came(self) -> None:
+        """Draw the depth images that have what belongs to them, and a place."""
+        subscription = self.subscription
+        if subscription is not self._of or (subscription and subscription.is_outdated):
+            self._of = subscription
+            self._sync = DepthSync(self.most_held, bool(self.color_topic))
+            for key in (CAMERA_INFO, COLOR_IMAGE):
+                self.status.remove(key)
+        super().messages_came()
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value."""
+        if path == QUEUE_SIZE:
+            # The new queue is filled as it is after a jump.
+            self._stop()
+        elif path == OCCLUSION:
+            self._occluded = Occluded()
+        super().property_changed(path)
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Take the points of a depth image."""
+        assert isinstance(came, DepthMessage)
+        self._came = came
+        super().process(message, T_fixed_frame, came)
+
+    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
+        """Return the points of a depth image, and the pose of its frame."""
+        assert self._came is not None
+        with refusing(MESSAGE, "read", OSError, SyntaxError):
+            depths = metres_of(read_depths(message))
+        if depths.size > MOST_POINTS:
+            text = f"It has {depths.size:,} pixels: at most {MOST_POINTS:,} are drawn"
+            raise MessageRefused(text)
+        camera = self._camera(self._came.info, depths.shape)
+        colors = self._colors(self._came.color, depths.shape)
+        self._focus = focus_of(camera)[0]
+        cloud = cloud_of_depth(depths, camera, colors)
+        if self.config.get(OCCLUSION):
+            longest = float(self.config.get(TIME_OUT))
+            now, limit = self._came.log_ns, round(min(longest, 1e6) * _NS)
+            covered = self._occluded.behind(depths, colors, now, limit)
+            cloud = _joined(cloud, cloud_of_depth(covered[0], camera, covered[1]))
+        return cloud, T_fixed_frame.matrix
+
+    def _camera(self, info: Recorded, shape: tuple[int, ...]) -> CameraNumbers:
+        assert self.subscription is not None
+        with refusing(CAMERA_INFO, "read"):
+            camera = numbers_of(self.subscription.decode(info))
+        height, width = shape
+        said = (camera.width // camera.binning[0], camera.height // camera.binning[1])
+        if camera.roi[2] and camera.roi[3]:
+            said = (camera.roi[2], camera.roi[3])
+        if said in ((width, height), (0, 0)):
+            self.status.set(CAMERA_INFO, "Ok", "OK")
+        else:
+            text = f"It is of an image of {said[0]} × {said[1]} pixels; the depth image"
+            text = f"{text} has {width} × {height}: the points are not in their places"
+            self.status.set(CAMERA_INFO, "Warn", text)
+        return camera
+
+    def _colors(self, image: Recorded | None, shape: tuple[int, ...]) -> Bytes:
+        if image is None or self.subscription is None:
+            self.status.remove(COLOR_IMAGE)
+            return _WHITE
+        try:
+            with refusing(COLOR_IMAGE, "read", OSError, SyntaxError):
+                colors = read_colors(self.subscription.decode(image))
+        except MessageRefused as refused:
+            raise MessageRefused(refused.text, COLOR_IMAGE) from refused
+        if colors.shape[:2] != shape:
+            (height, width), (rows, columns) = colors.shape[:2], shape
+            text = f"It has {width} × {height} pixels, the depth image {columns} ×"
+            raise MessageRefused(f"{text} {rows}: both need the same", COLOR_IMAGE)
+        self.status.set(COLOR_IMAGE, "Ok", "OK")
+        return colors
+
+    # How it looks
+
+    def style(self) -> PointStyle:
+        """Return how all points look: as large as their pixels, or as was set."""
+        style = super().style()
+        if not self._grows:
+            return style
+        factor = float(self.config.get(FACTOR))
+        edge = factor / abs(self._focus)
+        return replace(style, size=(edge, edge, edge), is_by_depth=True)
+
+    def notes(self) -> Mapping[str, str]:
+        """Return how large points are, where that is not what was set."""
+        notes = dict(super().notes())
+        if self._grows:
+            edge = self.style().size[0]
+            notes["Size (m)"] = f"{AUTO_SIZE}: {edge:.3g} m for each metre of depth"
+        return notes
+
+    @property
+    def _grows(self) -> bool:
+        is_flat = self.config.acting("Style") == "Points"
+        return bool(self.config.get(AUTO_SIZE)) and not is_flat and self._focus != 0.0
+
+
+def _joined(one: Cloud, other: Cloud) -> Cloud:
+    fields = {
+        name: np.concatenate([values, other.fields[name]])
+        for name, values in one.fields.items()
+    }
+    return Cloud(np.concatenate([one.points, other.points]), fields)

@@ -1,0 +1,88 @@
+"""The numbers of sensor_msgs/CameraInfo, and the topic that they come on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sambot_viz.displays.data.message_numbers import require_finite
+from sambot_viz.displays.data.refusals import MessageRefused
+
+CAMERA_INFO = "Camera Info"
+"""The key of the status."""
+TRANSPORTS = ("compressed", "compressedDepth", "theora")
+"""What a topic of images may end with, beside those of plain images."""
+_SMALLEST_FOCUS = 1e-9
+"""A focal length below it shows everything at infinity [pixels]."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraNumbers:
+    """How a camera makes pixels of points: x right, y down, z forward.
+
+    Attributes:
+        width: of the whole image; 0 where that is not said [pixels].
+        height: of the whole image [pixels].
+        focus: along x and y [pixels].
+        center: where z meets the image [pixels].
+        shift: of the second camera of a pair: its place times the focus, negative.
+        binning: pixels of the sensor for one of the image, along x and y.
+        roi: x, y, width and height of the part that is sent; without a size it is all.
+    """
+
+    width: int
+    height: int
+    focus: tuple[float, float]
+    center: tuple[float, float]
+    shift: tuple[float, float]
+    binning: tuple[int, int]
+    roi: tuple[int, int, int, int]
+
+
+def numbers_of(message: Any) -> CameraNumbers:
+    """Return the numbers of a sensor_msgs/CameraInfo.
+
+    Raises:
+        MessageRefused: they are not finite, or have no focal length.
+    """
+    # ROS 1 calls it P.
+    given = message.p if hasattr(message, "p") else message.P
+    p = [float(value) for value in given]
+    if len(p) != 12:
+        raise MessageRefused(f"P has {len(p)} numbers; it needs 12", CAMERA_INFO)
+    try:
+        require_finite(p)
+    except MessageRefused as refused:
+        raise MessageRefused(refused.text, CAMERA_INFO) from None
+    if min(abs(p[0]), abs(p[5])) < _SMALLEST_FOCUS:
+        text = f"The focal lengths in P are {p[0]:g} and {p[5]:g} pixels"
+        raise MessageRefused(f"{text}: the camera is not calibrated", CAMERA_INFO)
+    roi = message.roi
+    return CameraNumbers(
+        int(message.width),
+        int(message.height),
+        (p[0], p[5]),
+        (p[2], p[6]),
+        (p[3], p[7]),
+        (max(int(message.binning_x), 1), max(int(message.binning_y), 1)),
+        (int(roi.x_offset), int(roi.y_offset), int(roi.width), int(roi.height)),
+    )
+
+
+def info_topic(image_topic: str) -> str:
+    """Return the topic of the camera infos of a topic of images; "" for none."""
+    base, slash, last = image_topic.rpartition("/")
+    if slash and last in TRANSPORTS:
+        base, slash, _ = base.rpartition("/")
+    return f"{base}{slash}camera_info" if image_topic else ""
+
+
+def no_info(topic: str, doubts: Sequence[str]) -> str:
+    """Say that no camera info has come, and why.
+
+    Args:
+        topic: where it is expected.
+        doubts: what is known of the topic.
+    """
+    return ". ".join([f"No CameraInfo received on [{topic}]", *doubts])
