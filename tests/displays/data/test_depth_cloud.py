@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 from collections.abc import Callable
 from typing import Any
@@ -12,6 +13,8 @@ from camera_messages import Make, file, image, info
 from glb_parts import document_of, numbers_of
 from inside import session_of
 from PIL import Image
+
+from sambot_viz.displays.data.depth_cloud.depth_sync import DepthMessage
 
 Open = Callable[..., Any]
 DEPTH, COLOR, INFO = "/cam/depth", "/cam/color", "/cam/camera_info"
@@ -197,6 +200,24 @@ def test_covered_points_stay_for_their_time(shown: Open) -> None:
     opened.set("Occlusion Compensation/Occlusion Time-Out", 0.0)
     opened.viz.player.jump(opened.viz.player.duration)
     assert len(points(opened)) == 4
+
+
+def alive() -> int:
+    gc.collect()
+    return sum(isinstance(one, DepthMessage) for one in gc.get_objects())
+
+
+def test_images_that_others_have_followed_are_not_kept(shown: Open) -> None:
+    opened = shown(info(INFO, NUMBERS), *[depth(stamp=1.0 + n) for n in range(30)])
+    session = session_of(opened.viz)
+    opened.viz.player.jump(0.0)
+    before = alive()
+    assert session.data is not None
+    for _ in range(30):
+        session.data.player.advance(0.1)
+        session.scene.messages_came()
+    assert len(points(opened)) == 3
+    assert alive() <= before + 2
 
 
 def test_another_fixed_frame_and_back_draws_the_same_points(shown: Open) -> None:

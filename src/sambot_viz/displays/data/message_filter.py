@@ -167,6 +167,8 @@ class MessageFilterDisplay(TopicDisplay):
         for one in reversed(self._held) if last_only else tuple(self._held):
             one.refused = None
             if self._is_done(one):
+                if last_only:
+                    self._drawn.clear()
                 self._drawn.append(one)
                 is_new = True
                 if last_only:
