@@ -187,7 +187,8 @@ def wxyz_from_z(direction: Vector3) -> Wxyz:
     norm = math.sqrt(x * x + y * y + z * z)
     x, y, z = x / norm, y / norm, z / norm
     if z < -0.999999:
-        return (0.0, 1.0, 0.0, 0.0)
+        # Every axis across z is right; this one is Ogre's, so RViz's.
+        return (0.0, 0.0, 1.0, 0.0)
     w = 1.0 + z
     length = math.sqrt(w * w + x * x + y * y)
     return (w / length, -y / length, x / length, 0.0)

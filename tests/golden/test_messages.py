@@ -23,9 +23,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from pictures import SAME, Image, Mask, counting, drawn, near_part, picture
-
-from sambot_viz import Visualizer
+from pictures import (
+    SAME,
+    Image,
+    Mask,
+    counting,
+    drawn,
+    end_of_recording,
+    near_part,
+    picture,
+)
 
 if TYPE_CHECKING:
     from sambot_viz.export.chromium import Chromium
@@ -53,20 +60,6 @@ CASES["marker_text"] = Limits(
 )
 
 
-def drawn_by_us(chromium: Chromium, folder: Path, golden: Image) -> Image:
-    """The messages of a case at their end, through the view of its config."""
-    from sambot_viz.export.view_picture import snapshot
-
-    height, width = golden.shape[:2]
-    source = f"bag:{folder / 'messages.mcap'}"
-    config = folder / "config.rviz"
-    with Visualizer(source=source, config=config, port=0, panels=False) as viz:
-        viz.player.pause()
-        viz.player.jump(viz.player.duration)
-        view = viz.server.sessions.all()[0].document_view.camera
-        return snapshot(viz.server, chromium, width, height, view).astype(np.int16)
-
-
 def probes(folder: Path) -> list[dict[str, Any]]:
     path = folder / "values.json"
     if not path.exists():
@@ -82,7 +75,7 @@ def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) 
     """The outline of a footprint is green, and the costmap is blended over the rest."""
     folder = DATA / "nav2_scene_top"
     golden = picture(folder / "render.png")
-    ours = drawn_by_us(chromium, folder, golden)
+    ours = end_of_recording(chromium, folder, golden.shape)
 
     def green(image: Image) -> int:
         red, green, blue = (image[..., channel] for channel in range(3))
@@ -108,7 +101,7 @@ def colors(ours: Image, golden: Image, counts: Mask) -> float:
 def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
     folder, limits = DATA / name, CASES[name]
     golden = picture(folder / "render.png")
-    ours = drawn_by_us(chromium, folder, golden)
+    ours = end_of_recording(chromium, folder, golden.shape)
     counts = counting(folder, golden)
     # A line along the border belongs to the picture or does not, by a rounding.
     counts[[0, -1]] = counts[:, [0, -1]] = False

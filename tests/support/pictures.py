@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from sambot_viz.export.chromium import Chromium
 
 Image = npt.NDArray[np.int16]
 Mask = npt.NDArray[np.bool_]
@@ -61,3 +65,24 @@ def flat(image: Image) -> Mask:
     windows = np.lib.stride_tricks.sliding_window_view(image, (PATCH, PATCH), (0, 1))
     even = (windows.max(axis=(-1, -2)) - windows.min(axis=(-1, -2))).max(axis=-1) <= 2
     return np.asarray(np.pad(even, PATCH // 2))
+
+
+def end_of_recording(chromium: Chromium, folder: Path, shape: tuple[int, ...]) -> Image:
+    """The messages of a case at their end, through the view of its config.
+
+    Args:
+        chromium: takes the picture.
+        folder: with messages.mcap and config.rviz.
+        shape: of the picture: height, width, ….
+    """
+    from sambot_viz import Visualizer
+    from sambot_viz.export.view_picture import snapshot
+
+    source = f"bag:{folder / 'messages.mcap'}"
+    config = folder / "config.rviz"
+    with Visualizer(source=source, config=config, port=0, panels=False) as viz:
+        viz.player.pause()
+        viz.player.jump(viz.player.duration)
+        view = viz.server.sessions.all()[0].document_view.camera
+        found = snapshot(viz.server, chromium, shape[1], shape[0], view)
+        return found.astype(np.int16)

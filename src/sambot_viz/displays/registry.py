@@ -32,6 +32,9 @@ from sambot_viz.displays.data.poses.odometry import OdometryDisplay
 from sambot_viz.displays.data.poses.pose import PoseDisplay, PoseWithCovarianceDisplay
 from sambot_viz.displays.data.poses.pose_array import PoseArrayDisplay
 from sambot_viz.displays.data.range import RangeDisplay
+from sambot_viz.displays.data.vectors.accel import AccelStampedDisplay
+from sambot_viz.displays.data.vectors.twist import TwistStampedDisplay
+from sambot_viz.displays.data.vectors.wrench import WrenchDisplay
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
@@ -57,13 +60,10 @@ REASON = "draws sensor data, which this version does not do yet"
 NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence
     for name, sentence in {
-        "AccelStamped": "An acceleration as arrows.",
         "Camera": "A camera image with the scene overlaid.",
         "CameraInfo": "What a camera sees, as a pyramid.",
         "Effort": "The efforts of the joints as arrows about their axes.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
-        "TwistStamped": "A velocity as arrows.",
-        "Wrench": "A force and a torque as arrows.",
     }.items()
 }
 """ROS 2 class id → what RViz shows with it."""
@@ -72,6 +72,7 @@ NOT_SHOWN: dict[str, str] = {
 DISPLAYS: dict[str, type[Display]] = {
     display.kind: display
     for display in (
+        AccelStampedDisplay,
         AxesDisplay,
         DepthCloudDisplay,
         FluidPressureDisplay,
@@ -98,5 +99,7 @@ DISPLAYS: dict[str, type[Display]] = {
         RobotModelDisplay,
         TemperatureDisplay,
         TfDisplay,
+        TwistStampedDisplay,
+        WrenchDisplay,
     )
 }

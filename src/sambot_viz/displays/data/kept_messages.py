@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
@@ -30,13 +31,12 @@ class KeptMessagesDisplay(MessageFilterDisplay):
         return int(self.config.acting(self.length))
 
 
-class KeptSolidsDisplay(KeptMessagesDisplay):
-    """Draws what each of the newest messages measures as a solid."""
+class KeptReadingsDisplay(KeptMessagesDisplay):
+    """Draws what each of the newest messages measures."""
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._node = SolidsNode(context.scene, f"/{key}")
         self._kept: list[tuple[Any, Matrix]] = []
 
     def measured(self, message: Any) -> Any:
@@ -47,13 +47,16 @@ class KeptSolidsDisplay(KeptMessagesDisplay):
         """
         raise NotImplementedError
 
-    def solid(self, measured: Any, T_fixed_frame: Matrix) -> Solid | None:
-        """Return how that is drawn; None for nothing.
+    def draw_kept(self, kept: Sequence[tuple[Any, Matrix]]) -> None:
+        """Draw what was measured as it looks now, and nothing else.
 
         Args:
-            measured: of a message.
-            T_fixed_frame: (4, 4), of its frame.
+            kept: of each message, with T_fixed_frame, (4, 4), of its frame.
         """
+        raise NotImplementedError
+
+    def remove(self) -> None:
+        """Take everything out of the scene."""
         raise NotImplementedError
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
@@ -63,10 +66,36 @@ class KeptSolidsDisplay(KeptMessagesDisplay):
     def show_taken(self) -> None:
         """Draw what is kept as it looks now."""
         del self._kept[: -self.most]
-        solids = (self.solid(*one) for one in self._kept)
-        self._node.draw([solid for solid in solids if solid is not None])
+        self.draw_kept(self._kept)
 
     def drop(self) -> None:
-        """Take all out of the scene."""
+        """Take everything out of the scene, and forget what was measured."""
         self._kept.clear()
+        self.remove()
+
+
+class KeptSolidsDisplay(KeptReadingsDisplay):
+    """Draws what each of the newest messages measures as a solid."""
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._node = SolidsNode(context.scene, f"/{key}")
+
+    def solid(self, measured: Any, T_fixed_frame: Matrix) -> Solid | None:
+        """Return how that is drawn; None for nothing.
+
+        Args:
+            measured: of a message.
+            T_fixed_frame: (4, 4), of its frame.
+        """
+        raise NotImplementedError
+
+    def draw_kept(self, kept: Sequence[tuple[Any, Matrix]]) -> None:
+        """Draw the solids."""
+        solids = (self.solid(*one) for one in kept)
+        self._node.draw([solid for solid in solids if solid is not None])
+
+    def remove(self) -> None:
+        """Take all solids out of the scene."""
         self._node.remove()

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
+from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz
 
 Floats = npt.NDArray[np.float64]
@@ -36,6 +37,23 @@ def point_of(point: Any) -> Vector3:
     found = (float(point.x), float(point.y), float(point.z))
     require_finite(found)
     return found
+
+
+def vector_of(vector: Any, *, nan_is_zero: bool = False) -> Vector3:
+    """Return a geometry_msgs/Vector3.
+
+    Args:
+        vector: of a message.
+        nan_is_zero: whether numbers that are NaN count as 0.
+
+    Raises:
+        MessageRefused: it is not finite in the 32 bits that RViz keeps of it.
+    """
+    values = [float(vector.x), float(vector.y), float(vector.z)]
+    if nan_is_zero:
+        values = [0.0 if math.isnan(value) else value for value in values]
+    require_finite(single(values).tolist())
+    return (values[0], values[1], values[2])
 
 
 def points_of(points: Any) -> Floats:

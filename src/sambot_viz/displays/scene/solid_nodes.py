@@ -162,6 +162,22 @@ class Solid:
     alpha: float = 1.0
 
 
+def arrow_solids(arrow: Arrow, color: Rgb, alpha: float) -> tuple[Solid, ...]:
+    """Return the head of an arrow, and its shaft if that has a length.
+
+    Args:
+        arrow: in the frame of the solids.
+        color: of both, 0 to 255.
+        alpha: of both, 0 to 1.
+    """
+    turn, shaft_at, head_at = arrow.parts()
+    (length, wide), (head, head_wide) = arrow.shaft, arrow.head
+    tip = Solid("cone", turn, head_at, (head_wide, head_wide, head), color, alpha)
+    if not length:
+        return (tip,)
+    return (tip, Solid("cylinder", turn, shaft_at, (wide, wide, length), color, alpha))
+
+
 class SolidsNode:
     """Any unit shapes, in one batch for each kind.
 

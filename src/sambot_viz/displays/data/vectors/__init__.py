@@ -1,0 +1,1 @@
+"""Displays of two vectors at a frame: forces, velocities and accelerations."""

@@ -1,0 +1,31 @@
+"""TwistStamped: a velocity, along and about axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.data.vectors.vectors import (
+    HIDES,
+    VectorsDisplay,
+    vector_properties,
+)
+
+
+class TwistStampedDisplay(VectorsDisplay):
+    """The linear and the angular part of geometry_msgs/TwistStamped."""
+
+    kind = "rviz_default_plugins/TwistStamped"
+    help = "A velocity as arrows."
+    types = frozenset({"geometry_msgs/msg/TwistStamped"})
+    words = ("Linear", "Angular")
+    properties = (topic_property(), *vector_properties(*words), HIDES)
+
+    def vectors(self, message: Any) -> tuple[Any, Any]:
+        """Return the linear and the angular part."""
+        return message.twist.linear, message.twist.angular
+
+    @property
+    def hides_small(self) -> bool:
+        """Whether an arrow that is not longer than its width is left out."""
+        return bool(self.config.get(HIDES.name))
