@@ -6,6 +6,7 @@ Those of RViz that it does not show draw what a running robot sends.
 from __future__ import annotations
 
 from sambot_viz.displays.axes import AxesDisplay
+from sambot_viz.displays.data.camera_info import CameraInfoDisplay
 from sambot_viz.displays.data.cloud.laser_scan import LaserScanDisplay
 from sambot_viz.displays.data.cloud.measurements import (
     FluidPressureDisplay,
@@ -61,7 +62,6 @@ NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence
     for name, sentence in {
         "Camera": "A camera image with the scene overlaid.",
-        "CameraInfo": "What a camera sees, as a pyramid.",
         "Effort": "The efforts of the joints as arrows about their axes.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
     }.items()
@@ -74,6 +74,7 @@ DISPLAYS: dict[str, type[Display]] = {
     for display in (
         AccelStampedDisplay,
         AxesDisplay,
+        CameraInfoDisplay,
         DepthCloudDisplay,
         FluidPressureDisplay,
         GridCellsDisplay,
