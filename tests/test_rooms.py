@@ -184,6 +184,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/assets.py": "concurrent",
     "topics/live_files.py": "concurrent",  # files are asked for at once
     "sources/websocket/delivery.py": "threading",
+    "sources/websocket/paced_connection.py": "socket",  # how its own is acknowledged
     "sources/websocket/runner.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",

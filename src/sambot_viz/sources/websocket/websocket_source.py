@@ -29,6 +29,7 @@ from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.delivery import MOST_MESSAGES, Delivery
 from sambot_viz.sources.websocket.event_loop import SourceLoop
+from sambot_viz.sources.websocket.paced_connection import PacedConnection
 from sambot_viz.sources.websocket.runner import ConversationRunner
 from sambot_viz.sources.websocket.trouble import explain
 
@@ -211,6 +212,7 @@ class WebsocketSource:
             close_timeout=1,
             ping_interval=5,
             ping_timeout=15,
+            create_connection=PacedConnection,
         ) as websocket:
             await self._converse(websocket)
 

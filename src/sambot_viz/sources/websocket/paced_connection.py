@@ -1,0 +1,41 @@
+"""A connection that takes what small messages have come a few times in a second."""
+
+from __future__ import annotations
+
+import socket
+from contextlib import suppress
+
+from websockets.asyncio.client import ClientConnection
+
+PACE = 0.010
+"""After a read that emptied the socket the next one comes so much later [s]."""
+_MUCH = 65_536
+"""A read of so many bytes has perhaps not emptied the socket."""
+_ACKNOWLEDGE = getattr(socket, "TCP_QUICKACK", None)
+
+
+class PacedConnection(ClientConnection):
+    """Reads many small messages at once: one wake-up for each costs more than they do.
+
+    It acknowledges what came at each read. A peer that collects small messages until
+    the last ones were acknowledged (Nagle's algorithm) would have to wait for 40 ms, as
+    Linux does, and the picture would show what was true before the last one.
+    """
+
+    def data_received(self, data: bytes) -> None:
+        """Take what has come, and read again soon; at once when there is more."""
+        super().data_received(data)
+        if len(data) < _MUCH and not self.transport.is_closing():
+            self.transport.pause_reading()
+            self.loop.call_later(PACE, self._read_again)
+
+    def _read_again(self) -> None:
+        # The connection may have ended in the meantime.
+        if self.transport.is_closing():
+            return
+        self.transport.resume_reading()
+        peer: socket.socket | None = self.transport.get_extra_info("socket")
+        if peer is not None and _ACKNOWLEDGE is not None:
+            # Once: an even number lets Linux wait again after that.
+            with suppress(OSError):
+                peer.setsockopt(socket.IPPROTO_TCP, _ACKNOWLEDGE, 2)
