@@ -45,6 +45,20 @@ def test_what_goes_to_all_browsers_is_in_one_buffer_with_a_loop_of_its_own(
         assert hasattr(buffer, name), name
 
 
+def test_the_end_of_a_change_and_a_flush_can_be_replaced(
+    server: viser.ViserServer,
+) -> None:
+    buffer, calls = viser_private.broadcast_buffer(server), list[str]()
+    viser_private.replace_flush(
+        buffer, lambda: calls.append("end"), lambda: calls.append("flush")
+    )
+    with server.atomic(), server.atomic():
+        assert buffer.atomic_counter == 2
+    server.flush()
+    assert calls == ["end", "flush"]
+    assert buffer.atomic_counter == 0
+
+
 def test_messages_are_packed_as_for_a_browser_also_after_one_that_cannot_be(
     server: viser.ViserServer,
 ) -> None:

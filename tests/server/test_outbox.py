@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
 import viser
+from patience import until
 from protocol_client import ProtocolClient
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
 from sambot_viz.server.listener import listen
+from sambot_viz.server.news import News
 
 Connect = Callable[..., ProtocolClient]
 A_LONG_TIME = 50_000_000
@@ -131,17 +134,72 @@ def test_a_thread_that_adds_a_message_touches_nobody_who_waits(
 ) -> None:
     """viser's own event raises there when a browser comes or goes at that moment."""
     buffer = viser_private.broadcast_buffer(server)
-    loop = server.get_event_loop()
-    seen: list[bool] = []
+    news, seen = News.of(buffer), list[bool]()
 
     async def wait() -> None:
-        buffer.message_event.clear()
-        waiting = asyncio.ensure_future(buffer.message_event.wait())
+        waiting = asyncio.ensure_future(news.wait())
         await asyncio.sleep(0)
         await asyncio.to_thread(buffer.message_event.set)
-        seen.append(buffer.message_event.is_set())
+        await asyncio.sleep(0)
+        seen.append(waiting.done())
         await asyncio.to_thread(server.scene.add_frame, "/a")
-        seen.append(await asyncio.wait_for(waiting, 10.0))
+        await asyncio.wait_for(waiting, 10.0)
 
+    loop = server.get_event_loop()
     asyncio.run_coroutine_threadsafe(wait(), loop).result(20.0)
-    assert seen == [False, True]
+    assert seen == [False]
+
+
+def test_a_change_wakes_the_clients_once(
+    server: viser.ViserServer, protocol: Connect, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A flush right after it asks for nothing, nor does a change of nothing."""
+    frames = [server.scene.add_frame(f"/{number}") for number in range(20)]
+    client = protocol(server.get_port())
+    client.settle(server)
+    loop, calls = server.get_event_loop(), list[str]()
+    call = loop.call_soon_threadsafe
+
+    def counted(action: Callable[..., Any], *args: Any, **more: Any) -> Any:
+        calls.append(getattr(action, "__name__", ""))
+        return call(action, *args, **more)
+
+    monkeypatch.setattr(loop, "call_soon_threadsafe", counted)
+    with server.atomic():
+        for frame in frames:
+            frame.position = (1.0, 0.0, 0.0)
+    server.flush()
+    client.wait_until(lambda: client.types()["SetPositionMessage"] == 20)
+    with server.atomic():
+        pass
+    server.flush()
+    assert len(calls) == 1
+
+
+def test_a_browser_that_comes_during_a_change_has_all_when_nothing_changed(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    server.scene.add_frame("/a")
+    protocol(server.get_port()).settle(server)
+    buffer = viser_private.broadcast_buffer(server)
+    with ThreadPoolExecutor(1) as pool:
+        with server.atomic():
+            coming = pool.submit(protocol, server.get_port())
+            until(lambda: len(buffer.generator_cursors) == 2)
+        client = coming.result(20.0)
+    assert nodes(client) == ["/a"]
+
+
+def test_single_messages_are_collected_for_a_moment(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    moved = server.scene.add_frame("/moved")
+    client = protocol(server.get_port())
+    client.settle(server)
+    mark = client.mark()
+    for number in range(1, 200):
+        moved.position = (number, 0.0, 0.0)
+    client.settle(server)
+    poses = [m for m in client.since(mark) if m.type == "SetPositionMessage"]
+    assert len(poses) < 50
+    assert poses[-1].fields["position"][0] == 199.0

@@ -9,10 +9,8 @@ all clients that are opened at the same time.
 
 from __future__ import annotations
 
-import asyncio
 import math
 from collections.abc import AsyncGenerator, Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -21,6 +19,7 @@ import viser
 from sambot_viz import viser_private
 from sambot_viz.server.connection import Connection
 from sambot_viz.server.frame_cache import HEAVY, Batch, FrameCache, weight
+from sambot_viz.server.news import News
 
 
 def prepare(server: viser.ViserServer) -> None:
@@ -50,40 +49,16 @@ def _replace(
     buffer: viser_private.MessageBuffer,
     last_for: Callable[[int], float] = lambda _: math.inf,
 ) -> None:
-    cache, shared = FrameCache(), SharedBatch()
-    if not isinstance(buffer.message_event, LoopEvent):
-        buffer.message_event = LoopEvent(buffer.event_loop)
+    cache, shared, news = FrameCache(), SharedBatch(), News.of(buffer)
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = cast(Connection, viser_private.connection_of(server, client_id))
         last = last_for(client_id)
         cursor = MessageCursor(buffer, client_id, shared)
-        parts = batches(buffer, cursor, marker, backlog_end, last)
+        parts = batches(news, cursor, marker, backlog_end, last)
         return Sender(connection, cache, parts)
 
     viser_private.replace_window_loop(buffer, loop)
-
-
-class LoopEvent(asyncio.Event):
-    """Event that is only ever set from the event loop.
-
-    viser sets it in the thread that adds a message, and on the loop after that. The
-    first goes through those who wait while others come and go, which raises an error in
-    that thread every now and then, and wakes all of them twice.
-
-    Args:
-        loop: the event loop.
-    """
-
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
-        super().__init__()
-        self._home = loop
-
-    def set(self) -> None:
-        """Wake those who wait; in another thread that does nothing."""
-        with suppress(RuntimeError):
-            if asyncio.get_running_loop() is self._home:
-                super().set()
 
 
 class Sender:
@@ -125,7 +100,7 @@ class Sender:
 
 
 async def batches(
-    buffer: viser_private.MessageBuffer,
+    news: News,
     cursor: MessageCursor,
     marker: viser_private.Message | None,
     backlog_end: int,
@@ -134,42 +109,32 @@ async def batches(
     """Yield the messages for one client, several at a time, as they come.
 
     Args:
-        buffer: where they are.
+        news: tells how many may go out.
         cursor: how far the client has come.
         marker: a message that goes out right behind the backlog.
         backlog_end: number of the last message that was there when it came.
         last: number of the last message that is for this client.
     """
-    client_id = cursor.client_id
-    flush = buffer.event_loop.create_task(buffer.flush_event.wait())
+    buffer, client_id = news.buffer, cursor.client_id
     buffer.generator_cursors[client_id] = cursor.last
     try:
         while not buffer.done:
-            newest = int(min(buffer.message_counter - 1, last))
-            batch = cursor.next(newest if marker is None else min(newest, backlog_end))
+            due = backlog_end if marker is not None else max(news.end, backlog_end)
+            end = int(min(due, last))
+            batch = cursor.next(end)
             # viser forgets a removal when every client has had it.
             done = cursor.last if cursor.last < last else buffer.message_counter - 1
             buffer.generator_cursors[client_id] = done
-            replayed = cursor.last >= min(backlog_end, last)
-            if marker is not None and replayed and not cursor.held:
+            is_behind = cursor.last < end
+            if marker is not None and not is_behind and not cursor.held:
                 batch = batch.with_marker(marker)
                 marker = None
             if batch.messages:
                 yield batch
-            else:
-                await buffer.message_event.wait()
-                buffer.message_event.clear()
-            if not batch.messages or cursor.last >= min(
-                buffer.message_counter - 1, last
-            ):
-                await asyncio.wait([flush], timeout=buffer.window_duration_sec)
-                if flush.done() and not buffer.done:
-                    buffer.flush_event.clear()
-                    flush = buffer.event_loop.create_task(buffer.flush_event.wait())
+            elif not news.may_go_on(is_behind or marker is not None):
+                await news.wait()
     finally:
         buffer.generator_cursors.pop(client_id, None)
-        flush.cancel()
-        await asyncio.gather(flush, return_exceptions=True)
 
 
 @dataclass(slots=True)

@@ -19,6 +19,7 @@ from sambot_viz.viser_private.outgoing import (
     WindowLoop,
     broadcast_buffer,
     own_buffer,
+    replace_flush,
     replace_window_loop,
 )
 from sambot_viz.viser_private.recorder import Recorder
@@ -57,6 +58,7 @@ __all__ = [
     "own_buffer",
     "quiet_websockets",
     "remember_prop_types",
+    "replace_flush",
     "replace_window_loop",
     "send_value",
     "set_pose",

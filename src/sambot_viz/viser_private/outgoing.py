@@ -102,6 +102,27 @@ def replace_window_loop(
     vars(buffer)["_window_loop"] = loop
 
 
+def replace_flush(
+    buffer: Any, change_ended: Callable[[], None], flush: Callable[[], None]
+) -> None:
+    """Have a buffer call others when what it has shall go out at once.
+
+    Args:
+        buffer: one of viser's buffers of messages.
+        change_ended: is called when no change is being made any more (`atomic`).
+        flush: is called in place of the buffer's own flush.
+    """
+
+    def atomic_end() -> None:
+        with buffer.buffer_lock:
+            buffer.atomic_counter -= 1
+            is_last = buffer.atomic_counter == 0
+        if is_last:
+            change_ended()
+
+    buffer.atomic_end, buffer.flush = atomic_end, flush
+
+
 class Packer:
     """Packs messages as viser does, by the function of viser that sends them.
 
