@@ -11,6 +11,7 @@ const { connect, rows } = await import("../../src/sambot_viz/page/wire/channel.j
 const { folds } = await import("../../src/sambot_viz/page/state.js");
 const { members, moveBy, nearest, neighbour, place, places } =
   await import("../../src/sambot_viz/page/panels/display_order.js");
+const { forTopic } = await import("../../src/sambot_viz/page/panels/selected_display.js");
 
 /** @param {string} id @param {string} above @param {any} [more] */
 const display = (id, above = "", more = {}) => ({
@@ -122,6 +123,21 @@ test("a dragged display can go before and behind each other one, and into groups
       ["", 2, 60],
     ],
   );
+});
+
+test("a topic has a place before and behind each display", () => {
+  const found = places("", boxes(["options", "a", "g", "p", "q", "b"]));
+  assert.deepEqual(
+    found.filter(({ group }) => !group).map(({ index, y }) => [index, y]),
+    [
+      [0, 10],
+      [1, 20],
+      [2, 50],
+      [3, 60],
+    ],
+  );
+  assert.deepEqual(forTopic("/scan", "", "", found[0]), ["", "/scan", "", "", 0]);
+  assert.deepEqual(forTopic("/scan", "x/Y", "Mine"), ["x/Y", "/scan", "Mine", "", null]);
 });
 
 test("a folded group takes a display on its row", () => {

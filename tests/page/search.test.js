@@ -114,10 +114,10 @@ test("Enter in a search goes to what is found, and nowhere without a hit or a te
   const asked = [];
   globalThis.CSS = { escape: (id) => id };
   globalThis.document = { querySelector: (which) => void asked.push(which) };
-  const press = (key, value) => {
+  const press = (key, value, first) => {
     const cleared = [];
     const event = { key, target: { value }, preventDefault() {}, stopPropagation() {} };
-    searchKey(event, "displays", { clear: () => cleared.push(key) });
+    searchKey(event, "displays", { clear: () => cleared.push(key), first });
     return [...asked.splice(0), ...cleared];
   };
   try {
@@ -127,6 +127,15 @@ test("Enter in a search goes to what is found, and nowhere without a hit or a te
     assert.deepEqual(press("ArrowDown", "xyzzy"), []);
     assert.deepEqual(press("ArrowDown", ""), ['[data-panel="displays"] [data-row]']);
     assert.deepEqual(press("Escape", "x"), ["Escape"]);
+    // Where the server searches, the names of rows do not say what is found.
+    assert.deepEqual(
+      press("Enter", "camera/image", (text) => text && "leaf"),
+      ['[data-panel="displays"] [data-row="leaf"]'],
+    );
+    assert.deepEqual(
+      press("Enter", "wheel", () => undefined),
+      [],
+    );
   } finally {
     delete globalThis.CSS;
     delete globalThis.document;

@@ -61,7 +61,7 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("file/download", "file/page", "file/picture", "frames/show", "images/show"),
         "joints/copy",
         # What is drawn or listed in one page alone.
-        *("poses/show", "tools/double_click"),
+        *("add_by_topic/show", "poses/show", "tools/double_click"),
         *("permalink/copy", "permalink/open"),
         *(
             "role/request",

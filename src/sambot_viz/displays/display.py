@@ -24,6 +24,7 @@ from sambot_viz.displays.robot_display import (
     ModelReader,
     Repair,
     RobotDisplay,
+    WantedQos,
 )
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
@@ -272,6 +273,23 @@ class Display:
     def clear(self) -> None:
         """Take everything out of the scene."""
         raise NotImplementedError
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return the values with which a new display shows a topic, by path.
+
+        Args:
+            topic: its name.
+            type_name: of its messages.
+            qos: that suits the topic; None keeps the defaults.
+
+        Returns:
+            None when it shows nothing of such messages.
+        """
+        del topic, type_name, qos
+        return None
 
     @property
     def robot_display(self) -> RobotDisplay | None:

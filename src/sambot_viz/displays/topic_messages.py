@@ -35,6 +35,23 @@ def topics_of_types(types: Mapping[str, str], wanted: Collection[str]) -> Sequen
     return sorted(topic for topic, one in types.items() if one in wanted)
 
 
+def values_of_topic(
+    path: str, topic: str, qos: WantedQos | None
+) -> Mapping[str, object]:
+    """Return the values of a property that names a topic, and of its QoS, by path.
+
+    Args:
+        path: of the property.
+        topic: its name.
+        qos: that suits the topic; None keeps the defaults.
+    """
+    values: dict[str, object] = {path: topic}
+    if qos is not None:
+        values[f"{path}/Reliability Policy"] = qos.reliability
+        values[f"{path}/Durability Policy"] = qos.durability
+    return values
+
+
 class TopicMessages(Protocol):
     """The messages of the topics of a recording or of a live robot."""
 

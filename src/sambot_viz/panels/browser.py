@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
+from sambot_viz.panels.displays.add_by_topic import AddByTopicPanel
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.files import Files, FilesPanel
 from sambot_viz.panels.frames.frames import FramesPanel
@@ -81,10 +82,10 @@ class BrowserPanels:
         scene, roles, frames = session.scene, session.roles, session.frames
         keep, clients = displays.keep_unfolded, session.clients
         views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
-        data = session.data
-        topics: list[Panel] = []
-        if data is not None:
-            topics.append(TopicsPanel(data.topics, scene, remake))
+        found = None if session.data is None else session.data.topics
+        topics: list[Panel] = [AddByTopicPanel(found, scene, remake)]
+        if found is not None:
+            topics.append(TopicsPanel(found, scene, remake))
         person = roles.people.get(client.client_id)
         presents = roles.presented and person is not None and person.presenter
         paths = [PathsPanel(displays, document, scene)] if presents else []

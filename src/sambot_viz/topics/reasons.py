@@ -16,6 +16,7 @@ from sambot_viz.topics.robot_topics import (
     DESCRIPTION_TYPES,
     JOINT_STATE_TYPES,
     TRANSFORM_TYPES,
+    describes_robot,
 )
 
 SEVERITIES: Mapping[str, Severity] = {
@@ -41,15 +42,19 @@ SEVERITIES: Mapping[str, Severity] = {
 """All reasons of topics."""
 
 _CLASSES = {
+    "geometry_msgs/msg/AccelStamped": "AccelStamped",
     "geometry_msgs/msg/PointStamped": "PointStamped",
     "geometry_msgs/msg/PolygonStamped": "Polygon",
     "geometry_msgs/msg/PoseArray": "PoseArray",
     "geometry_msgs/msg/PoseStamped": "Pose",
     "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
+    "geometry_msgs/msg/TwistStamped": "TwistStamped",
+    "geometry_msgs/msg/WrenchStamped": "Wrench",
     "nav_msgs/msg/GridCells": "GridCells",
     "nav_msgs/msg/OccupancyGrid": "Map",
     "nav_msgs/msg/Odometry": "Odometry",
     "nav_msgs/msg/Path": "Path",
+    "sensor_msgs/msg/CameraInfo": "CameraInfo",
     "sensor_msgs/msg/CompressedImage": "Image",
     "sensor_msgs/msg/Image": "Image",
     "sensor_msgs/msg/FluidPressure": "FluidPressure",
@@ -69,9 +74,10 @@ _CLASSES = {
 DISPLAYS: Mapping[str, str] = {
     kind: f"rviz_default_plugins/{name}" for kind, name in _CLASSES.items()
 }
-"""Type of messages → the class of the display that draws them.
+"""Type of messages → the class of the display that usually draws them.
 
-A new display is a line here: the reasons and the button of the page follow.
+Displays declare the types that they draw; this is what is known of them without loading
+any, and which one comes first where several draw a type.
 """
 
 STALE = 5.0
@@ -101,7 +107,7 @@ class TopicReason:
 
 def display_of(name: str, type_name: str) -> str | None:
     """Return the class of the display that draws a topic; None when there is none."""
-    if type_name in DESCRIPTION_TYPES and not name.endswith("robot_description"):
+    if type_name in DESCRIPTION_TYPES and not describes_robot(name, type_name):
         return None
     return DISPLAYS.get(type_name)
 

@@ -56,8 +56,7 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
     found = [
         name
         for name, kind in types.items()
-        if kind in DESCRIPTION_TYPES
-        and (name in named or _last(name) == "robot_description")
+        if describes_robot(name, kind) or (name in named and kind in DESCRIPTION_TYPES)
     ]
     wanted = next((name for name in named if name in found), "")
     found.sort(key=lambda name: (name != wanted, name.count("/"), name))
@@ -71,6 +70,11 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
         _of(types, JOINT_STATE_TYPES, space, "joint_states"),
         tuple(found[1:]),
     )
+
+
+def describes_robot(name: str, type_name: str) -> bool:
+    """Return whether a topic describes a robot, by its name and type."""
+    return type_name in DESCRIPTION_TYPES and _last(name) == "robot_description"
 
 
 def stand_in_model(link: str = STAND_IN_LINK) -> str:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.robot_display import Repair, WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
+from sambot_viz.displays.topic_messages import (
+    TopicDoubt,
+    topics_of_types,
+    values_of_topic,
+)
 from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
 from sambot_viz.topics.subscription import Subscription
 
 TOPIC = "Topic"
 """The path of the property that names the topic, and the key of its status."""
-DESCRIPTION = "Description Topic"
-"""The same of a RobotModel."""
 NO_SOURCE = "No messages: open a recording or a live robot (--source)"
 MOST_WAITING = 100
 """So many messages wait between two pictures, of a display that draws each of them."""
@@ -39,26 +41,6 @@ def topic_property(
     )
 
 
-def topic_values(
-    declared: Collection[str], topic: str, qos: WantedQos | None
-) -> dict[str, object]:
-    """Return the values of properties that make a display draw a topic.
-
-    Args:
-        declared: the paths of its properties.
-        topic: its name.
-        qos: that suits the topic; None keeps the defaults.
-    """
-    path = next((one for one in (TOPIC, DESCRIPTION) if one in declared), None)
-    if path is None:
-        return {}
-    values: dict[str, object] = {path: topic}
-    if qos is not None:
-        values[f"{path}/Reliability Policy"] = qos.reliability
-        values[f"{path}/Durability Policy"] = qos.durability
-    return values
-
-
 class TopicDisplay(Display):
     """Draws the messages of a topic while it is shown; else they are not asked for.
 
@@ -78,6 +60,17 @@ class TopicDisplay(Display):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self.subscription: Subscription | None = None
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return the values of a new display that draws a topic of one of its types."""
+        if type_name not in cls.types:
+            return None
+        path = cls.topic_path
+        has_qos = any(one.name == path and one.children for one in cls.properties)
+        return values_of_topic(path, topic, qos if has_qos else None)
 
     # For the displays that derive from it
 

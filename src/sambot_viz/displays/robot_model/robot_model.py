@@ -8,7 +8,7 @@ from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.displays.robot_display import Repair, RobotDisplay
+from sambot_viz.displays.robot_display import Repair, RobotDisplay, WantedQos
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
@@ -36,11 +36,13 @@ from sambot_viz.displays.robot_model.status_repairs import (
     repairs,
     topic_status,
 )
+from sambot_viz.displays.topic_messages import values_of_topic
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
+from sambot_viz.topics.robot_topics import JOINT_STATE_TYPES, describes_robot
 
 Kind = Literal["visual", "collision"]
 _ShapeKey = tuple[str, Kind, int]
@@ -64,6 +66,17 @@ class RobotModelDisplay(TriangleDisplay):
         self._source = RobotSource(context, config, self._file_read)
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
         self._overlays = LinkOverlays(context, key, self.frame_of)
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return the values of one that shows a description, or what joints move."""
+        if type_name in JOINT_STATE_TYPES:
+            return {}
+        if not describes_robot(topic, type_name):
+            return None
+        return values_of_topic(TOPIC, topic, qos)
 
     def frame_of(self, link: str) -> str:
         """Return the TF frame of a link."""

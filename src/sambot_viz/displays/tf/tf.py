@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ import viser
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.nodes import (
     Handle,
     NodeCache,
@@ -37,6 +38,7 @@ from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.geometry import Vector3
 from sambot_viz.rviz import DisplayConfig, RegexProperty
 from sambot_viz.text import text
+from sambot_viz.topics.robot_topics import TRANSFORM_TYPES
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
@@ -76,6 +78,14 @@ class TfDisplay(TriangleDisplay):
         self._overlays: dict[str, _FrameOverlays] = {}
         self._arrows: dict[str, NodeCache] = {}
         self._ages = FrameAges(context)
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return no values: one display shows the transforms of all topics."""
+        del topic, qos
+        return {} if type_name in TRANSFORM_TYPES else None
 
     def time_passed(self) -> None:
         """Let frames that messages bring no more fade, and vanish."""

@@ -1,93 +1,72 @@
 // @ts-check
-/* Add: the types of displays with a sentence each, and a name. */
+/* Add: a display by its type or by its topic, and a name. */
 
-import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { rows } from "../wire/channel.js";
-import { Icon } from "../window/icons.js";
-import { makeDisplay } from "../panels/selected_display.js";
+import { html, useRef, useState } from "../vendor/preact.js";
+import { forTopic, makeDisplay } from "../panels/selected_display.js";
+import { selected, useRow } from "../state.js";
+import { PANEL, TopicTree } from "./add_by_topic.js";
+import { displayTypes, nameOf, TypeList } from "./add_by_type.js";
 import { Dialog } from "./dialog.js";
 
-/** @typedef {{kind: string, help: string, why?: string}} Type */
-
-/** "rviz_default_plugins/Axes" is "Axes". @param {string} kind */
-const nameOf = (kind) => kind.slice(kind.lastIndexOf("/") + 1);
-
-/** @param {Type} a @param {Type} b */
-const byName = (a, b) => nameOf(a.kind).localeCompare(nameOf(b.kind));
+/** The tabs, as RViz calls them. */
+const TABS = ["By display type", "By topic"];
 
 /** @param {{close: () => void}} props */
 export function AddDisplay({ close }) {
-  /** @type {Type[]} */
-  const types = [...(rows.data("displays/types") || [])].sort(byName);
-  const shown = types.filter((type) => !type.why),
-    others = types.filter((type) => type.why);
-  const [at, setAt] = useState(0);
-  const list = useRef(/** @type {any} */ (null)),
-    name = useRef(/** @type {any} */ (null));
-  const typed = useRef({ text: "", when: 0 });
-  useLayoutEffect(() => {
-    list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
-  }, [at]);
-  const chosen = shown[at];
+  const [tab, setTab] = useState(0);
+  const [kind, setKind] = useState(() => displayTypes()[0][0]?.kind || "");
+  const row = useRow(selected.use()[PANEL] || "none");
+  const name = useRef(/** @type {any} */ (null));
+  const byTopic = tab === 1;
+  /** @type {string | undefined} */
+  const chosen = byTopic ? row?.topic && row.display : kind;
   const add = () => {
     if (!chosen) return;
     const { value } = name.current;
     close();
-    makeDisplay("add", [chosen.kind, value], true);
+    if (byTopic) makeDisplay("add-topic", forTopic(row?.topic, chosen, value), true);
+    else makeDisplay("add", [chosen, value], true);
   };
-  /** @param {KeyboardEvent} event */
-  const key = (event) => {
-    const last = shown.length - 1;
-    if (event.key === "ArrowDown") setAt(Math.min(last, at + 1));
-    else if (event.key === "ArrowUp") setAt(Math.max(0, at - 1));
-    else if (event.key === "Home") setAt(0);
-    else if (event.key === "End") setAt(last);
-    else if (event.key === "Enter") add();
-    else if (/^\w$/.test(event.key) && !event.ctrlKey && !event.metaKey) find(event.key);
-    else return;
-    event.preventDefault();
-  };
-  /** Letters in quick succession find a name. @param {string} letter */
-  const find = (letter) => {
-    const now = Date.now();
-    typed.current = {
-      text: (now - typed.current.when < 1000 ? typed.current.text : "") + letter.toLowerCase(),
-      when: now,
-    };
-    const found = shown.findIndex((type) =>
-      nameOf(type.kind).toLowerCase().startsWith(typed.current.text),
-    );
-    if (found >= 0) setAt(found);
-  };
-  /** @param {Type} type @param {number} i */
-  const option = (
-    type,
-    i,
-  ) => html`<div role="option" id=${`add-${nameOf(type.kind)}`} key=${type.kind}
-    class=${`option${type.why ? " off" : ""}`}
-      aria-selected=${String(!type.why && i === at)} aria-disabled=${type.why ? "true" : undefined}
-      title=${type.why ? `${nameOf(type.kind)} ${type.why}` : type.kind}
-      onClick=${() => {
-        if (!type.why) setAt(i);
-      }} onDblClick=${() => {
-        if (!type.why) add();
-      }}>
-    <${Icon} name=${nameOf(type.kind)} /><b>${nameOf(type.kind)}</b><span>${type.help}</span>
-    </div>`;
   return html`<${Dialog} title="Add Display" close=${close} submit=${add} wide>
-    <div class="options" role="listbox" tabindex="0" aria-label="Display types" data-first
-      ref=${list} onKeyDown=${key}
-        aria-activedescendant=${chosen ? `add-${nameOf(chosen.kind)}` : undefined}>
-      <div role="group" aria-label="Shown here">${shown.map(option)}</div>
-      <div role="group" aria-labelledby="add-others"><div class="group"
-        id="add-others">Not shown here: each ${others[0]?.why || ""}</div>
-        ${others.map(option)}</div>
+    <${DialogTabs} at=${tab} go=${setTab} />
+    <div class="tabbed" role="tabpanel" id="add-panel" aria-label=${TABS[tab]}>
+      ${
+        byTopic
+          ? html`<${TopicTree} add=${add} />`
+          : html`<${TypeList} at=${kind} go=${setKind} add=${add} />`
+      }
     </div>
-    <label class="line">Name <input ref=${name} placeholder=${chosen ? nameOf(chosen.kind) : ""}
+    <label class="line">Name <input ref=${name} placeholder=${chosen ? nameOf(chosen) : ""}
       spellcheck=${false} autocomplete="off" maxlength="200" /></label>
     <div class="buttons end">
-      <button type="submit" class="main">Add</button>
+      <button type="submit" class="main" disabled=${!chosen}
+        title=${chosen ? undefined : "Select a topic or a display of it"}>Add</button>
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;
+}
+
+/** @param {{at: number, go: (tab: number) => void}} props */
+function DialogTabs({ at, go }) {
+  /** @param {Key} event */
+  const key = (event) => {
+    const last = TABS.length - 1;
+    const to = /** @type {Record<string, number>} */ ({
+      ArrowRight: at < last ? at + 1 : 0,
+      ArrowLeft: at > 0 ? at - 1 : last,
+      Home: 0,
+      End: last,
+    })[event.key];
+    if (to === undefined) return;
+    go(to);
+    /** @type {HTMLElement} */ (event.currentTarget.children[to]).focus();
+    event.preventDefault();
+  };
+  return html`<div class="tabs" role="tablist" aria-label="Choose" onKeyDown=${key}>
+    ${TABS.map(
+      (title, i) => html`<button type="button" role="tab" key=${title}
+        aria-selected=${String(i === at)} aria-controls=${i === at ? "add-panel" : undefined}
+        tabindex=${i === at ? 0 : -1} onClick=${() => go(i)}>${title}</button>`,
+    )}
+  </div>`;
 }

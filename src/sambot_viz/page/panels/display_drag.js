@@ -1,12 +1,15 @@
 // @ts-check
-/* A display that is dragged in its tree: a line shows where it would go; Esc puts it back. */
+/* A display that is dragged in its tree, or a topic that is dragged there: a line shows where it
+ * would go; Esc ends it. */
 
 import { act } from "../wire/channel.js";
 import { fold } from "../state.js";
 import { reveal } from "../tree/tree.js";
 import { members, nearest, places } from "./display_order.js";
+import { forTopic, makeDisplay } from "./selected_display.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
+/** @typedef {import("./display_order.js").Line} Line */
 
 /** So far a hand moves before a click is a drag [px]. */
 const SLACK = 5;
@@ -25,20 +28,61 @@ const INDENT = 14;
  * @param {HTMLElement} tree
  */
 export function dragDisplay(down, row, tree) {
-  if (row.display && down.pointerType !== "touch") new Drag(down, row, tree);
+  if (!row.display || down.pointerType === "touch") return;
+  new Drag(down, tree, {
+    source: rowIn(tree, row.id),
+    moved: row.id,
+    drop: (to) => {
+      if (to.group === row.in && to.index === members(row.in).indexOf(row.id)) return;
+      if (to.group) fold(to.group, true);
+      reveal("displays", row.id);
+      act("displays/move", [row.id, to.group, to.index]);
+    },
+  });
 }
 
+/**
+ * Follow a press on a topic, which may be dragged into the tree of the displays.
+ * @param {Press} down
+ * @param {Row} row
+ * @param {HTMLElement} from
+ */
+export function dragTopic(down, row, from) {
+  const tree = document.querySelector('[data-panel="displays"]');
+  if (row.in || row.kind === "note" || !tree || down.pointerType === "touch") return;
+  // Beside its name are texts that can be marked.
+  if (!down.target.closest(".name")) return;
+  new Drag(down, tree, {
+    source: rowIn(from, row.id),
+    refused: !row.display,
+    drop: (to) => {
+      if (to.group && row.display) fold(to.group, true);
+      // The server says why a topic cannot be shown.
+      makeDisplay("add-topic", forTopic(row.name || "", row.display, "", to), true);
+    },
+  });
+}
+
+/** @param {HTMLElement} tree @param {string} id */
+const rowIn = (tree, id) => tree.querySelector(`[data-row="${CSS.escape(id)}"]`);
+
 class Drag {
-  /** @param {Press} down @param {Row} row @param {HTMLElement} tree */
-  constructor(down, row, tree) {
-    this.row = row;
+  /**
+   * @param {Press} down
+   * @param {HTMLElement} tree where it can be dropped
+   * @param {{source: HTMLElement | null, moved?: string, refused?: boolean,
+   *   drop: (to: Line) => void}} what
+   *   source: its row; moved: the id of a display of the tree; refused: it has no place there
+   */
+  constructor(down, tree, what) {
+    this.what = what;
     this.tree = tree;
     this.box = /** @type {HTMLElement} */ (tree.parentElement);
     this.start = this.at = { x: down.clientX, y: down.clientY };
     this.line = document.createElement("div");
     this.line.className = "drop";
     this.frame = 0;
-    /** @type {import("./display_order.js").Line | undefined} */
+    /** @type {Line | undefined} */
     this.to = undefined;
     this.listeners = new AbortController();
     const { signal } = this.listeners;
@@ -52,9 +96,16 @@ class Drag {
     return this.line.isConnected;
   }
 
-  /** @param {string} id */
-  element(id) {
-    return this.tree.querySelector(`[data-row="${CSS.escape(id)}"]`);
+  /** Where it is dragged to and from. */
+  get trees() {
+    return [this.tree, this.what.source?.closest(".tree")].filter((tree) => tree != null);
+  }
+
+  /** Whether the hand is where it can be dropped: a display stays in its tree. */
+  get over() {
+    const { left, right, top, bottom } = this.box.getBoundingClientRect();
+    const { x, y } = this.at;
+    return Boolean(this.what.moved) || (x >= left && x <= right && y >= top && y <= bottom);
   }
 
   /** @param {PointerEvent} event */
@@ -68,8 +119,8 @@ class Drag {
 
   begin() {
     this.box.append(this.line);
-    this.tree.classList.add("dragging");
-    this.element(this.row.id)?.classList.add("dragged");
+    for (const tree of this.trees) tree.classList.add("dragging");
+    this.what.source?.classList.add("dragged");
     getSelection()?.removeAllRanges();
     this.scroll();
   }
@@ -78,51 +129,50 @@ class Drag {
   scroll() {
     const { top, bottom } = this.box.getBoundingClientRect();
     const by = this.at.y < top + EDGE ? -SCROLL : this.at.y > bottom - EDGE ? SCROLL : 0;
-    if (by) {
+    if (by && this.over) {
       this.box.scrollTop += by;
       this.draw();
     }
     this.frame = requestAnimationFrame(() => this.scroll());
   }
 
-  /** Show where the display would go. */
+  /** Show where it would go. */
   draw() {
+    const { moved = "", refused } = this.what;
     const origin = this.tree.getBoundingClientRect();
     const seen = this.box.getBoundingClientRect();
-    const all = places(this.row.id, (id) => this.element(id)?.getBoundingClientRect() ?? null);
-    const to = nearest(all, this.at.x - origin.left - MARGIN, this.at.y, INDENT);
+    const all = places(moved, (id) => rowIn(this.tree, id)?.getBoundingClientRect() ?? null);
+    const x = this.at.x - origin.left - MARGIN;
+    const to = this.over ? nearest(all, x, this.at.y, INDENT) : undefined;
     this.to = to;
-    this.unmark("into");
-    if (to?.into) this.element(to.into)?.classList.add("into");
-    this.line.hidden = !to || Boolean(to.into);
-    if (!to) return;
+    this.unmark();
+    this.line.hidden = !to || Boolean(to.into || refused);
+    if (refused && to) this.tree.classList.add("refuses");
+    if (refused || !to) return;
+    if (to.into) rowIn(this.tree, to.into)?.classList.add("into");
     const y = Math.min(Math.max(to.y, seen.top), seen.bottom);
     this.line.style.top = `${y - origin.top - 1}px`;
     this.line.style.left = `${MARGIN + to.depth * INDENT}px`;
   }
 
-  /** @param {string} name of a class */
-  unmark(name) {
-    for (const marked of this.tree.querySelectorAll(`.${name}`)) marked.classList.remove(name);
+  unmark() {
+    this.tree.classList.remove("refuses");
+    for (const marked of this.tree.querySelectorAll(".into")) marked.classList.remove("into");
   }
 
   end() {
     this.listeners.abort();
     cancelAnimationFrame(this.frame);
-    this.tree.classList.remove("dragging");
-    this.unmark("into");
-    this.unmark("dragged");
+    for (const tree of this.trees) tree.classList.remove("dragging");
+    this.unmark();
+    this.what.source?.classList.remove("dragged");
     this.line.remove();
   }
 
   drop() {
-    const { begun, row, to } = this;
+    const { begun, to } = this;
     this.end();
-    const stays = to && to.group === row.in && to.index === members(row.in).indexOf(row.id);
-    if (!begun || !to || stays) return;
-    if (to.group) fold(to.group, true);
-    reveal("displays", row.id);
-    act("displays/move", [row.id, to.group, to.index]);
+    if (begun && to) this.what.drop(to);
   }
 
   /** @param {KeyboardEvent} event */

@@ -10,6 +10,18 @@ const PANEL = "displays";
 /** How long the server and the rows of the displays may take [ms]. */
 const PATIENCE = 10000;
 
+/** What `displays/add-topic` takes, before its mark.
+ * @param {string} topic @param {string} [kind] of the display; the usual one without it
+ * @param {string} [name] @param {import("./display_order.js").Place} [place] the end without it
+ * @returns {any[]} */
+export const forTopic = (topic, kind = "", name = "", place) => [
+  kind,
+  topic,
+  name,
+  place?.group || "",
+  place?.index ?? null,
+];
+
 /**
  * Do what makes a display, and go there; other pages that show the robot do not.
  * @param {"add" | "add-topic" | "duplicate"} what @param {any[]} args @param {boolean} open whether it is

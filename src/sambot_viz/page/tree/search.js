@@ -116,17 +116,19 @@ export function firstFound(panel, text, finds = () => true) {
  * The keys of a search field: Enter and the arrow go to what is found first, the arrow without a
  * text to the first row of the panel.
  * @param {Key} event @param {string} panel
- * @param {{finds?: (row: Row) => boolean, enter?: string, clear: () => void}} does
- *   enter: what of a row has the focus after Enter
+ * @param {{finds?: (row: Row) => boolean, first?: (text: string) => string | undefined,
+ *   enter?: string, clear: () => void}} does
+ *   first: what is found, where the names of rows do not say it; enter: what of a row has the focus
+ *   after Enter
  * @returns {boolean | undefined} whether a row has the focus now; undefined for any other key
  */
-export function searchKey(event, panel, { finds, enter, clear }) {
+export function searchKey(event, panel, { finds, first: firstOf, enter, clear }) {
   const text = /** @type {HTMLInputElement} */ (event.target).value;
   let gone;
   if (event.key === "Escape" && text) clear();
   else if (event.key === "Enter" || event.key === "ArrowDown") {
     // The text decides: keys come faster than the page is drawn.
-    const first = firstFound(panel, text, finds);
+    const first = firstOf ? firstOf(text) : firstFound(panel, text, finds);
     const any = event.key === "ArrowDown" && !text.trim() ? "[data-row]" : null;
     const which = first ? `[data-row="${CSS.escape(first)}"]` : any;
     const row = which ? document.querySelector(`[data-panel="${panel}"] ${which}`) : null;

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sambot_viz.displays.data.topic_display import topic_values
+from sambot_viz.displays.by_topic import displays_of_topic
+from sambot_viz.displays.display import Display
 from sambot_viz.displays.registry import DISPLAYS, NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.command import INTEGER, TEXT, command
+from sambot_viz.panels.command import INTEGER, TEXT, Argument, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Json
@@ -15,6 +16,7 @@ from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.topics import reasons
 
 TYPES: list[Json] = [
     *({"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()),
@@ -62,15 +64,53 @@ class DisplayCommands(Panel):
         made = self._display_edits.add_display(kind, name=name.strip() or None)
         self._note(made, mark)
 
-    @command("displays/add-topic", TEXT, TEXT, TEXT, name="Add")
-    def _add_by_topic(self, kind: str, topic: str, mark: str) -> None:
-        """Add a display at the end that draws a topic."""
+    @command(
+        "displays/add-topic",
+        TEXT,
+        TEXT,
+        TEXT,
+        TEXT,
+        Argument(int, optional=True),
+        TEXT,
+        name="Add",
+    )
+    def _add_by_topic(
+        self,
+        kind: str,
+        topic: str,
+        name: str,
+        group: str,
+        index: int | None,
+        mark: str,
+    ) -> None:
+        """Add a display that shows a topic.
+
+        Args:
+            kind: of the display; empty for the one that usually shows it.
+            topic: its name.
+            name: of the display; empty for one after its class.
+            group: the row of the group that it goes into; empty for the top.
+            index: its place there; None for the end.
+            mark: of who asks.
+        """
         messages = self._scene.context.messages
-        if kind not in DISPLAYS or messages is None:
+        type_name = "" if messages is None else messages.types().get(topic, "")
+        if messages is None or not type_name:
+            raise UsageError(f"there is no topic {topic}")
+        if kind and kind not in DISPLAYS:
             raise UsageError(f"displays of type {row_text(kind)} cannot be added")
-        declared = [one.name for one in DISPLAYS[kind].properties]
-        values = topic_values(declared, topic, messages.offered(topic))
-        self._note(self._display_edits.add_display(kind, values=values), mark)
+        display = DISPLAYS[kind] if kind else _usual_display(topic, type_name)
+        values = display.topic_values(topic, type_name, messages.offered(topic))
+        if values is None:
+            raise UsageError(f"{row_text(kind)} does not show {type_name}")
+        into = self._displays.display_of(group) if group else None
+        made = self._display_edits.add_display(
+            display.kind,
+            name=name.strip() or None,
+            values=values,
+            place=None if index is None else (index, into),
+        )
+        self._note(made, mark)
 
     @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:
@@ -97,3 +137,15 @@ class DisplayCommands(Panel):
     def _move(self, row_id: str, group: str, index: int) -> None:
         into = self._displays.display_of(group) if group else None
         self._display_edits.move_display(self._displays.display_of(row_id), index, into)
+
+
+def _usual_display(topic: str, type_name: str) -> type[Display]:
+    """Return what a topic is usually shown with.
+
+    Raises:
+        UsageError: nothing shows it.
+    """
+    found = displays_of_topic(topic, type_name)
+    if not found:
+        raise UsageError(f"{topic}: {reasons.no_display(type_name, ()).text}")
+    return found[0]

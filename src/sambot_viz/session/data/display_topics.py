@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, Literal
 
 from sambot_viz.displays.robot_display import WantedQos
@@ -94,6 +94,7 @@ class RecordedDisplayTopics(DisplayTopics):
         super().__init__(Decoding(recorded.decoding.types).decode)
         self._recorded = recorded
         self._player = player
+        self._types: Mapping[str, str] = {}
 
     def now_ns(self) -> int:
         """Return the log time of the player [ns]."""
@@ -101,12 +102,12 @@ class RecordedDisplayTopics(DisplayTopics):
 
     def types(self) -> Mapping[str, str]:
         """Return the types of the messages of all topics, by their names."""
+        topics = self._recorded.recording.topics
+        if len(self._types) != len(topics):
+            # Those of a growing recording become more.
+            decoder = self._recorded.decoder
+            self._types = {name: decoder(one).type_name for name, one in topics.items()}
         return self._types
-
-    @cached_property
-    def _types(self) -> Mapping[str, str]:
-        topics = self._recorded.recording.topics.items()
-        return {name: self._recorded.decoder(one).type_name for name, one in topics}
 
     def offered(self, topic: str) -> WantedQos | None:
         """Return the quality of service that suits a topic; None if not known."""
@@ -121,7 +122,7 @@ class RecordedDisplayTopics(DisplayTopics):
         recorded = self._recorded
         known = recorded.recording.topics.get(topic)
         if known is None:
-            return not_there(topic, types, self._types)
+            return not_there(topic, types, self.types())
         decoder = recorded.decoder(known)
         if decoder.type_name not in types:
             return wrong_type(types, decoder.type_name)

@@ -165,6 +165,7 @@ class DisplayEdits:
         after: DisplayConfig | None = None,
         name: str | None = None,
         values: Mapping[str, object] | None = None,
+        place: tuple[int, DisplayConfig | None] | None = None,
     ) -> DisplayConfig:
         """Add a display with RViz's defaults, switched on.
 
@@ -173,14 +174,19 @@ class DisplayEdits:
             after: the display behind which it goes; the end of all when not given.
             name: its label; by default one after its class that no other display has.
             values: of properties that are not to have their defaults, by path.
+            place: the index from 0 and the group, None for the top, where it goes.
 
         Raises:
-            UsageError: `after` is not in the document, or there are too many.
+            UsageError: `after` or the group is not in the document, or there are too
+                many.
         """
         self._require_room([])
+        group = None
         if after is not None:
             self._require(after)
-        group = after.parent if after is not None else None
+            group = after.parent
+        if place is not None and place[1] is not None:
+            self._require(place[1])
         label = self._free_name(short_name(kind)) if name is None else name
         with self._change():
             config = self._document.config.add_display(
@@ -188,6 +194,9 @@ class DisplayEdits:
             )
             for path, value in (values or {}).items():
                 config.set(path, value)
+            if place is not None:
+                # A document puts new displays behind others.
+                self._document.config.move(config, *place)
             self._added(f"Add {label}", config)
         return config
 
