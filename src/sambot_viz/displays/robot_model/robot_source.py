@@ -9,15 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, Status
-from sambot_viz.displays.robot_display import (
-    Description,
-    ModelRequest,
-    ModelResult,
-    WantedQos,
-)
+from sambot_viz.displays.robot_display import ModelResult, WantedQos
+from sambot_viz.displays.robot_model.described_robot import Change, DescribedRobot
 from sambot_viz.displays.robot_model.description_file import (
     find_below,
     find_description,
@@ -32,11 +27,9 @@ from sambot_viz.rviz import DisplayConfig
 FILE = "Description File"
 TOPIC = "Description Topic"
 
-Change = Literal["none", "edited", "other"]
 
-
-class RobotSource:
-    """Chooses the robot of one display, and reads it when it is not the opened one.
+class RobotSource(DescribedRobot):
+    """Chooses the robot of a RobotModel, and reads it when it is not the opened one.
 
     Args:
         context: the opened robot and the reader of models.
@@ -44,11 +37,7 @@ class RobotSource:
         on_read: called when a model has been read, or could not be.
 
     Attributes:
-        robot: the robot to draw, or None while there is none.
-        is_opened: it is the one that was opened.
         files: the files that a robot of its own comes from.
-        status: why there is no robot, or not the latest one; None when all is well.
-        described: what "Description Topic" says; None where no messages come.
     """
 
     def __init__(
@@ -57,15 +46,9 @@ class RobotSource:
         config: DisplayConfig,
         on_read: Callable[[], None],
     ) -> None:
-        self.robot: Robot | None = None
-        self.is_opened = False
+        super().__init__(context, self._named_topic, on_read)
         self.files: tuple[Path, ...] = ()
-        self.status: Status | None = None
-        self.described: Description | None = None
-        self._context = context
         self._config = config
-        self._on_read = on_read
-        self._source: tuple[object, ...] = ()
         self._looked_for: tuple[object, ...] = ()
         self._found: Path | None = None
 
@@ -75,56 +58,27 @@ class RobotSource:
         return self._source[:1] == ("File",)
 
     def choose(self) -> Change:
-        """Take the robot that the properties ask for.
-
-        Returns:
-            "edited" when it is another version of the opened robot, "other" when it
-            is another robot.
-        """
-        source = self._wanted()
-        if source == self._source:
-            return "none"
-        before, self._source = self._source, source
-        was_opened, self.status = self.is_opened, None
-        of_topic = before[:1] in (("Text",), ("Opened",), ("Gone",))
-        if of_topic and source[0] != "Opened" and not self.from_file:
-            # The last good robot stays, until the new one is read.
-            if source[0] == "Text":
-                self._read(self.described, trusted=False)
-            return "none"
-        self.robot, self.files = None, ()
-        self.is_opened = source[0] == "Opened"
-        if self.is_opened:
-            self.robot = self._context.robot
-        elif source[0] == "Text":
-            self._read(self.described, trusted=False)
-        elif self.from_file:
-            self._read_file()
-        return "edited" if self.is_opened and was_opened else "other"
+        """Take the robot that the properties ask for (see `DescribedRobot.choose`)."""
+        change = super().choose()
+        if change != "none":
+            self.files = ()
+            if self.from_file:
+                self._read_file()
+        return change
 
     def _wanted(self) -> tuple[object, ...]:
-        """Return what the properties ask for."""
-        self.described = None
         if self._config.get("Description Source") == "File":
+            self.described = None
             return ("File", *self._named_file())
-        topic = str(self._config.get(TOPIC))
-        if self._context.descriptions is not None and topic:
-            # As ROS completes the name of a node without a namespace.
-            topic = f"/{topic.removeprefix('/')}"
-            qos = WantedQos(
-                str(self._config.get(f"{TOPIC}/Reliability Policy")),
-                str(self._config.get(f"{TOPIC}/Durability Policy")),
-            )
-            self.described = self._context.descriptions.of(topic, qos)
-            if self.described.text is not None:
-                return ("Text", topic, self.described.text)
-            if not self.described.is_opened:
-                return ("Gone",)
-        return ("Opened", id(self._context.robot))
+        return super()._wanted()
 
-    def forget(self) -> None:
-        """Choose again from the start when the robot is next asked for."""
-        self._source = ()
+    def _named_topic(self) -> tuple[str, WantedQos]:
+        get = self._config.get
+        qos = WantedQos(
+            str(get(f"{TOPIC}/Reliability Policy")),
+            str(get(f"{TOPIC}/Durability Policy")),
+        )
+        return str(get(TOPIC)), qos
 
     def read_again(self) -> None:
         """Read "Description File" again; the last good robot stays until then."""
@@ -181,38 +135,16 @@ class RobotSource:
         self.files = tuple(dict.fromkeys((path, *self.files)))
         self._read(path, trusted)
 
-    def _read(self, model: Path | Description | None, trusted: bool) -> None:
-        """Start reading a file, or what a topic has sent; `_take` gets the result."""
-        models = self._context.models
-        if model is None or models is None:
-            return
-        if self.robot is None:
-            what = "file" if isinstance(model, Path) else "of the topic"
-            self.status = Status("Warn", f"The model {what} is still being read")
-        source = self._source
-
-        def done(result: ModelResult) -> None:
-            self._context.apply(lambda: self._take(source, trusted, result))
-
-        models.read(ModelRequest(self, model, trusted, done))
-
     def _take(
         self, source: tuple[object, ...], trusted: bool, result: ModelResult
     ) -> None:
-        """Keep what was read, unless another robot is wanted by now."""
-        if source != self._source:
-            return
-        if isinstance(result, Robot):
-            self.robot, self.status, self.is_opened = result, None, False
-            if self.from_file:
-                self.files = tuple(dict.fromkeys((*self.files[:1], *result.files)))
-        else:
-            # A browser could name any file: its text is not quoted. That of a topic is
-            # no secret.
-            told = trusted or not self.from_file
-            why = result.problems[0].message if told else "see `sambot-viz check`"
-            self.status = Status("Error", f"URDF failed Model parse: {why}")
-        self._on_read()
+        if source == self._source and self.from_file and isinstance(result, Robot):
+            self.files = tuple(dict.fromkeys((*self.files[:1], *result.files)))
+        super()._take(source, trusted, result)
+
+    def _may_quote(self, trusted: bool) -> bool:
+        # A browser could name any file.
+        return trusted or not self.from_file
 
 
 def publish_frames(
