@@ -19,6 +19,7 @@ from sambot_viz.displays.data.cloud.point_clouds import (
     PointCloudDisplay,
 )
 from sambot_viz.displays.data.depth_cloud.depth_cloud import DepthCloudDisplay
+from sambot_viz.displays.data.effort.effort import EffortDisplay
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.map import MapDisplay
@@ -62,7 +63,6 @@ NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence
     for name, sentence in {
         "Camera": "A camera image with the scene overlaid.",
-        "Effort": "The efforts of the joints as arrows about their axes.",
         "InteractiveMarkers": "Markers that can be clicked and dragged.",
     }.items()
 }
@@ -76,6 +76,7 @@ DISPLAYS: dict[str, type[Display]] = {
         AxesDisplay,
         CameraInfoDisplay,
         DepthCloudDisplay,
+        EffortDisplay,
         FluidPressureDisplay,
         GridCellsDisplay,
         GridDisplay,

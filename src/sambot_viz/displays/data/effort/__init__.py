@@ -1,0 +1,1 @@
+"""Effort: how hard each joint turns."""
