@@ -17,7 +17,14 @@ import numpy as np
 
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import BlockBag
-from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
+from sambot_viz.sources.bag.blocks import (
+    Block,
+    Entries,
+    Numbers,
+    Places,
+    Times,
+    sorted_entries,
+)
 from sambot_viz.sources.bag.db3_file import Database, open_database
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.latched import is_latched
@@ -141,8 +148,8 @@ class Db3Bag(BlockBag):
         rows: list[tuple[Any, ...]] = []
         with self._reading:
             try:
-                for row in self._database.connection.execute(query, (last,)):
-                    rows.append(row[:3])
+                # It keeps those before one that cannot be read.
+                rows.extend(self._database.connection.execute(query, (last,)))
             except sqlite3.ProgrammingError as error:
                 raise ValueError("the file was closed") from error
             except sqlite3.Error:
@@ -150,18 +157,12 @@ class Db3Bag(BlockBag):
         return rows, False
 
     def _add_rows(self, rows: list[tuple[Any, ...]]) -> None:
-        fitting = [
-            row
-            for row in rows
-            if all(isinstance(value, int) for value in row)
-            and row[2] >= 0
-            and row[1] in self._channels
-        ]
-        if not fitting:
+        table = _numbers(rows)
+        fitting = (table[:, 2] >= 0) & np.isin(table[:, 1], list(self._channels))
+        if not fitting.any():
             return
-        places = np.array([row[0] for row in fitting], np.int64)
-        channels = np.array([row[1] for row in fitting], np.int64)
-        times = np.array([row[2] for row in fitting], np.uint64)
+        places, channels = table[fitting, 0], table[fitting, 1]
+        times: Times = table[fitting, 2].astype(np.uint64)
         self.damage.add_times(times, channels)
         entries = sorted_entries(times, channels, places, None)
         start, end = int(entries.times[0]), int(entries.times[-1])
@@ -203,6 +204,17 @@ class Db3Bag(BlockBag):
         super().close()
         with self._reading:
             self._database.close()
+
+
+def _numbers(rows: list[tuple[Any, ...]]) -> Places:
+    """Return the first three columns of rows, (N, 3), without rows of other values."""
+    if rows and len(rows[0]) > 3:
+        rows = [row[:3] for row in rows]
+    table: Numbers = np.array(rows)
+    if table.dtype != np.int64:
+        whole = [row for row in rows if all(isinstance(one, int) for one in row)]
+        table = np.reshape(np.array(whole, np.int64), (len(whole), 3))
+    return table
 
 
 def _definition(kind: str, definitions: dict[str, Schema]) -> Schema:
