@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,22 +27,19 @@ def described(*links: str, radius: float = 0.2) -> str:
     return f'<robot name="{links[0]}">{"".join(parts)}</robot>'
 
 
-def write_recording(
-    path: Path,
-    texts: Mapping[str, str],
-    told: Told = (),
-    empty: Mapping[str, str] | None = None,
-    scans: Sequence[tuple[float, float]] = (),
+Message = tuple[str, str, int, object]
+"""Topic, type, log time [ns], and what rosbags writes of it."""
+
+
+def write_messages(
+    path: Path, messages: Iterable[Message], empty: Mapping[str, str] | None = None
 ) -> Path:
-    """Write an mcap file.
+    """Write an mcap file of messages of ROS 2.
 
     Args:
         path: of the file.
-        texts: topic → a text that it sends at the start.
-        told: transforms; each is as many metres along x as its stamp says.
+        messages: in the order of their times.
         empty: topic without a message → its type.
-        scans: stamp and log time of messages of /scan in the frame base [s from the
-            start].
 
     Returns:
         The path.
@@ -63,24 +60,52 @@ def write_recording(
                 channels[topic] = writer.register_channel(topic, "cdr", schema)
             return channels[topic]
 
-        def add(topic: str, name: str, seconds: float, message: object) -> None:
+        for topic, name, time, message in messages:
             data = bytes(store.serialize_cdr(message, name))
-            time = START * 1_000_000_000 + round(seconds * 1e9)
             writer.add_message(channel(topic, name), time, data, time)
-
-        for topic, text in texts.items():
-            name = "std_msgs/msg/String"
-            add(topic, name, 0.0, store.types[name](text))
-        for topic, seconds, frames in told:
-            message = transforms_message(store, seconds, frames)
-            add(topic, "tf2_msgs/msg/TFMessage", seconds, message)
-        for stamp, seconds in scans:
-            name = "sensor_msgs/msg/LaserScan"
-            add("/scan", name, seconds, scan_message(store, stamp))
         for topic, name in (empty or {}).items():
             channel(topic, name)
         writer.finish()
     return path
+
+
+def write_recording(
+    path: Path,
+    texts: Mapping[str, str],
+    told: Told = (),
+    empty: Mapping[str, str] | None = None,
+    scans: Sequence[tuple[float, float]] = (),
+) -> Path:
+    """Write an mcap file.
+
+    Args:
+        path: of the file.
+        texts: topic → a text that it sends at the start.
+        told: transforms; each is as many metres along x as its stamp says.
+        empty: topic without a message → its type.
+        scans: stamp and log time of messages of /scan in the frame base [s from the
+            start].
+
+    Returns:
+        The path.
+    """
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+
+    def at(topic: str, name: str, seconds: float, message: object) -> Message:
+        return topic, name, START * 1_000_000_000 + round(seconds * 1e9), message
+
+    text, moved = "std_msgs/msg/String", "tf2_msgs/msg/TFMessage"
+    said = store.types[text]
+    messages = [at(topic, text, 0.0, said(one)) for topic, one in texts.items()]
+    for topic, seconds, frames in told:
+        sent = transforms_message(store, seconds, frames)
+        messages.append(at(topic, moved, seconds, sent))
+    for stamp, seconds in scans:
+        sent = scan_message(store, stamp)
+        messages.append(at("/scan", "sensor_msgs/msg/LaserScan", seconds, sent))
+    return write_messages(path, messages, empty)
 
 
 def transforms_message(store: Any, seconds: float, frames: Mapping[str, str]) -> object:

@@ -46,6 +46,7 @@ def test_a_map_says_what_rviz_says(messages: Open) -> None:
     shown = messages("Map", grid(2, 2, [0, 50, 100, -1]))
     assert shown.statuses == {
         "Topic": ("Ok", "1 messages received at 0.0 hz."),
+        "Update Topic": ("Ok", "OK"),
         "Message": ("Ok", "Map received"),
         "Map": ("Ok", "Map OK"),
         "Transform": ("Ok", "Transform OK"),
@@ -58,7 +59,7 @@ def test_a_map_says_what_rviz_says(messages: Open) -> None:
     [
         (grid(0, 5, [1]), "Map", "Map is zero-sized (0x5)"),
         (grid(2, 2, [1, 2, 3]), "Map", "width = 2, height = 2, data size = 3"),
-        (grid(1, 1, [1], float("nan")), "Message", "invalid floating point values"),
+        (grid(1, 1, [1], float("nan")), "Map", "invalid floating point values"),
         (grid(1, 1, [1], 0.0), "Map", "0 m wide"),
     ],
 )
@@ -134,7 +135,7 @@ def test_an_empty_path_and_one_without_numbers_show_nothing(messages: Open) -> N
     shown = messages("Path", path_of(0, float("nan")))
     assert shown.node_names() == []
     text = "Message contained invalid floating point values (nans or infs)"
-    assert shown.statuses["Message"] == ("Error", text)
+    assert shown.statuses["Topic"] == ("Error", text)
 
 
 def odometry(x: float, w: float = 1.0) -> Make:
@@ -171,7 +172,7 @@ def test_odometry_keeps_poses_that_are_apart(messages: Open) -> None:
 
 def test_a_quaternion_of_another_length_is_refused(messages: Open) -> None:
     shown = messages("Odometry", odometry(0.0, 33.0))
-    assert "unnormalized quaternion" in shown.statuses["Message"][1]
+    assert "unnormalized quaternion" in shown.statuses["Topic"][1]
     assert kept(shown) == 0
 
 

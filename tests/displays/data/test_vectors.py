@@ -123,22 +123,22 @@ def test_a_vector_that_is_no_number_is_refused(
 ) -> None:
     shown = messages(kind, of(kind, (1.0, 0.0, 0.0), (0.0, bad, 0.0)))
     text = "Message contained invalid floating point values (nans or infs)"
-    assert shown.statuses["Message"] == ("Error", text)
+    assert shown.statuses["Topic"] == ("Error", text)
     assert shown.node_names() == []
 
 
 def test_what_is_nan_of_a_wrench_may_be_zero(messages: Open) -> None:
     shown = messages("Wrench", of("Wrench", (1.0, NAN, 0.0), (NAN, NAN, NAN)))
-    assert shown.statuses["Message"][0] == "Error"
+    assert shown.statuses["Topic"][0] == "Error"
     shown.set("Accept NaN Values", True)
     assert solids(shown) == 1
-    assert "Message" not in shown.statuses
+    assert shown.statuses["Topic"][0] == "Ok"
     shown.set("Accept NaN Values", False)
-    assert shown.statuses["Message"][0] == "Error"
+    assert shown.statuses["Topic"][0] == "Error"
     assert shown.node_names() == []
 
 
 def test_infinity_is_refused_where_nan_is_not(messages: Open) -> None:
     made = of("Wrench", (float("inf"), 0.0, 0.0), (0.0, 0.0, 0.0))
     shown = messages("Wrench", made, **{"Accept NaN Values": True})
-    assert shown.statuses["Message"][0] == "Error"
+    assert shown.statuses["Topic"][0] == "Error"

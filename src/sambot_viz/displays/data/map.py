@@ -178,6 +178,12 @@ class MapDisplay(TopicDisplay):
             position=position_of(T),
         )
 
+    def report_topic(self) -> None:
+        """Set the statuses of both topics."""
+        super().report_topic()
+        if self.context.messages is not None and self.topic:
+            self.status.set(UPDATE_TOPIC, "Ok", "OK")
+
     def notes(self) -> dict[str, str]:
         """Return what is known of the map."""
         notes = dict(super().notes())
@@ -219,7 +225,7 @@ class MapDisplay(TopicDisplay):
                 else:
                     self._take_update(message)
         except MessageRefused as refused:
-            self.status.set(refused.key, "Error", refused.text)
+            self.status.set(key, "Error", refused.text)
 
     def _take_map(self, message: Any) -> None:
         info, data = message.info, np.asarray(message.data, np.int8)
@@ -230,19 +236,18 @@ class MapDisplay(TopicDisplay):
         x, y, z = point_of(info.origin.position)
         w, qx, qy, qz = wxyz_of(info.origin.orientation)
         if width * height == 0:
-            raise MessageRefused(f"Map is zero-sized ({width}x{height})", MAP)
+            raise MessageRefused(f"Map is zero-sized ({width}x{height})")
         if width * height != len(data):
             raise MessageRefused(
                 f"Data size doesn't match width*height: width = {width}, height = "
-                f"{height}, data size = {len(data)}",
-                MAP,
+                f"{height}, data size = {len(data)}"
             )
         if len(data) > MOST_CELLS:
             text = f"It has {len(data):,} cells: at most {MOST_CELLS:,} are drawn"
-            raise MessageRefused(text, MAP)
+            raise MessageRefused(text)
         resolution = float(info.resolution)
         if not 0.0 < resolution < math.inf:
-            raise MessageRefused(f"Its cells are {resolution:g} m wide", MAP)
+            raise MessageRefused(f"Its cells are {resolution:g} m wide")
         frame, self._stamp_ns = frame_and_stamp(message)
         self._frame = frame or "map"
         T = np.eye(4)
@@ -263,7 +268,7 @@ class MapDisplay(TopicDisplay):
         data = np.asarray(message.data, np.int8)
         is_inside = 0 <= x <= columns - width and 0 <= y <= rows - height
         if not is_inside or len(data) != width * height:
-            raise MessageRefused("update area outside of original map area", UPDATE)
+            raise MessageRefused("update area outside of original map area")
         self._cells[y : y + height, x : x + width] = unsigned(data, height, width)
         self.status.set(UPDATE, "Ok", "Update OK")
 

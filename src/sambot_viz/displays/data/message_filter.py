@@ -25,8 +25,11 @@ LONGEST_WAIT_NS = 1_000_000_000
 KEPT_DEPTH_S = 60.0
 """After a jump in a recording, older messages are not looked for where several are
 shown [s]."""
-_NEVER = ("extrapolation-past", "empty-name")
-"""What will not be known later either."""
+
+
+def is_final(refused: LookupRefused) -> bool:
+    """Return whether the place of a frame will not be known later either."""
+    return refused.reason == "extrapolation-past" or not refused.source
 
 
 class _Held:
@@ -133,6 +136,7 @@ class MessageFilterDisplay(TopicDisplay):
         self._held.clear()
         self._drawn.clear()
         self._drawn_in = self.context.fixed_frame
+        self.refusal = ""
         self.drop()
         for key in (TRANSFORM, MESSAGE):
             self.status.remove(key)
@@ -163,14 +167,23 @@ class MessageFilterDisplay(TopicDisplay):
             self._report_waiting()
 
     def _try(self) -> None:
-        last_only, is_new = self.needs_last_only, False
+        last_only, is_new, is_fine = self.needs_last_only, False, True
         for one in reversed(self._held) if last_only else tuple(self._held):
             one.refused = None
-            if self._is_done(one):
+            try:
+                is_done = self._is_done(one)
+            except MessageRefused as refused:
+                self._refuse(refused)
+                # Of what is newer than all that is drawn the statuses go on to say so.
+                is_fine = not last_only
+                continue
+            if is_done:
                 if last_only:
                     self._drawn.clear()
                 self._drawn.append(one)
                 is_new = True
+                if is_fine:
+                    self._say_fine()
                 if last_only:
                     break
         if is_new:
@@ -195,31 +208,52 @@ class MessageFilterDisplay(TopicDisplay):
         self._held = deque(reversed(kept[:size]))
 
     def _is_done(self, one: _Held) -> bool:
-        """Take a message if it has a place; return whether that was done."""
+        """Take a message if it has a place; return whether that was done.
+
+        Raises:
+            MessageRefused: it cannot be drawn.
+        """
         try:
             with refusing():
                 T_fixed_frame = self.place(one.message)
+                self.say_placed()
                 self.process(one.message, T_fixed_frame, one.recorded)
         except LookupRefused as refused:
-            if refused.reason in _NEVER:
+            if is_final(refused):
                 self.status.set(TRANSFORM, "Error", refused.rviz_text)
             else:
                 one.refused = refused
             return False
-        except MessageRefused as refused:
-            self.status.set(refused.key, "Error", refused.text)
-            return False
         finally:
             one.forget()
+        return True
+
+    def say_placed(self) -> None:
+        """Say that a message has a place."""
         self.status.set(TRANSFORM, "Ok", "Transform OK")
+
+    def _refuse(self, refused: MessageRefused) -> None:
+        if refused.key == TOPIC:
+            self.refusal = refused.text
+            self.report_topic()
+        else:
+            self.status.set(refused.key, "Error", refused.text)
+
+    def _say_fine(self) -> None:
+        """Say nothing any longer of what was wrong with messages before."""
+        if self.refusal:
+            self.refusal = ""
+            self.report_topic()
         if MESSAGE in self.status.rows:
             self.status.set(MESSAGE, "Ok", "OK")
-        return True
 
     def _report_waiting(self) -> None:
         """Say why nothing is shown; RViz says nothing for as long as there is room."""
         messages = self.context.messages
         if self._drawn or not self._held or messages is None:
+            return
+        said = self.status.rows.get(TRANSFORM)
+        if said is not None and said.level == "Error":
             return
         oldest = self._held[0]
         waited = messages.now_ns() - oldest.recorded.log_ns

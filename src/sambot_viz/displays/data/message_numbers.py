@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
+from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz
 
@@ -25,7 +26,7 @@ def require_finite(values: Iterable[float]) -> None:
         MessageRefused: with RViz's sentence.
     """
     if not all(math.isfinite(value) for value in values):
-        raise MessageRefused(INVALID_FLOATS)
+        raise MessageRefused(INVALID_FLOATS, TOPIC)
 
 
 def point_of(point: Any) -> Vector3:
@@ -65,7 +66,7 @@ def points_of(points: Any) -> Floats:
     require_few(len(points))
     found = coordinates_of(points)
     if not np.isfinite(found).all():
-        raise MessageRefused(INVALID_FLOATS)
+        raise MessageRefused(INVALID_FLOATS, TOPIC)
     return found
 
 

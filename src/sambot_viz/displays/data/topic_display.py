@@ -49,6 +49,8 @@ class TopicDisplay(Display):
 
     Attributes:
         subscription: its messages; None while it has none.
+        refusal: what is wrong with the newest message, said in place of how many have
+            come; empty for nothing.
     """
 
     types: ClassVar[frozenset[str]]
@@ -60,6 +62,7 @@ class TopicDisplay(Display):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self.subscription: Subscription | None = None
+        self.refusal = ""
 
     @classmethod
     def topic_values(
@@ -189,6 +192,8 @@ class TopicDisplay(Display):
         doubt = self._doubt()
         if doubt is not None:
             return Status(doubt.level, doubt.sentence)
+        if self.refusal:
+            return Status("Error", self.refusal)
         subscription = self.subscription
         count = subscription.count[self.topic] if subscription is not None else 0
         if not count or subscription is None:

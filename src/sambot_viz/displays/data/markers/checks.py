@@ -117,6 +117,8 @@ def _warnings(marker: Any, kind: int) -> Iterator[str]:
         yield "All points are fully transparent (colors[].a is 0.0)."
     if kind not in (ARROW, *_WITH_POINTS) and len(marker.points):
         yield "Non-empty points array is ignored."
+    if kind != TEXT and marker.text:
+        yield "Non-empty text is ignored."
 
 
 def _has_own_colors(marker: Any, kind: int) -> bool:
@@ -129,7 +131,7 @@ def _has_own_colors(marker: Any, kind: int) -> bool:
 def _about_scale(kind: int, scale: Any, points: int) -> Iterator[str]:
     if kind in LINES:
         if scale.x == 0.0:
-            yield "Width of LINE_LIST or LINE_STRIP is 0.0 (scale.x)."
+            yield "Width LINE_LIST or LINE_STRIP is 0.0 (scale.x)."
     elif kind == POINTS:
         if scale.x == 0.0 or scale.y == 0.0:
             yield "Width and/or height of POINTS is 0.0 (scale.x, scale.y)."

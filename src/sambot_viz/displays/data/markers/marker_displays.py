@@ -8,11 +8,15 @@ from typing import Any, ClassVar
 
 from sambot_viz.displays.data.markers.markers import Markers
 from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
-from sambot_viz.displays.data.message_filter import TRANSFORM, MessageFilterDisplay
+from sambot_viz.displays.data.message_filter import (
+    TRANSFORM,
+    MessageFilterDisplay,
+    is_final,
+)
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
-from sambot_viz.frames import Transform
+from sambot_viz.frames import LookupRefused, Transform
 from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
@@ -81,10 +85,22 @@ class MarkerDisplay(MessageFilterDisplay):
         return kept[::-1]
 
     def place(self, message: Any) -> Transform:
-        """Return where the frame of a marker is; those of arrays have one each."""
+        """Return where the frame of a marker is; those of arrays have one each.
+
+        Of what will never have a place the marker's own status says so.
+        """
         if hasattr(message, "markers"):
             return Transform.identity()
-        return super().place(message)
+        try:
+            return super().place(message)
+        except LookupRefused as refused:
+            if is_final(refused):
+                return Transform.identity()
+            raise
+
+    def say_placed(self) -> None:
+        """Say nothing of the places that the statuses of markers are about."""
+        self.status.remove(TRANSFORM)
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Do what a message asks for."""
@@ -94,9 +110,7 @@ class MarkerDisplay(MessageFilterDisplay):
             for marker in markers:
                 self._markers.apply(marker, came.log_ns)
         elif hasattr(message, "action"):
-            locked = bool(message.frame_locked)
-            place = None if locked else T_fixed_frame
-            self._markers.apply(message, self._arrived(message, came), place)
+            self._markers.apply(message, self._arrived(message, came))
         else:
             raise MessageRefused("It has no markers")
 
@@ -107,12 +121,6 @@ class MarkerDisplay(MessageFilterDisplay):
             return came.log_ns
         waited = came.log_ns < stamp_ns <= messages.now_ns()
         return stamp_ns if waited else came.log_ns
-
-    def _is_done(self, one: Any) -> bool:
-        done = super()._is_done(one)
-        if done:
-            self.status.remove(TRANSFORM)
-        return done
 
     def messages_came(self) -> None:
         """Apply what has come; markers vanish also when nothing has."""

@@ -12,7 +12,7 @@ from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes, Shown
 from sambot_viz.displays.display import DisplayContext, StatusList
-from sambot_viz.frames import LookupRefused, Transform
+from sambot_viz.frames import LookupRefused
 from sambot_viz.topics.decoding import frame_and_stamp
 
 ADD, DELETE, DELETE_ALL = 0, 2, 3
@@ -58,26 +58,23 @@ class Markers:
 
     # What messages ask for
 
-    def apply(
-        self, marker: Any, arrived_ns: int, T_fixed_frame: Transform | None = None
-    ) -> None:
+    def apply(self, marker: Any, arrived_ns: int) -> None:
         """Do what a marker asks for; `draw` shows it.
 
         Args:
             marker: the message.
             arrived_ns: when it came [ns].
-            T_fixed_frame: the pose of its frame, where that is known.
         """
         action = int(marker.action)
         key = (str(marker.ns), int(marker.id))
         if action == ADD:
-            self._add(key, marker, arrived_ns, T_fixed_frame)
+            self._add(key, marker, arrived_ns)
         elif action == DELETE:
             self._remove(key)
         elif action == DELETE_ALL:
             self.remove_all(key[0] or None)
 
-    def _add(self, key: Key, marker: Any, arrived_ns: int, T: Transform | None) -> None:
+    def _add(self, key: Key, marker: Any, arrived_ns: int) -> None:
         if not self._namespaces.is_on(key[0]):
             return
         check = check_of(marker)
@@ -92,7 +89,7 @@ class Markers:
             text = f"More than the {MOST_MARKERS} markers that are drawn"
             self._status.set(MARKERS, "Error", text)
             return
-        place, why = self._place(marker, T)
+        place, why = self._place(marker)
         if why:
             self._say(key, "Error", why)
         elif check.text:
@@ -112,7 +109,7 @@ class Markers:
         )
         self._changed[key] = None
 
-    def _place(self, marker: Any, T: Transform | None) -> tuple[MarkerPose | None, str]:
+    def _place(self, marker: Any) -> tuple[MarkerPose | None, str]:
         """Return where the frame of a marker is, and why that is not known."""
         frame, stamp_ns = frame_and_stamp(marker)
         if marker.frame_locked:
@@ -122,7 +119,7 @@ class Markers:
             return known, ""
         tree, fixed = self._context.tree, self._context.fixed_frame
         try:
-            found = T or tree.lookup(fixed, frame, stamp_ns)
+            found = tree.lookup(fixed, frame, stamp_ns)
         except LookupRefused as refused:
             return None, refused.rviz_text
         place = self._places[frame, stamp_ns] = MarkerPose(found)
@@ -169,7 +166,7 @@ class Markers:
     def place_again(self) -> None:
         """Place all of them in another fixed frame."""
         for key, one in tuple(self.shown.items()):
-            place, why = self._place(one.marker, None)
+            place, why = self._place(one.marker)
             if why:
                 self._say(key, "Error", why)
             if place is None:

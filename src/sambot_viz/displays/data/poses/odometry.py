@@ -26,7 +26,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 )
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.refusals import MessageRefused
-from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
 from sambot_viz.displays.scene.nodes import position_of
@@ -148,7 +148,8 @@ class OdometryDisplay(MessageFilterDisplay):
         if abs(x * x + y * y + z * z + w * w - 1.0) >= _UNNORMALIZED:
             raise MessageRefused(
                 "Message contained unnormalized quaternion (squares of values don't "
-                "add to 1)"
+                "add to 1)",
+                TOPIC,
             )
         wxyz = (w, x, y, z)
         if self._kept and not self._is_apart(wxyz, position):
