@@ -63,6 +63,7 @@ class TopicMessages(Protocol):
         depth_s: float,
         size: int,
         base: str = "",
+        minds_older: bool = False,
     ) -> Subscription:
         """Ask for the messages of some topics (see `Subscription` for the arguments).
 

@@ -27,6 +27,8 @@ class Subscription:
         size: so many messages wait at most.
         base: the topic whose last message changes are made to: after a jump all that
             has come since counts; "" for none.
+        minds_older: whether to find out if there are older messages than those that
+            count after a jump.
 
     Attributes:
         topics: as given.
@@ -36,6 +38,8 @@ class Subscription:
         waits: some that were taken wait for a transform; set by the display.
         is_outdated: the time has jumped: what was drawn is of another time.
         count: so many messages have come, by topic.
+        has_older: there are older messages than those that counted after the jump.
+        given_way: so many messages waited no longer, as newer ones came.
     """
 
     always: Collection[str] = ()
@@ -49,6 +53,7 @@ class Subscription:
         depth_s: float,
         size: int,
         base: str = "",
+        minds_older: bool = False,
     ) -> None:
         self.topics = topics
         self.decode = decode
@@ -58,6 +63,10 @@ class Subscription:
         self.waits = False
         self.is_outdated = False
         self.count = dict.fromkeys(topics, 0)
+        self.has_older = False
+        self.given_way = 0
+        self._minds_older = minds_older
+        self._looked_for_older = 0
         self._waiting: deque[Recorded] = deque(maxlen=size)
         self._last: dict[str, Recorded] = {}
         self._begin_ns: int | None = None
@@ -80,13 +89,18 @@ class Subscription:
                 self._begin_ns = message.log_ns
             self._last[message.topic] = message
             self.count[message.topic] += 1
-            if self._waiting.maxlen == len(self._waiting) and self.base:
-                # The oldest of the changes goes, not what they are made to.
-                del self._waiting[1]
+            if self._waiting.maxlen == len(self._waiting):
+                self.given_way += 1
+                if self.base:
+                    # The oldest of the changes goes, not what they are made to.
+                    del self._waiting[1]
             self._waiting.append(message)
 
     def take_older(self, message: Recorded) -> None:
-        """Leave out what is older than what counts."""
+        """Leave out what is older than what counts, but note that it is there."""
+        with self._lock:
+            self.has_older = not any(_is_same(one, message) for one in self._waiting)
+            self._looked_for_older += 1
 
     def clear(self) -> None:
         """Forget all messages: the time has jumped."""
@@ -95,11 +109,15 @@ class Subscription:
             self._last.clear()
             self._begin_ns = None
             self.count = dict.fromkeys(self.topics, 0)
+            self.has_older = False
+            self._looked_for_older = 0
             self.is_outdated = True
 
     def lacks(self) -> bool:
-        """Return False: the last message of each topic is enough."""
-        return False
+        """Return whether it is not yet known that there are older messages."""
+        # The first older message may be the last one of a topic, which was taken.
+        looks = self._looked_for_older <= len(self.topics)
+        return self._minds_older and not self.has_older and looks
 
     def drain(self) -> list[Recorded]:
         """Return the messages that wait, the oldest first; they wait no longer."""

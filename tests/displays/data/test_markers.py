@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from inside import session_of
+
+from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
@@ -149,3 +153,44 @@ def test_a_thousand_markers_are_few_nodes(messages: Open) -> None:
     shown = messages("MarkerArray", array(*range(1000)))
     assert len(names(shown)) == 1000
     assert len(shown.node_names()) < 10
+
+
+def test_markers_that_are_too_old_for_a_jump_are_said_to_be_missing(
+    messages: Open,
+) -> None:
+    # One in a tenth of a second: the jump shows those of the last minute.
+    shown = messages("Marker", marker(0), *(marker(1) for _ in range(650)))
+    assert names(shown) == {("a", 1)}
+    level, text = shown.statuses["Messages"]
+    assert level == "Ok"
+    assert "markers that were sent before are missing" in text
+    shown.viz.player.jump(30.0)
+    assert names(shown) == {("a", 0), ("a", 1)}
+    assert "Messages" not in shown.statuses
+
+
+def test_a_lone_marker_is_shown_however_old_it_is(messages: Open) -> None:
+    far = [other_topic] * 700
+    shown = messages("Marker", marker(0), *far)
+    assert names(shown) == {("a", 0)}
+    assert "Messages" not in shown.statuses
+
+
+def other_topic(types: Any) -> tuple[str, str, object]:
+    name = "std_msgs/msg/String"
+    return "/other", name, types[name]("")
+
+
+def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
+    messages: Open,
+) -> None:
+    shown = messages("Marker", marker(0), marker(1), frame="map")
+    subscription = shown.display.subscription
+    (last,) = subscription._last.values()  # pyright: ignore[reportPrivateUsage]
+    with session_of(shown.viz).lock:
+        for number in range(MOST_MESSAGES + 1):
+            subscription.take(replace(last, log_ns=last.log_ns + 1 + number))
+        shown.display.messages_came()
+    level, text = shown.statuses["Messages"]
+    assert level == "Warn"
+    assert text.startswith("More than 10,000 messages or 8 MB")

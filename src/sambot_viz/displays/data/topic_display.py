@@ -100,6 +100,11 @@ class TopicDisplay(Display):
         return ""
 
     @property
+    def minds_older(self) -> bool:
+        """Whether older messages than those that count may still hold."""
+        return False
+
+    @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures."""
         return MOST_WAITING
@@ -160,6 +165,7 @@ class TopicDisplay(Display):
             depth_s=self.depth_s,
             size=self.most_waiting,
             base=self.base_topic,
+            minds_older=self.minds_older,
         )
         self._take()
 

@@ -40,10 +40,17 @@ class DisplayTopics:
         depth_s: float,
         size: int,
         base: str = "",
+        minds_older: bool = False,
     ) -> Subscription:
         """Ask for the messages of some topics."""
         made = Subscription(
-            topics, self._decode, came, depth_s=depth_s, size=size, base=base
+            topics,
+            self._decode,
+            came,
+            depth_s=depth_s,
+            size=size,
+            base=base,
+            minds_older=minds_older,
         )
         self._subscriptions.append(made)
         self._begin(made)

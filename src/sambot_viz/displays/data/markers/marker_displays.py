@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from sambot_viz.displays.data.markers.markers import Markers
 from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
 from sambot_viz.displays.data.message_filter import (
+    KEPT_DEPTH_S,
     TRANSFORM,
     MessageFilterDisplay,
     is_final,
@@ -21,9 +22,18 @@ from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
 
-DUPLICATES = "Duplicate Marker Check"
-MOST_BYTES = 8_000_000
-"""After a jump so much of the newest messages is looked at [bytes]."""
+DUPLICATES, MESSAGES = "Duplicate Marker Check", "Messages"
+MOST_MESSAGES, MOST_BYTES = 10_000, 8_000_000
+"""So much of the newest messages is looked at, between two pictures or after a jump."""
+OLDER = (
+    f"Of what was before a jump the last {KEPT_DEPTH_S:.0f} s are shown, up to "
+    f"{MOST_BYTES / 1e6:.0f} MB: markers that were sent before are missing; to see "
+    "them, play from an earlier time"
+)
+TOO_MANY = (
+    f"More than {MOST_MESSAGES:,} messages or {MOST_BYTES / 1e6:.0f} MB came between "
+    "two pictures: markers of the oldest ones may be missing"
+)
 _NAMESPACES = GroupProperty(
     NAMESPACES,
     help="The namespaces of markers, each with a box to show or hide them.",
@@ -45,6 +55,9 @@ class MarkerDisplay(MessageFilterDisplay):
         super().__init__(context, config, key)
         # What is drawn is kept by its markers.
         self._drawn = deque(maxlen=1)
+        self._is_after_jump = True
+        self._has_left_out = False
+        self._given_way = 0
         self._namespaces = Namespaces(config)
         self._markers = Markers(
             context, self.status, self._namespaces, key, self._files_found
@@ -63,7 +76,12 @@ class MarkerDisplay(MessageFilterDisplay):
     @property
     def most_waiting(self) -> int:
         """How many messages wait between two pictures, or after a jump."""
-        return 10_000
+        return MOST_MESSAGES
+
+    @property
+    def minds_older(self) -> bool:
+        """Whether older messages than those that count may still hold."""
+        return True
 
     def other_topics(self) -> Sequence[str]:
         """Return the topic of arrays beside the one of single markers."""
@@ -78,6 +96,7 @@ class MarkerDisplay(MessageFilterDisplay):
             payload = bytes(one.payload)
             size += len(payload)
             if kept and size > MOST_BYTES:
+                self._has_left_out = True
                 break
             if payload not in seen:
                 seen.add(payload)
@@ -124,8 +143,18 @@ class MarkerDisplay(MessageFilterDisplay):
 
     def messages_came(self) -> None:
         """Apply what has come; markers vanish also when nothing has."""
+        subscription = self.subscription
+        if subscription is None:
+            return
+        self._has_left_out = subscription.given_way > self._given_way
+        self._given_way = subscription.given_way
         super().messages_came()
         self.show_taken()
+        if self._is_after_jump and (subscription.has_older or self._has_left_out):
+            self.status.set(MESSAGES, "Ok", OLDER)
+        elif self._has_left_out:
+            self.status.set(MESSAGES, "Warn", TOO_MANY)
+        self._is_after_jump = False
 
     def time_passed(self) -> None:
         """Let markers vanish after their lifetime."""
@@ -152,7 +181,9 @@ class MarkerDisplay(MessageFilterDisplay):
     def drop(self) -> None:
         """Take all markers out of the scene."""
         self._markers.clear()
-        self.status.remove(DUPLICATES)
+        self._is_after_jump = True
+        for key in (DUPLICATES, MESSAGES):
+            self.status.remove(key)
 
     def assets_read(self) -> None:
         """Draw meshes that were read in the background."""
