@@ -85,7 +85,7 @@ def square(repository: Path) -> Iterator[Dialog]:
 def test_each_topic_has_the_displays_that_show_it(square: Dialog) -> None:
     assert rows_of(square.panel) == {}
     assert square.show() == [
-        *("/joint_states", ".RobotModel", "/odom", ".Odometry"),
+        *("/joint_states", ".RobotModel", ".Effort", "/odom", ".Odometry"),
         *("/robot_description", ".RobotModel", "/scan", ".LaserScan"),
         *("/tf", ".TF", "/tf_static", ".TF"),
     ]

@@ -148,7 +148,8 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         "Depth",
         default=5,
         minimum=1,
-        help="How many messages wait in the queue; here the newest counts.",
+        help="How many messages wait in RViz's queue; kept for RViz: here as many wait as "
+        "the display needs.",
         support="approximate",
     ),
     EditableEnumProperty(
