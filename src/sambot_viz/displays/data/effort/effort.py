@@ -56,8 +56,8 @@ class EffortDisplay(KeptReadingsDisplay):
 
     kind = "rviz_default_plugins/Effort"
     help = (
-        "How hard each revolute joint turns, as a circle; as in RViz, it turns the wrong "
-        "way for an axis along x, y or −z."
+        "How hard each revolute joint turns, as a circle; as in RViz, it turns the "
+        "wrong way for an axis along x, y or −z."
     )
     types = frozenset({"sensor_msgs/msg/JointState"})
     length = "History Length"
