@@ -7,6 +7,17 @@ from pathlib import Path
 
 import pytest
 from inside import session_of
+from interactive_messages import (
+    ALONG_Y,
+    ALONG_Z,
+    MOVE_PLANE,
+    VIEW_FACING,
+    control,
+    marker,
+    six_degrees,
+    update,
+)
+from made_messages import write_messages
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -45,3 +56,67 @@ def test_what_was_drawn_before_is_freed(
         page.wait_for_frames()
         counts.append(drawn())
     assert max(counts[5:]) <= max(counts[:5]) + 1
+
+
+MARKERS = """
+Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/InteractiveMarkers
+      Enabled: true
+      Name: Markers
+      Interactive Markers Namespace: /ns
+  Global Options:
+    Fixed Frame: map
+  Tools:
+    - Class: rviz_default_plugins/Interact
+    - Class: rviz_default_plugins/MoveCamera
+"""
+CONTROLS = """(() => {
+  const found = {};
+  window.__viserMutable.scene.traverse((one) => {
+    if (one.userData.drawAs !== "controlGroup") return;
+    const x = one.position.clone().set(1, 0, 0).transformDirection(one.matrixWorld);
+    const to = window.__viserMutable.camera.getWorldDirection(x.clone());
+    const { always, faces } = one.userData;
+    found[`${always ? "always" : ""} ${faces ? "faces" : ""}`.trim()] =
+      [one.visible, Math.round(1000 * x.dot(to)) / 1000];
+  });
+  return found;
+})()"""
+"""Which groups of controls are visible, and the cosine of their x with the view."""
+
+
+def test_controls_are_visible_with_their_tool_and_some_face_the_view(
+    make_viz: Callable[..., Visualizer],
+    open_viewer: Callable[..., ViewerPage],
+    tmp_path: Path,
+) -> None:
+    file = write_messages(
+        tmp_path / "markers.mcap",
+        update(
+            lambda t: six_degrees(t, "a", description="a", turn=ALONG_Y),
+            lambda t: marker(
+                t,
+                "b",
+                controls=[control(t, MOVE_PLANE, turn=ALONG_Z, turning=VIEW_FACING)],
+            ),
+        ),
+    )
+    config = tmp_path / "markers.rviz"
+    config.write_text(MARKERS)
+    viz = make_viz(source=f"bag:{file}", config=config)
+    page = open_viewer(viz.url)
+
+    def groups() -> dict[str, list[float]]:
+        return dict(page.page.evaluate(CONTROLS))
+
+    def visible() -> set[str]:
+        return {name for name, (is_visible, _) in groups().items() if is_visible}
+
+    page.user.until(lambda: visible() == {"", "faces", "always", "always faces"})
+    viz.camera.view("Orbit", {"Yaw": 2.0, "Pitch": 0.9})
+    page.user.until(lambda: groups()["faces"][1] == groups()["always faces"][1] == 1)
+    page.user.keys("m")
+    page.user.until(lambda: visible() == {"always", "always faces"})
+    page.user.keys("i")
+    page.user.until(lambda: len(visible()) == 4)

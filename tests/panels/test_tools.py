@@ -64,6 +64,18 @@ def test_the_hint_is_that_of_the_tool(panel: ToolsPanel) -> None:
     assert data["tools/hint"]["text"] == select["help"]
 
 
+def test_controls_of_interactive_markers_are_visible_with_their_tool(
+    panel: ToolsPanel, session: Session
+) -> None:
+    edit(panel, "tools/choose", ["Interact"])
+    assert data_of(panel)["tools/controls"]
+    edit(panel, "tools/choose", ["Select"])
+    assert not data_of(panel)["tools/controls"]
+    kind = "rviz_default_plugins/Interact"
+    session.document.set_tool_property(kind, "Hide Inactive Objects", False)
+    assert data_of(panel)["tools/controls"]
+
+
 def test_fingers_have_a_hint_of_their_own(panel: ToolsPanel) -> None:
     hint = data_of(panel)["tools/hint"]
     assert "Left" in hint["text"]

@@ -22,6 +22,9 @@ from sambot_viz.displays.data.depth_cloud.depth_cloud import DepthCloudDisplay
 from sambot_viz.displays.data.effort.effort import EffortDisplay
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
+from sambot_viz.displays.data.interactive_markers.interactive_display import (
+    InteractiveMarkersDisplay,
+)
 from sambot_viz.displays.data.map import MapDisplay
 from sambot_viz.displays.data.markers.marker_displays import (
     MarkerArrayDisplay,
@@ -63,7 +66,6 @@ NOT_SHOWN: dict[str, str] = {
     f"rviz_default_plugins/{name}": sentence
     for name, sentence in {
         "Camera": "A camera image with the scene overlaid.",
-        "InteractiveMarkers": "Markers that can be clicked and dragged.",
     }.items()
 }
 """ROS 2 class id → what RViz shows with it."""
@@ -83,6 +85,7 @@ DISPLAYS: dict[str, type[Display]] = {
         GroupDisplay,
         ImageDisplay,
         IlluminanceDisplay,
+        InteractiveMarkersDisplay,
         LaserScanDisplay,
         MapDisplay,
         MarkerArrayDisplay,

@@ -18,7 +18,7 @@ import { tellView } from "./panels/views.js";
 import { releaseKept } from "./cells/field.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
 import { followRole } from "./window/people.js";
-import { toolKeys } from "./window/toolbar.js";
+import { tellControls, toolKeys } from "./window/toolbar.js";
 import { Window } from "./window/window.js";
 
 const start = () => {
@@ -49,6 +49,7 @@ const start = () => {
     enter: releaseKept,
   });
   tellView();
+  tellControls();
   followPointedJoint();
   followGhost();
   followFile();

@@ -14,7 +14,11 @@ interface Window {
     nodeRefFromName?: Record<string, any>;
   };
   /** What the window tells the scripts that draw and move the view. */
-  sambotViz?: { view?: { kind: string; focalSize: number; focalFixed: boolean } };
+  sambotViz?: {
+    view?: { kind: string; focalSize: number; focalFixed: boolean };
+    /** Whether controls of interactive markers are visible. */
+    controls?: boolean;
+  };
   /** What rviz_look.js has changed, for tests. */
   sambotPermalink?: string;
   /** The address of the page's own websocket. */

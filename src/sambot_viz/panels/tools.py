@@ -47,12 +47,13 @@ class ToolsPanel(Panel):
         self._robot = robot
 
     def data(self) -> Sequence[Data]:
-        """Return the tools, the hint of the current one, and what is selected."""
+        """Return the tools, what the current one shows, and what is selected."""
         tools = self._client.tools
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
         return [
             Data("tools/list", [self._tool(tool) for tool in tools.tools]),
+            Data("tools/controls", tools.shows_controls),
             Data("tools/hint", {"text": hint, "touch": touch}),
             Data("tools/selected", [item.name for item in tools.selection]),
             Data("tools/pointed", self._pointed()),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from sambot_viz.rviz import BoolProperty
 from sambot_viz.tools.tool import Tool
 
+HIDE = "Hide Inactive Objects"
+
 
 class MoveCameraTool(Tool):
     """Moves the camera and does nothing else."""
@@ -17,7 +19,7 @@ class MoveCameraTool(Tool):
 
 
 class InteractTool(Tool):
-    """Interactive markers come from ROS programs; without them it moves the camera."""
+    """Moves the camera, and shows the controls of interactive markers."""
 
     kind = "rviz_default_plugins/Interact"
     label = "Interact"
@@ -26,9 +28,14 @@ class InteractTool(Tool):
     touch = MoveCameraTool.touch
     properties = (
         BoolProperty(
-            "Hide Inactive Objects",
+            HIDE,
             default=True,
-            help="For interactive markers, which are not drawn yet.",
-            support="none",
+            help="Hide the controls of interactive markers while another tool is "
+            "chosen.",
         ),
     )
+
+    @property
+    def hides_controls(self) -> bool:
+        """Whether the controls are hidden while another tool is chosen."""
+        return self.config is None or bool(self.config.get(HIDE))

@@ -65,6 +65,8 @@ _CLASSES = {
     "sensor_msgs/msg/Range": "Range",
     "sensor_msgs/msg/RelativeHumidity": "RelativeHumidity",
     "sensor_msgs/msg/Temperature": "Temperature",
+    "visualization_msgs/msg/InteractiveMarkerInit": "InteractiveMarkers",
+    "visualization_msgs/msg/InteractiveMarkerUpdate": "InteractiveMarkers",
     "visualization_msgs/msg/Marker": "Marker",
     "visualization_msgs/msg/MarkerArray": "MarkerArray",
     **dict.fromkeys(DESCRIPTION_TYPES, "RobotModel"),

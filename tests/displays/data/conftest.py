@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 import yaml
 from inside import session_of
+from made_messages import Make, write_messages
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.display import Display
 
 MESSAGES = Path(__file__).parents[2] / "golden" / "messages"
-START = 1_700_000_000
 
 
 class Opened:
@@ -78,33 +78,15 @@ def opened() -> Iterator[Callable[[str, str], Opened]]:
 @pytest.fixture
 def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
     """Opens messages of a topic /a in a display of it, in the fixed frame map."""
-    from mcap.writer import Writer
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_JAZZY)
     with ExitStack() as stack:
 
         def open_messages(
             kind: str,
-            *made: Callable[[Any], tuple[str, str, object]],
+            *made: Make,
             frame: str = "map",
             **values: object,
         ) -> Opened:
-            path = tmp_path / "messages.mcap"
-            with path.open("wb") as stream:
-                writer = Writer(stream)
-                writer.start()
-                channels: dict[str, int] = {}
-                for number, make in enumerate(made):
-                    topic, name, message = make(store.types)
-                    if topic not in channels:
-                        text = store.generate_msgdef(name)[0].encode()
-                        schema = writer.register_schema(name, "ros2msg", text)
-                        channels[topic] = writer.register_channel(topic, "cdr", schema)
-                    data = bytes(store.serialize_cdr(message, name))
-                    time = START * 10**9 + number * 10**8
-                    writer.add_message(channels[topic], time, data, time)
-                writer.finish()
+            path = write_messages(tmp_path / "messages.mcap", *made)
             shown = {
                 "Class": f"rviz_default_plugins/{kind}",
                 "Name": kind,

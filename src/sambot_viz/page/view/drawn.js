@@ -4,14 +4,18 @@
  * its objects before each picture.
  */
 
+import { dressGroup, nameGroup } from "./controls.js";
 import { dressMap, dressTile } from "./maps.js";
 import { dressPoints } from "./points.js";
 import { dressRibbon } from "./ribbons.js";
 import { rawColors } from "./raw_colors.js";
 import { dressText } from "./texts.js";
 
-/** @type {Record<string, (object: any) => void>} */
+/** Each is given its object, and the camera's matrixWorld.
+ * @type {Record<string, (object: any, eye: any) => void>} */
 const KINDS = {
+  controlGroup: dressGroup,
+  controls: nameGroup,
   lines: ({ material }) => rawColors(material, "lines"),
   map: dressMap,
   mapTile: dressTile,
@@ -34,10 +38,10 @@ function freeWhenGone(object) {
   });
 }
 
-/** Make a picture of an object, if it is one of ours. @param {any} object */
-export function dressDrawn(object) {
+/** Make a picture of an object, if it is one of ours. @param {any} object @param {any} eye */
+export function dressDrawn(object, eye) {
   const kind = object.userData?.drawAs;
   if (kind === undefined) return;
   freeWhenGone(object);
-  KINDS[kind]?.(object);
+  KINDS[kind]?.(object, eye);
 }

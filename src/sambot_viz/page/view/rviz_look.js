@@ -171,7 +171,7 @@ const visit = (object, studio, shown) => {
   // When viser makes a batch of meshes again, as it does when it gets another material, the old
   // one is in the scene for some pictures more, disposed of: WebGL would refuse to draw it.
   if (object.isInstancedMesh2 && !object.instanceIndex) object.visible = false;
-  dressDrawn(object);
+  dressDrawn(object, eye);
   const visible = shown && object.visible;
   const material = object.material;
   if (material !== undefined) {

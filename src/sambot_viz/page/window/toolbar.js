@@ -13,6 +13,16 @@ export function toolKeys() {
   return rows.data("tools/list") || [];
 }
 
+/** Tell the script that draws whether the controls of interactive markers are visible. */
+export function tellControls() {
+  const told = () => {
+    window.sambotViz = { ...window.sambotViz, controls: rows.data("tools/controls") };
+    window.__viserMutable?.requestRender?.();
+  };
+  rows.listen("tools/controls", told);
+  told();
+}
+
 /** @typedef {{name: string, key: string, help: string, current: boolean, hover: boolean}} Tool */
 
 /** What the commands for edits are called. */

@@ -21,7 +21,7 @@ from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Worker
-from sambot_viz.tools.move_camera import MoveCameraTool
+from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
 from sambot_viz.tools.picking.picture import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
@@ -117,6 +117,12 @@ class ClientTools:
             if tool.kind == kind:
                 return tool
         raise UsageError(f"there is no tool '{kind}'; there are {', '.join(TOOLS)}")
+
+    @property
+    def shows_controls(self) -> bool:
+        """Whether the controls of interactive markers are visible."""
+        interact = (tool for tool in self.tools if isinstance(tool, InteractTool))
+        return any(self.current is one or not one.hides_controls for one in interact)
 
     def choose(self, kind: str) -> None:
         """Make a tool current, whichever was before.

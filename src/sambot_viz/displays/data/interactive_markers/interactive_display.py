@@ -1,0 +1,283 @@
+"""InteractiveMarkers: markers with handles, which this version cannot move."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from sambot_viz.displays.data.interactive_markers.interactive_markers import (
+    InteractiveMarkers,
+    Options,
+)
+from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
+from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
+from sambot_viz.displays.display import DisplayContext, Status
+from sambot_viz.displays.robot_display import Repair, WantedQos
+from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
+from sambot_viz.rviz import BoolProperty, DisplayConfig, StringProperty
+from sambot_viz.sources.message import Recorded
+
+NAMESPACE = "Interactive Markers Namespace"
+ROS1_TOPIC = "Update Topic"
+"""The key that ROS 1 has instead; its value is a topic of updates."""
+CLIENT = "Interactive Marker Client"
+UPDATES = "Updates"
+"""Keys of statuses."""
+UPDATE, FULL = "/update", "/update_full"
+"""What the names of the topics end with."""
+KEEP_ALIVE = 0
+CANNOT_MOVE = (
+    "Shown only: to move them, the robot must be sent messages, which this version "
+    "does not do"
+)
+MOST_UPDATES = 10_000
+"""So many updates since the last full set are applied after a jump in a recording."""
+WHOLE_S = 1e8
+"""How far back updates count where there is no full set [s]: three years."""
+
+
+def namespace_of(topic: str) -> str:
+    """Return the namespace of a topic of interactive markers, or of a namespace."""
+    for end in (UPDATE, FULL):
+        topic = topic.removesuffix(end)
+    return topic.rstrip("/")
+
+
+class InteractiveMarkersDisplay(TopicDisplay):
+    """The interactive markers of a namespace, as its updates and full sets say."""
+
+    kind = "rviz_default_plugins/InteractiveMarkers"
+    help = "Markers with handles, which a program moves; here they are shown only."
+    types = frozenset(
+        {
+            "visualization_msgs/msg/InteractiveMarkerUpdate",
+            "visualization_msgs/msg/InteractiveMarkerInit",
+        }
+    )
+    topic_path = NAMESPACE
+    properties = (
+        StringProperty(
+            NAMESPACE,
+            aliases=(ROS1_TOPIC,),
+            help="What the names of the topics begin with; they end with /update and "
+            "/update_full.",
+            support="approximate",
+            note="shown as the topics /update and /update_full say; the service "
+            "get_interactive_markers is not called, and the markers cannot be moved",
+        ),
+        BoolProperty(
+            "Show Descriptions",
+            default=True,
+            help="Show the text above each marker.",
+        ),
+        BoolProperty(
+            "Show Axes", default=False, help="Show the axes of the pose of each marker."
+        ),
+        BoolProperty(
+            "Show Visual Aids",
+            default=False,
+            help="The line along the axis while a marker is dragged.",
+            support="none",
+            note="only seen while a marker is dragged, which this version cannot",
+        ),
+        BoolProperty(
+            "Enable Transparency",
+            default=True,
+            help="Let handles be transparent; else what can be seen is opaque.",
+        ),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is drawn before `draw`."""
+        super().__init__(context, config, key)
+        self._markers = InteractiveMarkers(
+            context, MarkerRows(self.status), key, self.assets_read
+        )
+        self._drawn_in = context.fixed_frame
+        self._full: tuple[str, int] | None = None
+        self._last: tuple[str, int] | None = None
+        self._missed = 0
+
+    # Its topics
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return the namespace of a topic."""
+        found = super().topic_values(topic, type_name, qos)
+        return None if found is None else {NAMESPACE: namespace_of(topic)}
+
+    @property
+    def namespace(self) -> str:
+        """What the names of its topics begin with; empty when none is set."""
+        return namespace_of(str(self.config.get(NAMESPACE)))
+
+    @property
+    def topic(self) -> str:
+        """The name of the topic of updates; empty when none is set."""
+        return f"{self.namespace}{UPDATE}" if self.namespace else ""
+
+    @property
+    def base_topic(self) -> str:
+        """The name of the topic of full sets, which ROS 1 and some programs have."""
+        return f"{self.namespace}{FULL}"
+
+    def other_topics(self) -> Sequence[str]:
+        """Return the topic of full sets."""
+        return (self.base_topic,)
+
+    @property
+    def most_waiting(self) -> int:
+        """So many messages wait at most between two pictures."""
+        return MOST_UPDATES
+
+    @property
+    def depth_s(self) -> float:
+        """A marker comes once, and is only moved from then on."""
+        return WHOLE_S
+
+    # Its messages
+
+    def messages_came(self) -> None:
+        """Take full sets and updates in their order, and draw once."""
+        if self.subscription is None:
+            return
+        came = self.subscription.drain()
+        full = [i for i, one in enumerate(came) if one.topic == self.base_topic]
+        # What was before the last full set is replaced by it.
+        for one in came[full[-1] if full else 0 :]:
+            self._take_one(one)
+        self._draw()
+
+    def _take_one(self, one: Recorded) -> None:
+        assert self.subscription is not None
+        try:
+            with refusing(verb="taken"):
+                message = self.subscription.decode(one)
+                if one.topic == self.base_topic:
+                    self._take_full(message)
+                elif int(message.type) != KEEP_ALIVE:
+                    self._take_update(message)
+        except MessageRefused as refused:
+            self.status.set(refused.key, "Error", refused.text)
+
+    def _take_full(self, message: Any) -> None:
+        self._full = self._last = (str(message.server_id), int(message.seq_num))
+        self._missed = 0
+        self._markers.replace_all(message.markers)
+
+    def _take_update(self, message: Any) -> None:
+        server, number = str(message.server_id), int(message.seq_num)
+        if self._full is not None and self._full[0] == server:
+            if number <= self._full[1]:
+                return
+        if self._last is not None and self._last[0] == server:
+            self._missed += max(0, number - self._last[1] - 1)
+        self._last = (server, number)
+        for marker in message.markers:
+            self._markers.set(marker)
+        for pose in message.poses:
+            self._markers.move(pose)
+        self._markers.erase(str(name) for name in message.erases)
+
+    def redraw(self) -> None:
+        """Draw what was taken again, with other properties or other frames."""
+        if self.context.fixed_frame != self._drawn_in:
+            self._drawn_in = self.context.fixed_frame
+            self._markers.place_again()
+        self._markers.look_again()
+        self._draw()
+
+    def forget(self) -> None:
+        """Take all markers out of the scene."""
+        self._markers.clear()
+        self._full = self._last = None
+        self._missed = 0
+        for key in (MESSAGE, UPDATES):
+            self.status.remove(key)
+
+    def assets_read(self) -> None:
+        """Draw meshes that were read in the background."""
+        if self.shown:
+            self._markers.files_read()
+            self._draw()
+
+    def _draw(self) -> None:
+        get = self.config.get
+        descriptions, axes = bool(get("Show Descriptions")), bool(get("Show Axes"))
+        options = Options(descriptions, axes, bool(get("Enable Transparency")))
+        self._markers.draw(options)
+        if self.subscription is not None:
+            self.subscription.waits = self._markers.waits
+
+    # What is said
+
+    def report_topic(self) -> None:
+        """Set the statuses of the namespace and of its updates."""
+        found = self._client_status()
+        self.status.set(CLIENT, found.level, found.text)
+        if self._missed:
+            text = f"{self._missed:,} updates are missing: markers may look otherwise"
+            self.status.set(UPDATES, "Warn", text)
+        else:
+            self.status.remove(UPDATES)
+
+    def _client_status(self) -> Status:
+        if self.context.messages is None:
+            return Status("Ok", "OK")
+        if not self.namespace:
+            return Status("Error", "Error connecting: empty namespace")
+        doubt = self._doubt()
+        if doubt is not None:
+            return Status(doubt.level, doubt.sentence)
+        if self._markers.known or (self._last and not self._markers.unknown):
+            return Status("Ok", f"Connected on namespace: {self.namespace}")
+        came = "No marker has come"
+        if self._markers.unknown:
+            name = next(iter(self._markers.unknown))
+            came = f"Only poses have come, such as that of '{name}', and no marker"
+        service = f"{self.namespace}/get_interactive_markers"
+        return Status(
+            "Warn",
+            f"{came}: programs send them when they are made, and later only answer "
+            f"the service {service}, which is not called here",
+        )
+
+    def _doubt(self) -> TopicDoubt | None:
+        messages = self.context.messages
+        if messages is None or not self.namespace:
+            return None
+        doubts = [
+            messages.doubt(topic, self.types, WantedQos("Reliable", "Volatile"))
+            for topic in (self.topic, self.base_topic)
+        ]
+        # Either of the two is enough.
+        return doubts[0] if all(doubts) else None
+
+    def notes(self) -> Mapping[str, str]:
+        """Return why nothing comes, or that nothing can be moved."""
+        return {NAMESPACE: CANNOT_MOVE if self.context.messages else NO_SOURCE}
+
+    def options(self) -> Mapping[str, Sequence[str]]:
+        """Return the namespaces that it could show."""
+        messages = self.context.messages
+        if messages is None:
+            return {}
+        topics = topics_of_types(messages.types(), self.types)
+        return {NAMESPACE: sorted({self._as_written(topic) for topic in topics})}
+
+    def repairs(self) -> Mapping[str, Repair]:
+        """Return a button for the namespace that was meant."""
+        doubt = self._doubt()
+        if doubt is None or not doubt.instead:
+            return {}
+        meant = self._as_written(doubt.instead)
+        return {CLIENT: Repair(f"Use {meant}", NAMESPACE, meant)}
+
+    def _as_written(self, topic: str) -> str:
+        """Return the namespace of a topic as the file has it."""
+        namespace = namespace_of(topic)
+        is_ros1 = self.config.declared[NAMESPACE].keys[-1] == ROS1_TOPIC
+        return f"{namespace}{UPDATE}" if is_ros1 else namespace

@@ -1,0 +1,284 @@
+"""The interactive markers of one display: set, moved, erased, and drawn."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from sambot_viz.displays.data.interactive_markers.controls import MOST_SHAPES, TITLES
+from sambot_viz.displays.data.interactive_markers.known_marker import (
+    KnownMarker,
+    ControlPart,
+)
+from sambot_viz.displays.data.interactive_markers.marker_nodes import (
+    ControlNodes,
+    InteractiveMarkerNodes,
+)
+from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
+from sambot_viz.displays.data.markers.checks import check_of
+from sambot_viz.displays.data.markers.meshes import MeshFinder
+from sambot_viz.displays.data.markers.nodes import Key, Shown
+from sambot_viz.displays.data.refusals import MessageRefused, refusing
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.scene.nodes import short_id
+from sambot_viz.frames import LookupRefused
+
+MOST_MARKERS = 1000
+"""So many interactive markers are shown."""
+MOST_SHOWN = MOST_SHAPES
+"""So many markers of the controls of all of them are shown."""
+EMPTY = "Marker empty."
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What the properties of the display say.
+
+    Attributes:
+        descriptions: whether descriptions are shown.
+        axes: whether axes are.
+        transparency: whether handles keep their alpha.
+    """
+
+    descriptions: bool = True
+    axes: bool = False
+    transparency: bool = True
+
+
+class InteractiveMarkers:
+    """What is shown of the interactive markers that have come.
+
+    Args:
+        context: what to draw with.
+        rows: take what is said of markers.
+        key: what the names of nodes begin with.
+        files_found: called when mesh files are known.
+
+    Attributes:
+        known: by their names.
+        unknown: names of those of which only a pose has come.
+    """
+
+    def __init__(
+        self,
+        context: DisplayContext,
+        rows: MarkerRows,
+        key: str,
+        files_found: Callable[[], None],
+    ) -> None:
+        self.known: dict[str, KnownMarker] = {}
+        self.unknown: dict[str, None] = {}
+        self._context = context
+        self._rows = rows
+        self._key = key
+        self._files_found = files_found
+        self._options = Options()
+        self._dirty: dict[str, None] = {}
+        self._waiting: dict[str, None] = {}
+        self._shown: dict[Key, Shown] = {}
+        self._changed: dict[Key, None] = {}
+        self._nodes = ControlNodes(context, key)
+        self._finders: dict[str, MeshFinder] = {}
+        self._free: list[int] = []
+        self._made = 0
+
+    @property
+    def waits(self) -> bool:
+        """Whether some wait for the transform of their frame."""
+        return bool(self._waiting)
+
+    # What messages ask for
+
+    def replace_all(self, messages: Sequence[Any]) -> None:
+        """Take the full set of markers, and erase all others."""
+        names = {str(message.name) for message in messages}
+        self.erase([name for name in self.known if name not in names])
+        self.unknown.clear()
+        for message in messages:
+            self.set(message)
+
+    def set(self, message: Any) -> None:
+        """Add an interactive marker, or replace the one of its name."""
+        name = str(message.name)
+        before = self.known.get(name)
+        if not len(message.controls):
+            self.erase([name])
+            self._rows.say(name, "Ok", EMPTY)
+            return
+        if before is None and len(self.known) >= MOST_MARKERS:
+            most = f"More than the {MOST_MARKERS} markers that are shown"
+            self._rows.say_of_all(most)
+            return
+        try:
+            with refusing():
+                nodes = self._new_nodes() if before is None else before.nodes
+                known = KnownMarker(message, nodes)
+        except MessageRefused as refused:
+            self._refuse(name, before, refused.text)
+            return
+        if before is not None:
+            known.shown = before.shown
+        self.known[name] = known
+        self.unknown.pop(name, None)
+        self._dirty[name] = None
+
+    def move(self, message: Any) -> None:
+        """Take another pose of an interactive marker."""
+        name = str(message.name)
+        known = self.known.get(name)
+        if known is None:
+            if len(self.unknown) < MOST_MARKERS:
+                self.unknown[name] = None
+            return
+        try:
+            with refusing():
+                known.move(message)
+        except MessageRefused:
+            self._refuse(name, known, "Pose message contains invalid floats!")
+            return
+        self._dirty[name] = None
+
+    def _refuse(self, name: str, known: KnownMarker | None, text: str) -> None:
+        """Say why a message was not taken, until the next one of the marker."""
+        self._rows.say(name, "Error", text)
+        if known is not None:
+            known.refused = text
+
+    def erase(self, names: Iterable[str]) -> None:
+        """Forget some interactive markers."""
+        for name in names:
+            self._rows.unsay(name)
+            self._dirty.pop(name, None)
+            self._waiting.pop(name, None)
+            self.unknown.pop(name, None)
+            known = self.known.pop(name, None)
+            if known is not None:
+                self._hide(name, known)
+
+    def clear(self) -> None:
+        """Forget all of them."""
+        self.erase(tuple(self.known))
+        self.unknown.clear()
+        self._nodes.remove()
+        self._changed.clear()
+        self._free.clear()
+        self._made = 0
+        self._finders.clear()
+        self._rows.clear()
+
+    def _new_nodes(self) -> InteractiveMarkerNodes:
+        self._made += 1
+        name = f"{self._key}i{short_id(self._made)}"
+        return InteractiveMarkerNodes(self._context.scene, name)
+
+    # What is drawn
+
+    def draw(self, options: Options) -> None:
+        """Draw what has changed, and what had no place."""
+        if options != self._options:
+            if options.transparency != self._options.transparency:
+                self.place_again()
+            self._options = options
+            self.look_again()
+        todo = {**self._dirty, **self._waiting}
+        self._dirty.clear()
+        self._waiting.clear()
+        for name in todo:
+            self._draw_one(name, self.known[name])
+        changed, self._changed = self._changed, {}
+        if changed:
+            self._nodes.update(self._shown, changed, self._finder)
+            self._report_meshes()
+
+    def look_again(self) -> None:
+        """Look at the frames and nodes of all of them at the next `draw`."""
+        self._dirty.update(dict.fromkeys(self.known))
+
+    def place_again(self) -> None:
+        """Place all of them again at the next `draw`, in another fixed frame."""
+        for known in self.known.values():
+            known.place_again()
+        self.look_again()
+
+    def files_read(self) -> None:
+        """Draw what waits for files at the next `draw`."""
+        self._changed.update(dict.fromkeys(self._nodes.meshes))
+
+    def _draw_one(self, name: str, known: KnownMarker) -> None:
+        options, context = self._options, self._context
+        try:
+            above, wxyz, position = known.place(context)
+            parts = known.parts(context, transparency=options.transparency)
+        except LookupRefused as refused:
+            self._rows.say(name, "Error", refused.rviz_text)
+            self._waiting[name] = None
+            self._hide(name, known)
+            return
+        axes = known.scale if options.axes else None
+        groups = dict.fromkeys(part.group for part in parts)
+        if known.nodes.draw(above, wxyz, position, groups, axes):
+            known.drawn = None
+        drawn = (parts, options.descriptions)
+        if known.drawn != drawn:
+            known.drawn = drawn
+            known.wrong = self._show(name, known, parts)
+        wrong = known.refused or known.wrong
+        fine = f"Locked to frame {known.frame}"
+        fine = fine if known.is_locked else "Position is fixed."
+        self._rows.say(name, "Error" if wrong else "Ok", wrong or fine)
+
+    def _show(self, name: str, known: KnownMarker, parts: Sequence[ControlPart]) -> str:
+        """Show the markers of controls; return what is wrong with one of them."""
+        wrong, before = "", dict.fromkeys(known.shown)
+        known.shown = []
+        for number, part in enumerate(parts):
+            if part.group is TITLES and not self._options.descriptions:
+                continue
+            check = check_of(part.marker)
+            if not check.is_drawn:
+                wrong = wrong or f"Control '{part.control}': {check.text}"
+                continue
+            key = (name, number)
+            if key not in self._shown and len(self._shown) >= MOST_SHOWN:
+                wrong = f"More than the {MOST_SHOWN} markers of controls that are shown"
+                break
+            old = self._shown.get(key)
+            slot = self._slot() if old is None else old.slot
+            path = known.nodes.path(part.group)
+            self._shown[key] = Shown(part.marker, path, part.place, None, slot)
+            self._changed[key] = None
+            known.shown.append(number)
+            before.pop(number, None)
+        self._drop(name, before)
+        return wrong
+
+    def _hide(self, name: str, known: KnownMarker) -> None:
+        self._drop(name, known.shown)
+        known.shown, known.drawn = [], None
+        known.nodes.remove()
+
+    def _drop(self, name: str, numbers: Iterable[int]) -> None:
+        for number in numbers:
+            gone = self._shown.pop((name, number))
+            heapq.heappush(self._free, gone.slot)
+            self._changed[name, number] = None
+
+    def _slot(self) -> int:
+        # All slots below the number of markers are taken or free.
+        return heapq.heappop(self._free) if self._free else len(self._shown)
+
+    def _finder(self, resource: str) -> MeshFinder:
+        found = self._finders.get(resource)
+        if found is None:
+            found = MeshFinder(self._context, resource, self._files_found)
+            self._finders[resource] = found
+        return found
+
+    def _report_meshes(self) -> None:
+        for key, nodes in self._nodes.meshes.items():
+            if nodes.is_missing:
+                resource = self._shown[key].marker.mesh_resource
+                text = f"Mesh resource marker [{key[0]}] could not load [{resource}]"
+                self._rows.say(key[0], "Error", text)

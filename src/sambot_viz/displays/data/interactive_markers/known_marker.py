@@ -1,0 +1,188 @@
+"""One interactive marker: its message, its pose, and where its controls are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.displays.data.interactive_markers.control_marker import ControlMarker
+from sambot_viz.displays.data.interactive_markers.controls import (
+    INHERIT,
+    VIEW_FACING,
+    Control,
+    Group,
+    controls_of,
+    require_valid,
+    scale_of,
+    title_of,
+)
+from sambot_viz.displays.data.interactive_markers.marker_nodes import (
+    InteractiveMarkerNodes,
+)
+from sambot_viz.displays.data.markers.fields import MarkerPose
+from sambot_viz.displays.data.message_numbers import point_of, wxyz_of
+from sambot_viz.displays.display import DisplayContext
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import (
+    IDENTITY,
+    Vector3,
+    Wxyz,
+    rotation_from_xyzw,
+    wxyz_product,
+)
+from sambot_viz.topics.decoding import frame_and_stamp
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ControlPart:
+    """A marker of a control, with its place.
+
+    Attributes:
+        control: whose marker it is; "" for the description.
+        group: the controls that it is turned and hidden with.
+        marker: what is drawn.
+        place: of the frame of its pose, in its group.
+    """
+
+    control: str
+    group: Group
+    marker: ControlMarker
+    place: MarkerPose
+
+
+class KnownMarker:
+    """An interactive marker that has come.
+
+    Args:
+        message: a visualization_msgs/InteractiveMarker.
+        nodes: draw it.
+
+    Raises:
+        MessageRefused: it has numbers that cannot be drawn.
+
+    Attributes:
+        nodes: as given.
+        scale: [m].
+        frame: that its pose is in.
+        shown: the numbers of its parts that are shown.
+        drawn: the parts that are drawn, and with what options.
+        wrong: what is wrong with one of them; empty when nothing is.
+        refused: why the last message was not taken; empty when it was.
+    """
+
+    def __init__(self, message: Any, nodes: InteractiveMarkerNodes) -> None:
+        require_valid(message)
+        self.nodes = nodes
+        self.scale = scale_of(message)
+        self.shown: list[int] = []
+        self.drawn: object = None
+        self.wrong = self.refused = ""
+        self._message = message
+        self.frame, self._stamp_ns = frame_and_stamp(message)
+        self._wxyz = wxyz_of(message.pose.orientation)
+        self._position = point_of(message.pose.position)
+        self._T_fixed_frame: Transform | None = None
+        self._parts: tuple[ControlPart, ...] | None = None
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether it follows its frame; else it stays where that was."""
+        return self._stamp_ns is None
+
+    def move(self, message: Any) -> None:
+        """Take another pose, a visualization_msgs/InteractiveMarkerPose.
+
+        Raises:
+            MessageRefused: it is not finite.
+        """
+        self._wxyz = wxyz_of(message.pose.orientation)
+        self._position = point_of(message.pose.position)
+        frame, stamp_ns = frame_and_stamp(message)
+        self.refused = ""
+        if frame:
+            self.frame, self._stamp_ns = frame, stamp_ns
+        self._T_fixed_frame = None
+
+    def place_again(self) -> None:
+        """Forget where frames were: they are looked up again."""
+        self._T_fixed_frame = self._parts = None
+
+    def place(self, context: DisplayContext) -> tuple[str, Wxyz, Vector3]:
+        """Return the node that it hangs below, and its rotation and position [m] there.
+
+        Raises:
+            LookupRefused: its frame has no place in the fixed frame, or not yet.
+        """
+        fixed = context.fixed_frame
+        if self._stamp_ns is None:
+            if self.frame != fixed:
+                context.tree.lookup(fixed, self.frame)
+            return context.above(self.frame), self._wxyz, self._position
+        if self._T_fixed_frame is None:
+            found = context.tree.lookup(fixed, self.frame, self._stamp_ns)
+            self._T_fixed_frame = found
+        T = self._T_fixed_frame
+        x, y, z, w = T.rotation_xyzw
+        at = T.matrix @ np.array([*self._position, 1.0])
+        wxyz = wxyz_product((w, x, y, z), self._wxyz)
+        return "", wxyz, (float(at[0]), float(at[1]), float(at[2]))
+
+    # Its controls
+
+    def parts(
+        self, context: DisplayContext, *, transparency: bool
+    ) -> Sequence[ControlPart]:
+        """Return what is drawn of its controls; the description is the last one.
+
+        What has a frame of its own is placed there once, when this is called first.
+
+        Args:
+            context: has the frames.
+            transparency: whether handles keep their alpha.
+
+        Raises:
+            LookupRefused: such a frame has no place.
+        """
+        if self._parts is None:
+            controls = controls_of(self._message, is_transparent=transparency)
+            title = title_of(self._message)
+            made = [part for c in controls for part in self._parts_of(c, context)]
+            if title is not None:
+                made += self._parts_of(title, context)
+            self._parts = tuple(made)
+        return self._parts
+
+    def _parts_of(
+        self, control: Control, context: DisplayContext
+    ) -> Iterator[ControlPart]:
+        turning = control.group.turning
+        w, x, y, z = control.wxyz
+        # The x axis of the control is what faces the view.
+        turned = Transform.trusted(
+            _matrix((w, -x, -y, -z) if turning == VIEW_FACING else IDENTITY)
+        )
+        for marker in control.markers:
+            place = MarkerPose(turned) if turning == VIEW_FACING else MarkerPose()
+            if marker.frame:
+                _, wxyz, position = self.place(context)
+                T_group = _matrix(wxyz if turning == INHERIT else IDENTITY, position)
+                T_fixed = self._reference(context, marker)
+                found = Transform.trusted(T_group).inverse() @ T_fixed
+                place = MarkerPose(turned @ found)
+            yield ControlPart(control.name, control.group, marker, place)
+
+    def _reference(self, context: DisplayContext, marker: ControlMarker) -> Transform:
+        """Return the pose of a marker's own frame in the frame of this one."""
+        target = self.frame if self.is_locked else context.fixed_frame
+        return context.tree.lookup(target, marker.frame, marker.stamp_ns)
+
+
+def _matrix(wxyz: Wxyz, position: Vector3 = (0.0, 0.0, 0.0)) -> Any:
+    w, x, y, z = wxyz
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_from_xyzw((x, y, z, w))
+    matrix[:3, 3] = position
+    return matrix
