@@ -442,6 +442,27 @@ def test_a_shape_that_cannot_be_drawn_is_named_and_the_others_are_drawn(
     assert handle_of(opened, "bo") is not None
 
 
+def test_points_that_no_browser_can_show_do_no_harm(shown: Open) -> None:
+    points = [1e300, 0.0, 1.0, 0.0, 1.0, 2.0]
+    shapes = [
+        (kind, points[:2] if kind == 0 else points, colors)
+        for kind in range(12)
+        for colors in (0, 2, 6)
+    ]
+
+    def made(types: Any) -> object:
+        boxes = [
+            cube(types, kind=kind, points=some, colors=colors)
+            for kind, some, colors in shapes
+        ]
+        controls = [control(types, markers=[box]) for box in boxes]
+        return marker(types, "far", controls=controls)
+
+    opened = shown(update(made, lambda t: marker(t, "good")))
+    assert opened.statuses["good"][0] == "Ok"
+    assert known(opened) == {"far", "good"}
+
+
 def test_thousands_of_controls_are_refused(shown: Open) -> None:
     opened = shown(
         update(

@@ -7,7 +7,7 @@ from typing import Any
 
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
-    Options,
+    ShowOptions,
 )
 from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
@@ -207,7 +207,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
     def _draw(self) -> None:
         get = self.config.get
         descriptions, axes = bool(get("Show Descriptions")), bool(get("Show Axes"))
-        options = Options(descriptions, axes, bool(get("Enable Transparency")))
+        options = ShowOptions(descriptions, axes, bool(get("Enable Transparency")))
         self._markers.draw(options)
         if self.subscription is not None:
             self.subscription.waits = self._markers.waits

@@ -9,8 +9,8 @@ from typing import Any
 
 from sambot_viz.displays.data.interactive_markers.controls import MOST_SHAPES, TITLES
 from sambot_viz.displays.data.interactive_markers.known_marker import (
-    KnownMarker,
     ControlPart,
+    KnownMarker,
 )
 from sambot_viz.displays.data.interactive_markers.marker_nodes import (
     ControlNodes,
@@ -33,7 +33,7 @@ EMPTY = "Marker empty."
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class ShowOptions:
     """What the properties of the display say.
 
     Attributes:
@@ -74,7 +74,7 @@ class InteractiveMarkers:
         self._rows = rows
         self._key = key
         self._files_found = files_found
-        self._options = Options()
+        self._options = ShowOptions()
         self._dirty: dict[str, None] = {}
         self._waiting: dict[str, None] = {}
         self._shown: dict[Key, Shown] = {}
@@ -175,7 +175,7 @@ class InteractiveMarkers:
 
     # What is drawn
 
-    def draw(self, options: Options) -> None:
+    def draw(self, options: ShowOptions) -> None:
         """Draw what has changed, and what had no place."""
         if options != self._options:
             if options.transparency != self._options.transparency:

@@ -58,7 +58,7 @@ def _arrow_between(
     """An arrow from one point to another."""
     begin, end = marker.points
     way = (end.x - begin.x, end.y - begin.y, end.z - begin.z)
-    length = math.sqrt(way[0] ** 2 + way[1] ** 2 + way[2] ** 2)
+    length = math.hypot(*way)
     if not 0.0 < length < math.inf:
         return ()
     scale = marker.scale

@@ -10,10 +10,10 @@ import viser
 
 from sambot_viz.displays.data.markers.fields import (
     alpha_of,
-    points_of,
     rgb_of,
     rgba_of,
 )
+from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.scene.glb_node import GlbNode, digest_of, drawn_glb
 from sambot_viz.displays.scene.nodes import NodeCache, placed
 from sambot_viz.geometry import Vector3, Wxyz
@@ -37,32 +37,53 @@ class TrianglesNode:
         self._lit = NodeCache()
 
     def draw(self, marker: Any, wxyz: Wxyz, position: Vector3) -> None:
-        """Draw the triangles of a marker.
+        """Draw the triangles of a marker; those too far away for browsers are left out.
 
         Args:
             marker: three of its points are one.
             wxyz: rotation in the frame of the node above.
             position: there [m].
         """
-        scale = marker.scale
-        at = points_of(marker) * np.array((scale.x, scale.y, scale.z), np.float32)
-        if marker.colors:
+        size = marker.scale
+        scale = np.array((size.x, size.y, size.z))
+        with np.errstate(over="ignore", invalid="ignore"):
+            corners = (coordinates_of(marker.points) * scale).astype(np.float32)
+        finite = np.isfinite(np.reshape(corners, (-1, 9)))
+        good: npt.NDArray[np.bool_] = np.all(finite, axis=1)
+        at = corners[np.repeat(good, 3)]
+        if not len(at):
+            self.remove()
+        elif marker.colors:
             self._lit.remove()
-            self._draw_colored(marker, at, wxyz, position)
+            self._draw_colored(marker, at, good, wxyz, position)
         else:
             self._unlit.remove()
             self._draw_lit(marker, at, wxyz, position)
 
     def _draw_colored(
-        self, marker: Any, at: Floats, wxyz: Wxyz, position: Vector3
+        self,
+        marker: Any,
+        at: Floats,
+        good: npt.NDArray[np.bool_],
+        wxyz: Wxyz,
+        position: Vector3,
     ) -> None:
-        """Draw a colour for each corner, or for each triangle; nothing is lit."""
+        """Draw a colour for each corner, or for each triangle; nothing is lit.
+
+        Args:
+            marker: has the colours.
+            at: (N, 3), the corners of those triangles that are drawn [m].
+            good: which of the marker's triangles are drawn.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
         rgba = rgba_of(marker.colors)
-        if len(rgba) == len(at):
+        if len(rgba) == len(marker.points):
             blended = bool((rgba[:, 3] < 255 * OPAQUE_FROM).any())
         else:
             blended = marker.color.a < OPAQUE_FROM
             rgba = np.repeat(rgba, 3, axis=0)
+        rgba = rgba[np.repeat(good, 3)]
         # What is not blended is opaque, whatever its alpha.
         alpha = rgba[:, 3] * alpha_of(marker.color) if blended else 255
         rgba = np.column_stack([rgba[:, :3], np.full(len(rgba), alpha)])
