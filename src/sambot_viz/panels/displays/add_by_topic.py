@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from sambot_viz.panels.command import FLAG, TEXT, command
-from sambot_viz.panels.displays.topic_tree import ShownTopic, shown_topics, topic_rows
+from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row import Data, Row
 from sambot_viz.session.data.live_topics import LiveTopics
@@ -57,14 +57,14 @@ class AddByTopicPanel(Panel):
         if self._topics is None or messages is None:
             yield _note("none", NO_SOURCE)
             return
-        all_topics = shown_topics(messages.types())
-        found = [topic for topic in all_topics if _has(topic, words)]
+        types = messages.types()
+        found = shown_topics({n: types[n] for n in types if _has(n, words)})
         shown = [topic for topic in found if shows_all or topic.displays]
         yield from topic_rows(shown[:MOST_SHOWN], f"{self.name}/")
         if len(shown) > MOST_SHOWN:
             more = f"{len(shown) - MOST_SHOWN:,} more: use the search"
             yield _note("more", more)
-        elif not all_topics:
+        elif not types:
             yield _note("none", self._topics.nothing)
         elif not shown:
             yield _note("none", NOT_SHOWN if found else "No name has this in it")
@@ -82,8 +82,8 @@ class AddByTopicPanel(Panel):
         self._remake(self)
 
 
-def _has(topic: ShownTopic, words: str) -> bool:
-    return all(word in topic.name.lower() for word in words.lower().split())
+def _has(topic: str, words: str) -> bool:
+    return all(word in topic.lower() for word in words.lower().split())
 
 
 def _note(name: str, sentence: str) -> Row:

@@ -148,8 +148,8 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         "Depth",
         default=5,
         minimum=1,
-        help="How many messages wait in RViz's queue; kept for RViz: here as many wait as "
-        "the display needs.",
+        help="How many messages wait in RViz's queue; kept for RViz: here as many wait "
+        "as the display needs.",
         support="approximate",
     ),
     EditableEnumProperty(
