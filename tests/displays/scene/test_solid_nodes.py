@@ -116,3 +116,16 @@ def test_each_kind_of_shape_is_one_node(drawn: Drawn) -> None:
     assert drawn.sent().count("RemoveSceneNodeMessage") == 2
     node.remove()
     assert drawn.sent() == ["RemoveSceneNodeMessage"]
+
+
+def test_solids_of_negative_sizes_are_turned_and_not_inside_out(drawn: Drawn) -> None:
+    """A cone of a negative height points down, in a copy that is not mirrored."""
+    SolidsNode(drawn.scene, "/m").draw(
+        [
+            Solid("cone", (1.0, 0.0, 0.0, 0.0), (0, 0, 0), (1.0, 1.0, -2.0), RED),
+            Solid("cone", (1.0, 0.0, 0.0, 0.0), (0, 0, 0), (-1.0, 1.0, 2.0), RED),
+        ]
+    )
+    seen = Seen(drawn, "/mco").props
+    assert (seen.batched_scales > 0).all()
+    assert np.abs(seen.batched_wxyzs).tolist() == [[0, 1, 0, 0], [1, 0, 0, 0]]

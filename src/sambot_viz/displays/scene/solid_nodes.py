@@ -17,6 +17,7 @@ from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.solids import (
     AXIS_COLORS,
     AXIS_WXYZ,
+    UPSIDE_DOWN,
     Arrow,
     Rgb,
     arrow_triangles,
@@ -25,7 +26,7 @@ from sambot_viz.displays.scene.solids import (
     cylinder,
     sphere,
 )
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz, wxyz_product
 
 Numbers = npt.NDArray[np.float64]
 Kind = Literal["box", "cone", "cylinder", "sphere"]
@@ -149,7 +150,7 @@ class Solid:
             are 1.
         wxyz: its rotation.
         position: of its middle [m].
-        scale: along its own axes [m].
+        scale: along its own axes [m]; negative ones mirror it.
         color: 0 to 255.
         alpha: 0 to 1.
     """
@@ -172,10 +173,21 @@ def arrow_solids(arrow: Arrow, color: Rgb, alpha: float) -> tuple[Solid, ...]:
     """
     turn, shaft_at, head_at = arrow.parts()
     (length, wide), (head, head_wide) = arrow.shaft, arrow.head
-    tip = Solid("cone", turn, head_at, (head_wide, head_wide, head), color, alpha)
+    sizes = (head_wide, head_wide, abs(head))
+    tip = Solid("cone", turn, head_at, sizes, color, alpha)
     if not length:
         return (tip,)
     return (tip, Solid("cylinder", turn, shaft_at, (wide, wide, length), color, alpha))
+
+
+def _turn(solid: Solid) -> Wxyz:
+    """Return the rotation of a solid that is not mirrored and looks the same.
+
+    Of a mirrored copy browsers show the inside. All shapes but the cone are their own
+    mirror images.
+    """
+    is_down = solid.kind == "cone" and solid.scale[2] < 0
+    return wxyz_product(solid.wxyz, UPSIDE_DOWN) if is_down else solid.wxyz
 
 
 class SolidsNode:
@@ -215,9 +227,9 @@ class SolidsNode:
                 continue
             batch.show(
                 _SHAPES[kind](),
-                [solid.wxyz for solid in some],
+                [_turn(solid) for solid in some],
                 [solid.position for solid in some],
-                [solid.scale for solid in some],
+                np.abs([solid.scale for solid in some]),
                 [solid.color for solid in some],
                 [solid.alpha for solid in some],
                 wxyz=wxyz,

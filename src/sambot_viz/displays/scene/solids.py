@@ -15,7 +15,13 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.geometry import Vector3, Wxyz, rotation_from_xyzw, wxyz_from_z
+from sambot_viz.geometry import (
+    Vector3,
+    Wxyz,
+    rotation_from_xyzw,
+    wxyz_from_z,
+    wxyz_product,
+)
 from sambot_viz.meshes.glb import srgb_to_linear
 from sambot_viz.meshes.primitives import (
     Primitive,
@@ -33,6 +39,7 @@ AXIS_WXYZ: tuple[Wxyz, ...] = (
     (_HALF, -_HALF, 0.0, 0.0),
     (1.0, 0.0, 0.0, 0.0),
 )
+UPSIDE_DOWN: Wxyz = (0.0, 1.0, 0.0, 0.0)
 AXIS_COLORS: tuple[Rgb, ...] = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
@@ -159,8 +166,11 @@ def arrow_triangles(arrows: tuple[Arrow, ...]) -> Compact:
 
 
 def _thick(part: tuple[float, float]) -> Vector3:
-    """Return the scale of a part with a length and a diameter."""
-    length, diameter = part
+    """Return the scale of a part with a length and a diameter.
+
+    A mirrored copy would show its inside; a turned one looks the same.
+    """
+    length, diameter = abs(part[0]), abs(part[1])
     return (diameter, diameter, length)
 
 
@@ -210,6 +220,8 @@ class Arrow:
         direction: towards the tip; any length but 0.
         shaft: length and diameter of the shaft [m].
         head: length and diameter of the head [m].
+
+    A part of a negative length goes backwards from where it begins, as in RViz.
     """
 
     start: Vector3
@@ -223,8 +235,9 @@ class Arrow:
         unit = tuple(c / norm for c in self.direction)
         shaft_at, head_at = self.shaft[0] / 2, self.shaft[0] + self.head[0] / 2
         x, y, z = self.start
+        turn = wxyz_from_z(self.direction)
         return (
-            wxyz_from_z(self.direction),
+            wxyz_product(turn, UPSIDE_DOWN) if self.head[0] < 0 else turn,
             (x + unit[0] * shaft_at, y + unit[1] * shaft_at, z + unit[2] * shaft_at),
             (x + unit[0] * head_at, y + unit[1] * head_at, z + unit[2] * head_at),
         )

@@ -282,7 +282,8 @@ def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
         scale: Marker Scale.
 
     Returns:
-        None when the frames are too close for an arrow.
+        None when the frames are too close for an arrow. A head that is longer than the
+        way begins behind the frame, so that its tip is at the parent.
     """
     distance = math.sqrt(sum(c * c for c in at))
     if distance <= SHORTEST_ARROW:
@@ -290,11 +291,10 @@ def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
     head = HEAD_LENGTH * scale
     if distance < head:
         head *= distance
-    shaft = max(0.0, distance - head)
     towards_parent = (-at[0], -at[1], -at[2])
     return Arrow(
         start=at,
         direction=towards_parent,
-        shaft=(shaft, SHAFT_DIAMETER * scale),
+        shaft=(distance - head, SHAFT_DIAMETER * scale),
         head=(head, HEAD_DIAMETER * scale),
     )
