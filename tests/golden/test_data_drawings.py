@@ -352,3 +352,26 @@ def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
     left, right = found[200, 210].tolist(), found[200, 390].tolist()
     assert left[0] > left[2] + 60
     assert right[2] > right[0] + 60
+
+
+def test_a_mesh_is_shaded_by_the_normals_of_its_file(chromium: Chromium) -> None:
+    """Tilted by 60° they make a square seen from above half as bright."""
+    from sambot_viz import load_config
+    from sambot_viz.meshes.glb import to_glb
+    from sambot_viz.meshes.mesh import MeshPart
+
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
+    faces = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+    tilted = np.tile(np.array([0, np.sqrt(0.75), 0.5], np.float32), (4, 1))
+    config = load_config(DATA / "map_palette_map" / "config.rviz")
+
+    def draw(scene: viser.SceneApi) -> None:
+        for place, normals in ((-1.0, None), (1.0, tilted)):
+            part = MeshPart(corners, faces, normals, (1.0, 0.8, 0.4, 1.0))
+            data = to_glb(part)
+            scene.add_glb(f"/~{place}", data, scale=0.8, position=(place, 0, 0))
+
+    seen = picture_of(chromium, config, (240, 320, 3), draw)
+    shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
+    for color in ((255, 204, 102), (128, 102, 51)):
+        assert any(np.abs(np.subtract(one, color)).max() <= 2 for one in shown)

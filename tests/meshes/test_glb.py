@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.meshes.glb import to_glb
+from sambot_viz.meshes.glb import has_own_normals, to_glb
 from sambot_viz.meshes.mesh import MeshPart
 from sambot_viz.meshes.read_mesh import read_mesh
 from sambot_viz.meshes.textures import encode_texture
@@ -75,6 +75,16 @@ def test_colour_and_alpha_multiply(
 def test_flat_parts_have_no_normals() -> None:
     (primitive,) = json_of(to_glb(MeshPart(SQUARE, FACES)))["meshes"][0]["primitives"]
     assert set(primitive["attributes"]) == {"POSITION"}
+
+
+def test_normals_that_faces_do_not_give_are_there_twice() -> None:
+    """viser overwrites those named NORMAL with normals of the faces."""
+    tilted = np.tile(np.array([0, 0.6, 0.8], dtype=np.float32), (4, 1))
+    for normals, own in ((UP, False), (tilted, True), (None, False)):
+        part = MeshPart(SQUARE, FACES, normals)
+        assert has_own_normals(part) is own
+        (primitive,) = json_of(to_glb(part))["meshes"][0]["primitives"]
+        assert ("_NORMAL" in primitive["attributes"]) is own
 
 
 def test_our_own_reader_gets_back_what_was_written(

@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.geometry import Rgba
-from sambot_viz.meshes.mesh import WHITE, MeshPart
+from sambot_viz.meshes.mesh import WHITE, FloatArray, MeshPart
 
 _FLOAT, _UINT32, _UINT16 = 5126, 5125, 5123
 _VERTICES, _INDICES = 34962, 34963
 OPAQUE_FROM = 0.9998
 """RViz blends below this alpha and writes no depth."""
-
+_SEEN, _A_BIT = 4 / 255, 0.02
+"""A change of the brightness that is seen, and a part of a surface that counts."""
 
 _last: weakref.WeakKeyDictionary[MeshPart, tuple[tuple[Rgba | None, float], bytes]] = (
     weakref.WeakKeyDictionary()
@@ -39,11 +40,46 @@ def shared_glb(part: MeshPart, rgba: Rgba | None, alpha: float) -> bytes:
     return known[1]
 
 
+_own_normals: weakref.WeakKeyDictionary[MeshPart, bool] = weakref.WeakKeyDictionary()
+
+
+def has_own_normals(part: MeshPart) -> bool:
+    """Return whether a part is shaded otherwise than by its faces alone.
+
+    Browsers compute normals from the faces around each vertex, which is what most files
+    say; where the sides of an edge have different textures it is not.
+    """
+    if part.normals is None:
+        return False
+    known = _own_normals.get(part)
+    if known is None:
+        known = _own_normals[part] = _differ(part, part.normals)
+    return known
+
+
+def _differ(part: MeshPart, normals: FloatArray) -> bool:
+    """Whether the brightness of more than a bit of the surface would be another."""
+    corners = part.vertices[part.faces].astype(np.float64)
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    at, count = np.ravel(part.faces), len(part.vertices)
+
+    def sums(of_faces: np.ndarray[Any, np.dtype[np.float64]]) -> Any:
+        return np.bincount(at, np.repeat(of_faces, 3), count)
+
+    computed = np.stack([sums(across[:, axis]) for axis in range(3)], axis=1)
+    lengths = np.linalg.norm(computed, axis=1, keepdims=True)
+    computed /= np.where(lengths > 0, lengths, 1)
+    area = sums(np.linalg.norm(across, axis=1))
+    other = np.abs(computed - normals).max(axis=1) > _SEEN
+    return bool((area * other).sum() > _A_BIT * area.sum())
+
+
 def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> bytes:
     """Return a GLB file that a browser shows as RViz shows the part.
 
     The material is not metallic and quite rough, back faces are culled, and a flat part
-    has no normals, by which a glTF reader knows it.
+    has no normals, by which a glTF reader knows it. viser replaces normals by those of
+    the faces; the page takes `_NORMAL` instead.
 
     Args:
         part: the triangles.
@@ -59,6 +95,8 @@ def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> b
     attributes = {"POSITION": position}
     if part.normals is not None:
         attributes["NORMAL"] = numbers.add(part.normals, "VEC3")
+        if has_own_normals(part):
+            attributes["_NORMAL"] = numbers.add(part.normals, "VEC3")
     if part.uv is not None and part.texture is not None:
         # The first row of an image is v = 0 in glTF.
         uv = np.column_stack([part.uv[:, 0], 1 - part.uv[:, 1]])

@@ -30,7 +30,7 @@ from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix, Rgba, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
-from sambot_viz.meshes.glb import OPAQUE_FROM, shared_glb
+from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, shared_glb
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, apply_scale
 from sambot_viz.robot.parts import Box, Capsule, Cylinder, MeshFile, Shape, Sphere
 
@@ -55,11 +55,16 @@ def _placing(T: Matrix) -> _Placing:
     }
 
 
+def is_file(part: MeshPart) -> bool:
+    """Return whether a part travels as a file, with its texture or its normals."""
+    return part.texture is not None or has_own_normals(part)
+
+
 class ShapeNode:
     """The nodes of one shape under its link's frame node.
 
-    Primitives and plain meshes change colour and opacity in place; a textured part
-    is sent again for another opacity.
+    Primitives and plain meshes change colour and opacity in place; a part with a
+    texture or with normals of its own is sent again for another opacity.
 
     Attributes:
         asset: the file it is drawn from, or None.
@@ -179,15 +184,15 @@ class ShapeNode:
     def _must_resend(self, look: ShapeLook) -> bool:
         before = self._look
         if before is None or before.textured != look.textured:
-            return self._has_texture
+            return self._has_files
         same = before.alpha == look.alpha
         return not same and any(piece.textured for piece in self._pieces)
 
     @property
-    def _has_texture(self) -> bool:
+    def _has_files(self) -> bool:
         content = self._content
         if isinstance(content, Mesh):
-            return any(part.texture is not None for part in content.parts)
+            return any(is_file(part) for part in content.parts)
         return isinstance(content, Texture)
 
     def _create(self, look: ShapeLook) -> None:
@@ -259,9 +264,9 @@ class ShapeNode:
     def _add_part(
         self, name: str, part: MeshPart, rgba: Rgba, look: ShapeLook, pose: _Placing
     ) -> None:
-        """A mesh of one colour, or a GLB when it has a texture."""
+        """A mesh of one colour, or a GLB when it has more than that."""
         color = rgb255(rgba)
-        textured = part.texture is not None and look.textured
+        textured = is_file(part) and look.textured
         if textured:
             handle = self._scene.add_glb(
                 name, shared_glb(part, rgba, look.alpha), **pose

@@ -160,6 +160,15 @@ const adopt = (material, object) => {
   if (material.isMeshStandardMaterial) material.depthWrite = !material.transparent;
 };
 
+/** Shade a mesh by the normals of its file where viser has put those of its faces.
+ * @param {any} geometry */
+function takeNormals(geometry) {
+  const own = geometry?.attributes?._normal;
+  if (!own) return;
+  geometry.setAttribute("normal", own);
+  geometry.deleteAttribute("_normal");
+}
+
 let labels = 0;
 /**
  * Look at an object and all below it.
@@ -171,6 +180,7 @@ const visit = (object, studio, shown) => {
   // When viser makes a batch of meshes again, as it does when it gets another material, the old
   // one is in the scene for some pictures more, disposed of: WebGL would refuse to draw it.
   if (object.isInstancedMesh2 && !object.instanceIndex) object.visible = false;
+  takeNormals(object.geometry);
   dressDrawn(object, eye);
   const visible = shown && object.visible;
   const material = object.material;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
@@ -18,7 +18,7 @@ from sambot_viz.errors import RobotError
 from sambot_viz.geometry import Rgba, Vector3, Wxyz
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
-from sambot_viz.meshes.glb import OPAQUE_FROM, to_glb
+from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, to_glb
 from sambot_viz.meshes.mesh import GREY, WHITE, Mesh, MeshPart, apply_scale
 from sambot_viz.robot.model import asset_of
 
@@ -190,10 +190,11 @@ class MeshNodes:
         pose: tuple[Wxyz, Vector3],
     ) -> Handle:
         scene = self._context.scene
-        if textured:
+        if textured or has_own_normals(part):
+            shown = part if textured else replace(part, texture=None)
             return scene.add_glb(
                 name,
-                to_glb(part, rgba=rgba),
+                to_glb(shown, rgba=rgba),
                 wxyz=pose[0],
                 position=pose[1],
                 cast_shadow=False,
