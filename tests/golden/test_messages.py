@@ -9,9 +9,6 @@ Three measures for every case:
   are smoothed differently);
 - outline: of the pixels that differ from the background in one picture, the part that
   has such a pixel of the other within one pixel.
-
-``SAMBOT_VIZ_ALL_GOLDEN=1`` adds the other recordings of the collection that this
-program draws.
 """
 
 from __future__ import annotations
@@ -40,6 +37,11 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 DATA = Path(__file__).parent / "messages"
+COLLECTION = Path(__file__).resolve().parents[2].parent / "shared/data/golden-data"
+PACKAGES = (COLLECTION / "golden_meshes",) if COLLECTION.is_dir() else ()
+NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
+IN_PLACE = ("marker_mesh", "marker_mesh_tint", "tf_moved")
+"""Cases that are drawn where the collection has them."""
 ABOUT = 40
 BACKGROUND = 48
 
@@ -55,6 +57,7 @@ class Limits:
 
 
 CASES = {folder.name: Limits() for folder in sorted(DATA.iterdir())}
+CASES |= {name: Limits() for name in IN_PLACE}
 CASES["marker_text"] = Limits(
     outline=0.97, reason="the letters of RViz 1 are 3.7 % smaller than RViz 2's"
 )
@@ -75,7 +78,7 @@ def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) 
     """The outline of a footprint is green, and the costmap is blended over the rest."""
     folder = DATA / "nav2_scene_top"
     golden = picture(folder / "render.png")
-    ours = end_of_recording(chromium, folder, golden.shape)
+    ours = end_of_recording(chromium, folder, golden.shape, PACKAGES)
 
     def green(image: Image) -> int:
         red, green, blue = (image[..., channel] for channel in range(3))
@@ -99,9 +102,12 @@ def colors(ours: Image, golden: Image, counts: Mask) -> float:
 
 @pytest.mark.parametrize("name", list(CASES))
 def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
-    folder, limits = DATA / name, CASES[name]
+    limits = CASES[name]
+    folder = (COLLECTION if name in IN_PLACE else DATA) / name
+    if not folder.is_dir():
+        pytest.skip(NEEDS_SHARED)
     golden = picture(folder / "render.png")
-    ours = end_of_recording(chromium, folder, golden.shape)
+    ours = end_of_recording(chromium, folder, golden.shape, PACKAGES)
     counts = counting(folder, golden)
     # A line along the border belongs to the picture or does not, by a rounding.
     counts[[0, -1]] = counts[:, [0, -1]] = False

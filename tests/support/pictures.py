@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -43,8 +44,10 @@ def drawn(image: Image, background: Image | int) -> Mask:
     return np.asarray(np.abs(image - background).max(axis=-1) > DIFFERENT)
 
 
-def dilated(mask: Mask) -> Mask:
-    """All pixels with a pixel of the mask within one pixel."""
+def dilated(mask: Mask, pixels: int = 1) -> Mask:
+    """All pixels with a pixel of the mask within so many pixels, also diagonally."""
+    if pixels > 1:
+        mask = dilated(mask, pixels - 1)
     out: Mask = np.array(mask)
     padded = np.pad(mask, 1)
     height, width = mask.shape
@@ -54,9 +57,19 @@ def dilated(mask: Mask) -> Mask:
     return out
 
 
-def near_part(a: Mask, b: Mask) -> float:
-    """The part of the pixels of both that have one of the other within one pixel."""
-    near = (a & dilated(b)).sum() + (b & dilated(a)).sum()
+def outlined(mask: Mask) -> Mask:
+    """The pixels on both sides of the border of what the mask covers."""
+    out = np.zeros_like(mask)
+    for inner, found in ((mask, out), (mask.T, out.T)):
+        changes = inner[1:] != inner[:-1]
+        found[1:] |= changes
+        found[:-1] |= changes
+    return out
+
+
+def near_part(a: Mask, b: Mask, pixels: int = 1) -> float:
+    """The part of the pixels of both that have one of the other so near."""
+    near = (a & dilated(b, pixels)).sum() + (b & dilated(a, pixels)).sum()
     return float(near / max(1, a.sum() + b.sum()))
 
 
@@ -67,20 +80,30 @@ def flat(image: Image) -> Mask:
     return np.asarray(np.pad(even, PATCH // 2))
 
 
-def end_of_recording(chromium: Chromium, folder: Path, shape: tuple[int, ...]) -> Image:
+def end_of_recording(
+    chromium: Chromium,
+    folder: Path,
+    shape: tuple[int, ...],
+    packages: Sequence[Path] = (),
+) -> Image:
     """The messages of a case at their end, through the view of its config.
 
     Args:
         chromium: takes the picture.
         folder: with messages.mcap and config.rviz.
         shape: of the picture: height, width, ….
+        packages: folders of packages with the meshes of markers.
     """
     from sambot_viz import Visualizer
     from sambot_viz.export.view_picture import snapshot
 
-    source = f"bag:{folder / 'messages.mcap'}"
-    config = folder / "config.rviz"
-    with Visualizer(source=source, config=config, port=0, panels=False) as viz:
+    with Visualizer(
+        source=f"bag:{folder / 'messages.mcap'}",
+        config=folder / "config.rviz",
+        package_path=packages,
+        port=0,
+        panels=False,
+    ) as viz:
         viz.player.pause()
         viz.player.jump(viz.player.duration)
         view = viz.server.sessions.all()[0].document_view.camera
