@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from sambot_viz.displays.scene.solids import Arrow, add_arrows, linear
+from sambot_viz.displays.scene.solids import (
+    UPSIDE_DOWN,
+    Arrow,
+    add_arrows,
+    arrow_wxyz,
+    linear,
+)
+from sambot_viz.geometry import wxyz_product, wxyz_rotated
 from sambot_viz.options import Options
 from sambot_viz.server.listener import listen
 
@@ -31,3 +38,15 @@ def test_arrows_are_shown_in_their_colours_to_four_steps() -> None:
         for node, color in ((shafts, (204, 204, 76)), (heads, (255, 25, 153))):
             shown = [encoded(c / 255) for c in node.batched_colors[0]]
             assert shown == pytest.approx(color, abs=4)
+
+
+@pytest.mark.parametrize("way", [(1.0, 2.0, 3.0), (0.0, 0.0, -2.0), (-0.3, 0.4, 0.0)])
+def test_arrows_are_turned_the_shortest_way_from_minus_z(
+    way: tuple[float, float, float],
+) -> None:
+    """The sides of shaft and head then face where those of RViz's arrows face."""
+    turn = arrow_wxyz(way)
+    length = sum(c * c for c in way) ** 0.5
+    assert wxyz_rotated(turn, (0, 0, length)) == pytest.approx(way, abs=1e-12)
+    from_minus_z = wxyz_product(turn, UPSIDE_DOWN)
+    assert from_minus_z[3] == pytest.approx(0.0, abs=1e-12)

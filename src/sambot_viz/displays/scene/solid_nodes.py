@@ -6,7 +6,7 @@ The page pays for each node, so all copies of one shape are a batch.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -26,7 +26,15 @@ from sambot_viz.displays.scene.solids import (
     cylinder,
     sphere,
 )
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz, wxyz_product
+from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
+    Matrix,
+    Vector3,
+    Wxyz,
+    wxyz_from_matrix,
+    wxyz_product,
+)
 
 Numbers = npt.NDArray[np.float64]
 Kind = Literal["box", "cone", "cylinder", "sphere"]
@@ -161,6 +169,12 @@ class Solid:
     scale: Vector3
     color: Rgb
     alpha: float = 1.0
+
+    def placed(self, T: Matrix) -> Solid:
+        """Return it in the coordinates of another frame, T_frame_own, (4, 4)."""
+        x, y, z = (T[:3, :3] @ np.array(self.position) + T[:3, 3]).tolist()
+        turn = wxyz_product(wxyz_from_matrix(T), self.wxyz)
+        return replace(self, wxyz=turn, position=(x, y, z))
 
 
 def arrow_solids(arrow: Arrow, color: Rgb, alpha: float) -> tuple[Solid, ...]:

@@ -211,6 +211,16 @@ def _middles(length: float) -> list[Vector3]:
     return [(half, 0.0, 0.0), (0.0, half, 0.0), (0.0, 0.0, half)]
 
 
+def arrow_wxyz(direction: Vector3) -> Wxyz:
+    """Return the rotation of z into a direction by which RViz turns arrows.
+
+    It is the shortest one of −z after a half turn, so that the sides of shaft and head
+    face where RViz's face.
+    """
+    x, y, z = direction
+    return wxyz_product(UPSIDE_DOWN, wxyz_from_z((x, -y, -z)))
+
+
 @dataclass(frozen=True, slots=True)
 class Arrow:
     """An arrow as RViz draws it: a shaft, and a head at its end.
@@ -235,7 +245,7 @@ class Arrow:
         unit = tuple(c / norm for c in self.direction)
         shaft_at, head_at = self.shaft[0] / 2, self.shaft[0] + self.head[0] / 2
         x, y, z = self.start
-        turn = wxyz_from_z(self.direction)
+        turn = arrow_wxyz(self.direction)
         return (
             wxyz_product(turn, UPSIDE_DOWN) if self.head[0] < 0 else turn,
             (x + unit[0] * shaft_at, y + unit[1] * shaft_at, z + unit[2] * shaft_at),

@@ -8,8 +8,8 @@ from typing import Any
 from sambot_viz.displays.data.markers.checks import ARROW, CUBE, SPHERE
 from sambot_viz.displays.data.markers.fields import MarkerPose, alpha_of, rgb_of
 from sambot_viz.displays.scene.solid_nodes import Kind, Solid
-from sambot_viz.displays.scene.solids import AXIS_WXYZ, Rgb
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_z, wxyz_product, wxyz_rotated
+from sambot_viz.displays.scene.solids import AXIS_WXYZ, Rgb, arrow_wxyz
+from sambot_viz.geometry import Vector3, Wxyz, wxyz_product, wxyz_rotated
 
 _TO_X, _TO_Y = AXIS_WXYZ[0], AXIS_WXYZ[1]
 """Rotations that turn z to x, and z to y."""
@@ -65,8 +65,8 @@ def _arrow_between(
     head = min(max(scale.z, 0.0), length) if scale.z else _HEAD * length
     from_origin = wxyz_rotated(wxyz, (begin.x, begin.y, begin.z))
     start = _along(at, from_origin, 1.0)
-    ahead = wxyz_rotated(wxyz, (way[0] / length, way[1] / length, way[2] / length))
-    turn = wxyz_from_z(ahead)
+    turn = wxyz_product(wxyz, arrow_wxyz(way))
+    ahead = wxyz_rotated(turn, (0.0, 0.0, 1.0))
     parts: list[Solid] = []
     for kind, middle, size in _parts(length - head, head):
         wide = scale.x if kind == "cylinder" else scale.y

@@ -12,11 +12,10 @@ import numpy as np
 from sambot_viz.displays.data.kept_messages import KeptReadingsDisplay
 from sambot_viz.displays.data.message_numbers import vector_of
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.rings import Ring, RingsNode
 from sambot_viz.displays.scene.solid_nodes import Solid, arrow_solids
 from sambot_viz.displays.scene.solids import Arrow, Rgb
-from sambot_viz.geometry import Matrix, Vector3, rotation_from_xyzw, wxyz_from_z
+from sambot_viz.geometry import ORIGIN, Matrix, Vector3, rotation_from_xyzw, wxyz_from_z
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,
@@ -178,10 +177,10 @@ def arrow_of(
     length = look.length(vector)
     if not length:
         return ()
-    x, y, z = (T_fixed_frame[:3, :3] @ np.array(vector)).tolist()
     shaft, head = (length, 0.1 * look.width), (0.3 * length, 0.2 * look.width)
-    arrow = Arrow(position_of(T_fixed_frame), (x, y, z), shaft, head)
-    return arrow_solids(arrow, look.color, look.alpha)
+    arrow = Arrow(ORIGIN, vector, shaft, head)
+    solids = arrow_solids(arrow, look.color, look.alpha)
+    return [solid.placed(T_fixed_frame) for solid in solids]
 
 
 def ring_of(vector: Vector3, look: VectorLook, T_fixed_frame: Matrix) -> Sequence[Ring]:
