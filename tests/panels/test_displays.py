@@ -414,7 +414,8 @@ def test_a_display_that_is_not_shown_says_so_and_can_be_arranged(
     radar = displays.named("Radar")
     assert radar.level == "info"
     (note,) = [row for row in displays.all().values() if row.parent == radar.id]
-    assert note.value.startswith("Not shown: this version does not know this type.")
+    assert note.value.startswith("Not shown. A display of ")
+    assert note.value.endswith("It stays in the file as it is.")
     displays.change("Radar", to=False)
     displays.act("rename", "Radar", "My radar")
     displays.act("duplicate", "My radar", "mark")

@@ -62,6 +62,7 @@ robots (rviz_common/Group), on: shown
     Glow                           unknown key (kept in the file)
 
 radar (my_plugins/Radar), off: not supported
+  A display of my_plugins, not of RViz itself, which is not known here.
   its 1 properties are kept in the file
 
 Current View (rviz_default_plugins/Orbit): shown
@@ -103,6 +104,8 @@ def test_the_json_holds_the_same_and_the_defaults(parse: Callable[[str], RvizCon
     }
     assert rows["Visual Enabled"]["given"] is False
     assert rows["Glow"]["level"] == "unknown key"
+    assert radar["note"].startswith("A display of my_plugins")
+    assert robot["note"] == group["note"] == ""
     assert radar["properties"] == [
         {
             "path": "Range",

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.rviz import Property
+from sambot_viz.rviz.other_packages import OTHERS, package_of
 
 LEVELS = {
     "full": "shown",
@@ -38,6 +39,18 @@ def display_table() -> str:
                 "| --- | --- | --- | --- |",
             ]
             lines += rows
+    lines += [
+        "",
+        "## Displays of other packages",
+        "",
+        "They are not shown; `sambot-viz config` and the page say of each what it is. "
+        "A display of a package that is not in this table is kept in the same way.",
+        "",
+        "| Class | Package | Shows | From |",
+        "| --- | --- | --- | --- |",
+    ]
+    for kind, (what, needs) in sorted(OTHERS.items()):
+        lines.append(f"| `{kind}` | {package_of(kind)} | {what} | {needs} |")
     return "\n".join(lines) + "\n"
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal, TypeAlias
 
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import ClassItem, DisplayConfig
 from sambot_viz.rviz.item import ConfigItem
+from sambot_viz.rviz.other_packages import about_other
 from sambot_viz.rviz.properties.property import KeptProperty, Support
 from sambot_viz.rviz.rviz_config import RvizConfig
 from sambot_viz.text import text
@@ -65,6 +66,7 @@ class ItemReport:
         enabled: its box; None where there is none.
         properties: its properties.
         displays: the members of a group.
+        note: what a display of another package is; empty for all others.
     """
 
     name: str
@@ -73,6 +75,7 @@ class ItemReport:
     enabled: bool | None
     properties: tuple[PropertyReport, ...]
     displays: tuple[ItemReport, ...] = ()
+    note: str = ""
 
     def as_json(self) -> dict[str, Any]:
         """Return the fields for ``--format json``."""
@@ -80,6 +83,7 @@ class ItemReport:
             "name": self.name,
             "class": self.class_id,
             "level": self.level,
+            "note": self.note,
             "enabled": self.enabled,
             "properties": [row.as_json() for row in self.properties],
             "displays": [display.as_json() for display in self.displays],
@@ -188,7 +192,8 @@ def config_report(config: RvizConfig) -> ConfigReport:
 
 def _display(display: DisplayConfig) -> ItemReport:
     members = tuple(_display(member) for member in display.displays)
-    return _item(display, display.enabled, members)
+    note = "" if display.supported else about_other(display.kind)
+    return replace(_item(display, display.enabled, members), note=note)
 
 
 def _item(
@@ -229,6 +234,8 @@ def _item_lines(item: ItemReport, depth: int) -> Iterator[str]:
     box = {True: ", on", False: ", off", None: ""}[item.enabled]
     yield f"{margin}{text(item.name)}{known}{box}: {item.level}"
     if item.level == "not supported":
+        if item.note:
+            yield f"{margin}  {item.note}"
         count = len(item.properties)
         yield f"{margin}  its {count} properties are kept in the file"
     else:

@@ -25,6 +25,7 @@ from sambot_viz.panels.unfolded import (
 )
 from sambot_viz.rviz import DisplayConfig, FileProperty
 from sambot_viz.rviz.declarations import GROUP, row_text
+from sambot_viz.rviz.other_packages import about_other
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.problems import Problems
@@ -340,7 +341,9 @@ def _fact_id(row_id: str, key: str) -> str:
 def _unsupported(config: DisplayConfig, parent: str) -> Row:
     known = config.kind in NOT_SHOWN
     why = f"it {REASON}" if known else "this version does not know this type"
-    sentence = f"Not shown: {why}. It stays in the file as it is."
+    about = about_other(config.kind)
+    start = f"Not shown. {about}" if about else f"Not shown: {why}."
+    sentence = f"{start} It stays in the file as it is."
     return Row(f"{parent}/:status", parent, "note", "Status", sentence, level="info")
 
 
