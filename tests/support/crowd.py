@@ -65,6 +65,7 @@ class Light:
         joined: how long it took until it had the whole scene [s].
         bytes: how much it was sent since it was last asked.
         poses: of nodes that were turned, since it was last asked.
+        frames: how many batches of messages it was sent, since it was last asked.
         nodes: how many scene nodes it was sent.
         closed: whether its connection has ended.
     """
@@ -72,6 +73,7 @@ class Light:
     joined: float = math.nan
     bytes: int = 0
     poses: list[Pose] = field(default_factory=list[Pose])
+    frames: int = 0
     nodes: int = 0
     closed: bool = False
 
@@ -84,10 +86,18 @@ class Crowd:
         count: how many.
         processes: so many processes share them.
         meshes: one has joined when it was sent so many meshes.
+        says: what each says on the page's own channel.
+        reads: they look into what comes after they have joined.
     """
 
     def __init__(
-        self, port: int, count: int, processes: int = 2, meshes: int = 0
+        self,
+        port: int,
+        count: int,
+        processes: int = 2,
+        meshes: int = 0,
+        says: Sequence[str] = (),
+        reads: bool = True,
     ) -> None:
         context = multiprocessing.get_context("spawn")
         self._pipes: list[Connection] = []
@@ -96,7 +106,9 @@ class Crowd:
             ours, theirs = context.Pipe()
             share = count // processes + (number < count % processes)
             process = context.Process(
-                target=_crowd, args=(theirs, port, share, meshes), daemon=True
+                target=_crowd,
+                args=(theirs, port, share, meshes, tuple(says), reads),
+                daemon=True,
             )
             process.start()
             self._pipes.append(ours)
@@ -166,11 +178,11 @@ class Crowd:
         return found
 
 
-def _crowd(pipe: Connection, port: int, count: int, meshes: int) -> None:
-    asyncio.run(_serve(pipe, port, count, meshes))
+def _crowd(pipe: Connection, port: int, count: int, *options: Any) -> None:
+    asyncio.run(_serve(pipe, port, count, *options))
 
 
-async def _serve(pipe: Connection, port: int, count: int, meshes: int) -> None:
+async def _serve(pipe: Connection, port: int, count: int, *options: Any) -> None:
     loop = asyncio.get_running_loop()
     lights = [Light() for _ in range(count)]
     tasks: list[asyncio.Task[None]] = []
@@ -180,7 +192,7 @@ async def _serve(pipe: Connection, port: int, count: int, meshes: int) -> None:
             if word == "join":
                 joins = [asyncio.Event() for _ in lights]
                 tasks += [
-                    asyncio.create_task(_browse(port, light, joined, meshes))
+                    asyncio.create_task(_browse(port, light, joined, *options))
                     for light, joined in zip(lights, joins, strict=True)
                 ]
                 waiting = asyncio.gather(*(joined.wait() for joined in joins))
@@ -193,7 +205,7 @@ async def _serve(pipe: Connection, port: int, count: int, meshes: int) -> None:
         else:
             pipe.send(lights)
         for light in lights:
-            light.poses, light.bytes = [], 0
+            light.poses, light.bytes, light.frames = [], 0, 0
 
 
 async def _until_seen(lights: Sequence[Light], angle: float) -> None:
@@ -204,7 +216,14 @@ async def _until_seen(lights: Sequence[Light], angle: float) -> None:
         await asyncio.sleep(0.02)
 
 
-async def _browse(port: int, light: Light, joined: asyncio.Event, meshes: int) -> None:
+async def _browse(
+    port: int,
+    light: Light,
+    joined: asyncio.Event,
+    meshes: int,
+    says: Sequence[str],
+    reads: bool,
+) -> None:
     start = time.perf_counter()
     ticket = secrets.token_urlsafe(16)
 
@@ -222,20 +241,25 @@ async def _browse(port: int, light: Light, joined: asyncio.Event, meshes: int) -
             open_socket(f"viser-v{viser.__version__}") as socket,
             open_socket(SUBPROTOCOL) as channel,
         ):
-            rows = asyncio.create_task(_count(channel, light))
+            rows = asyncio.create_task(_count(channel, light, says))
             camera = {"type": "ViewerCameraMessage", **CAMERA}
             await socket.send(msgspec.msgpack.encode(camera))
-            await _read(socket, light, joined, meshes, start)
+            await _read(socket, light, joined, meshes, start, reads)
             await rows
     finally:
         light.closed = True
         joined.set()
 
 
-async def _count(channel: ClientConnection, light: Light) -> None:
-    """Count what the channel brings."""
+async def _count(channel: ClientConnection, light: Light, says: Sequence[str]) -> None:
+    """Count what the channel brings; say what there is to say once the page is there."""
     async for data in channel:
+        for words in says:
+            await channel.send(words)
+        says = ()
         light.bytes += len(data)
+        # Pictures are the only binary frames.
+        light.frames += isinstance(data, bytes)
 
 
 async def _read(
@@ -244,6 +268,7 @@ async def _read(
     joined: asyncio.Event,
     meshes: int,
     start: float,
+    reads: bool,
 ) -> None:
     unpacker = zstandard.ZstdDecompressor()
     replayed, had = False, 0
@@ -251,6 +276,9 @@ async def _read(
         assert isinstance(data, bytes)
         now = time.perf_counter()
         light.bytes += len(data)
+        light.frames += 1
+        if joined.is_set() and not reads:
+            continue
         size, packed = (int.from_bytes(data[i : i + 8], "little") for i in (0, 8))
         content = unpacker.decompress(data[16 : 16 + packed], max_output_size=size)
         for message in _DECODER.decode(content).messages:
