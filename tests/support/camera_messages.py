@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import json
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-
-Make = Callable[[Any], tuple[str, str, object]]
-"""Returns topic, type and message, made of rosbags' types."""
+from made_messages import Make
 
 
 def header(types: Any, frame: str = "camera", stamp: float = 0.0) -> object:
@@ -97,3 +96,62 @@ def info(
         return topic, name, made
 
     return make
+
+
+def pose(
+    child: str, xyz: Sequence[float], xyzw: Sequence[float], parent: str = "map"
+) -> Make:
+    """Return a static transform."""
+
+    def make(types: Any) -> tuple[str, str, object]:
+        at = types["geometry_msgs/msg/Vector3"](*xyz)
+        turn = types["geometry_msgs/msg/Quaternion"](*xyzw)
+        step = types["geometry_msgs/msg/Transform"](at, turn)
+        named = types["geometry_msgs/msg/TransformStamped"]
+        message = types["tf2_msgs/msg/TFMessage"]
+        made = message([named(header(types, parent), child, step)])
+        return "/tf_static", "tf2_msgs/msg/TFMessage", made
+
+    return make
+
+
+def cube(topic: str, xyz: Sequence[float], edge: float, number: int = 0) -> Make:
+    """Return a marker, a green cube in the frame map."""
+
+    def make(types: Any) -> tuple[str, str, object]:
+        name = "visualization_msgs/msg/Marker"
+        point = types["geometry_msgs/msg/Point"]
+        turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
+        cubes, add = 1, 0
+        made = types[name](
+            header(types, "map"),
+            "",
+            number,
+            cubes,
+            add,
+            types["geometry_msgs/msg/Pose"](point(*xyz), turn),
+            types["geometry_msgs/msg/Vector3"](edge, edge, edge),
+            types["std_msgs/msg/ColorRGBA"](0.0, 1.0, 0.0, 1.0),
+            types["builtin_interfaces/msg/Duration"](0, 0),
+            False,
+            [],
+            [],
+            "",
+            types["sensor_msgs/msg/CompressedImage"](
+                header(types, ""), "", np.zeros(0, np.uint8)
+            ),
+            [],
+            "",
+            "",
+            types["visualization_msgs/msg/MeshFile"]("", np.zeros(0, np.uint8)),
+            False,
+        )
+        return topic, name, made
+
+    return make
+
+
+def unpacked(frame: bytes) -> tuple[dict[str, Any], bytes]:
+    """Return what the page is sent of a picture: about it, and its file."""
+    end = 5 + int.from_bytes(frame[1:5], "little")
+    return json.loads(frame[5:end]), frame[end:]

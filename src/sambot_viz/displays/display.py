@@ -108,6 +108,9 @@ class EntryList:
         set: (name, property, value) → the value it has now; others may follow.
         facts: name → what is only shown, such as "Position" → "1; 2; 3".
         rows: name → the properties that have a row, when not all of them do.
+        above: name → the name of another one that it is below; it begins with that
+            and a slash.
+        has_details: whether there is more of each than its box.
     """
 
     title: str
@@ -117,6 +120,8 @@ class EntryList:
     set: Callable[[str, str, Any], Any]
     facts: Callable[[str], Mapping[str, str]]
     rows: Callable[[str], Sequence[str]] | None = None
+    above: Mapping[str, str] = field(default_factory=dict[str, str])
+    has_details: bool = True
 
 
 def numbers(values: Sequence[float]) -> str:
@@ -147,6 +152,7 @@ class DisplayContext:
         messages: those that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
         pictures: those that panels show beside the view.
+        displays: returns all displays, in their order.
         apply: runs a function that draws, from any thread, and sends what it draws.
     """
 
@@ -167,6 +173,7 @@ class DisplayContext:
     messages: TopicMessages | None = None
     now: Callable[[], float] | None = None
     pictures: Pictures = field(default_factory=Pictures)
+    displays: Callable[[], Sequence[Display]] = tuple
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
 
     def color_of(self, link: str) -> Rgb | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import threading
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 PICTURE = b"\2"
@@ -27,12 +27,15 @@ class CameraPicture:
         width: [pixels].
         height: [pixels].
         content: the file.
+        view: how the scene is drawn in it, for page/view/scene_camera.js; None where
+            it is not.
     """
 
     type: str
     width: int
     height: int
     content: bytes
+    view: Mapping[str, object] | None = None
 
 
 NO_PICTURE = CameraPicture("", 0, 0, b"")
@@ -40,9 +43,9 @@ NO_PICTURE = CameraPicture("", 0, 0, b"")
 
 def packed(key: str, picture: CameraPicture) -> bytes:
     """Return the binary frame with the picture of a display."""
-    about = {"id": key, "type": picture.type}
+    about = {"id": key, "type": picture.type, "view": picture.view}
     about |= {"width": picture.width, "height": picture.height}
-    head = json.dumps(about).encode()
+    head = json.dumps(about, allow_nan=False).encode()
     return b"".join((PICTURE, len(head).to_bytes(4, "little"), head, picture.content))
 
 

@@ -1,7 +1,4 @@
-"""All displays this program knows: a new one is a new file and a line here.
-
-Those of RViz that it does not show draw what a running robot sends.
-"""
+"""All displays this program knows: a new one is a new file and a line here."""
 
 from __future__ import annotations
 
@@ -21,6 +18,7 @@ from sambot_viz.displays.data.cloud.point_clouds import (
 from sambot_viz.displays.data.depth_cloud.depth_cloud import DepthCloudDisplay
 from sambot_viz.displays.data.effort.effort import EffortDisplay
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
+from sambot_viz.displays.data.image.camera import CameraDisplay
 from sambot_viz.displays.data.image.image import ImageDisplay
 from sambot_viz.displays.data.interactive_markers.interactive_display import (
     InteractiveMarkersDisplay,
@@ -60,22 +58,12 @@ class GroupDisplay(Display):
         """A group has no picture of its own."""
 
 
-REASON = "draws sensor data, which this version does not do yet"
-
-NOT_SHOWN: dict[str, str] = {
-    f"rviz_default_plugins/{name}": sentence
-    for name, sentence in {
-        "Camera": "A camera image with the scene overlaid.",
-    }.items()
-}
-"""ROS 2 class id → what RViz shows with it."""
-
-
 DISPLAYS: dict[str, type[Display]] = {
     display.kind: display
     for display in (
         AccelStampedDisplay,
         AxesDisplay,
+        CameraDisplay,
         CameraInfoDisplay,
         DepthCloudDisplay,
         EffortDisplay,

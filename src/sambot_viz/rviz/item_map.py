@@ -131,7 +131,7 @@ class ItemMap:
         parts = prop.components(value) if prop.has_value else None
         if parts is not None:
             return _parts_map(parts)
-        if prop.children or not prop.has_value:
+        if prop.children or prop.open_keys or not prop.has_value:
             return self._new_map(path)
         return Scalar(prop.write(value))
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import yaml
+from camera_messages import unpacked
 from inside import session_of
 from made_messages import Make, write_messages
 
@@ -48,6 +49,15 @@ class Opened:
     def node_names(self) -> list[str]:
         """The nodes that the display has in the scene."""
         return sorted(self._nodes)
+
+    def look(self) -> tuple[dict[str, Any], bytes]:
+        """Look at the pictures as a page does; the newest one."""
+        session, key = session_of(self.viz), self.display.key
+        pictures = session.scene.context.pictures
+        with session.lock:
+            if not pictures.is_wanted(key):
+                pictures.want(key)
+        return unpacked(pictures.frames([key])[key][1])
 
     def glb(self) -> bytes:
         """The GLB file of the only node of the display."""

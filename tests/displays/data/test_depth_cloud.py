@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from camera_messages import Make, file, image, info
+from camera_messages import file, image, info
 from glb_parts import document_of, numbers_of
 from inside import session_of
+from made_messages import Make
 from PIL import Image
 
 from sambot_viz.displays.data.depth_cloud.depth_sync import DepthMessage
@@ -142,7 +143,7 @@ def test_images_of_other_sizes_are_told(shown: Open) -> None:
     assert opened.statuses["Color Image"] == ("Error", text)
     level, text = opened.statuses["Camera Info"]
     assert level == "Warn"
-    assert "4 × 4 pixels; the depth image has 2 × 2" in text
+    assert "4 × 4 pixels, and the image has 2 × 2" in text
 
 
 def test_a_broken_colour_image_is_told(shown: Open) -> None:

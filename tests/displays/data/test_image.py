@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import pytest
+from camera_messages import unpacked
 from inside import session_of
 from PIL import Image
 
@@ -56,23 +57,8 @@ def jpeg(data: bytes, of: str = "jpeg") -> Make:
     return make
 
 
-def unpacked(frame: bytes) -> tuple[dict[str, Any], bytes]:
-    end = 5 + int.from_bytes(frame[1:5], "little")
-    return json.loads(frame[5:end]), frame[end:]
-
-
-def look(shown: Any) -> tuple[dict[str, Any], bytes]:
-    """Look at the pictures as a page does; the newest one."""
-    session, key = session_of(shown.viz), shown.display.key
-    pictures = session.scene.context.pictures
-    with session.lock:
-        if not pictures.is_wanted(key):
-            pictures.want(key)
-    return unpacked(pictures.frames([key])[key][1])
-
-
 def pixels(shown: Any) -> list[Any]:
-    with Image.open(io.BytesIO(look(shown)[1])) as image:
+    with Image.open(io.BytesIO(shown.look()[1])) as image:
         return np.asarray(image).tolist()
 
 
@@ -144,7 +130,7 @@ def test_a_picture_that_cannot_be_shown_says_why(
     messages: Open, make: Make, text: str
 ) -> None:
     shown = messages("Image", make)
-    about, content = look(shown)
+    about, content = shown.look()
     level, said = shown.statuses["Image"]
     assert (level, about["type"], content) == ("Error", "", b"")
     assert text in said
@@ -160,7 +146,7 @@ def file_of(mode: str, kind: str) -> bytes:
 def test_a_compressed_picture_travels_as_it_came(messages: Open, kind: str) -> None:
     data = file_of("RGB", kind)
     shown = messages("Image", jpeg(data))
-    about, content = look(shown)
+    about, content = shown.look()
     assert (about["width"], about["height"]) == (4, 3)
     assert about["type"] == f"image/{kind.lower()}"
     assert content == data
@@ -190,7 +176,7 @@ def test_nothing_is_decoded_before_somebody_looks(messages: Open) -> None:
     key = shown.display.key
     assert "Image" not in shown.statuses
     assert unpacked(pictures.frames([key])[key][1])[0]["type"] == ""
-    look(shown)
+    shown.look()
     assert shown.statuses["Image"][0] == "Error"
 
 
@@ -201,7 +187,7 @@ def test_without_a_picture_the_status_says_so(messages: Open) -> None:
 
 def test_another_fixed_frame_does_not_make_the_picture_again(messages: Open) -> None:
     shown = messages("Image", raw("mono8", octets(1, 2)))
-    look(shown)
+    shown.look()
     session, key = session_of(shown.viz), shown.display.key
     before = session.scene.context.pictures.frames([key])
     with session.lock:
@@ -211,7 +197,7 @@ def test_another_fixed_frame_does_not_make_the_picture_again(messages: Open) -> 
 
 def test_a_display_that_is_off_has_no_picture(messages: Open) -> None:
     shown = messages("Image", raw("mono8", octets(1, 2)))
-    look(shown)
+    shown.look()
     session, display = session_of(shown.viz), shown.display
     with session.lock:
         display.show(False)

@@ -89,6 +89,9 @@ class TopicDisplay(Display):
         """Take everything out of the scene: it is of another time or topic."""
         raise NotImplementedError
 
+    def begin(self) -> None:
+        """Take note that messages of another time or topic follow."""
+
     @property
     def depth_s(self) -> float:
         """How far back messages count after a jump in a recording [s]."""
@@ -167,6 +170,7 @@ class TopicDisplay(Display):
             base=self.base_topic,
             minds_older=self.minds_older,
         )
+        self.begin()
         self._take()
 
     def _take(self) -> None:
@@ -175,6 +179,7 @@ class TopicDisplay(Display):
             return
         if subscription.is_outdated:
             self.forget()
+            self.begin()
         self.messages_came()
 
     def _stop(self) -> None:

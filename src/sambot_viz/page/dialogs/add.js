@@ -14,7 +14,7 @@ const TABS = ["By display type", "By topic"];
 /** @param {{close: () => void}} props */
 export function AddDisplay({ close }) {
   const [tab, setTab] = useState(0);
-  const [kind, setKind] = useState(() => displayTypes()[0][0]?.kind || "");
+  const [kind, setKind] = useState(() => displayTypes()[0]?.kind || "");
   const row = useRow(selected.use()[PANEL] || "none");
   const name = useRef(/** @type {any} */ (null));
   const byTopic = tab === 1;

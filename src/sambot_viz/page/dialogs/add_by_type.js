@@ -1,11 +1,11 @@
 // @ts-check
-/* The types of displays with a sentence each; those that cannot be added last. */
+/* The types of displays with a sentence each. */
 
 import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
 
-/** @typedef {{kind: string, help: string, why?: string}} Type */
+/** @typedef {{kind: string, help: string}} Type */
 
 /** "rviz_default_plugins/Axes" is "Axes". @param {string} kind */
 export const nameOf = (kind) => kind.slice(kind.lastIndexOf("/") + 1);
@@ -13,19 +13,15 @@ export const nameOf = (kind) => kind.slice(kind.lastIndexOf("/") + 1);
 /** @param {Type} a @param {Type} b */
 const byName = (a, b) => nameOf(a.kind).localeCompare(nameOf(b.kind));
 
-/** The types by their names; first those that can be added. @returns {[Type[], Type[]]} */
-export function displayTypes() {
-  /** @type {Type[]} */
-  const types = [...(rows.data("displays/types") || [])].sort(byName);
-  return [types.filter((type) => !type.why), types.filter((type) => type.why)];
-}
+/** The types by their names. @returns {Type[]} */
+export const displayTypes = () => [...(rows.data("displays/types") || [])].sort(byName);
 
 /**
  * @param {{at: string, go: (kind: string) => void, add: () => void}} props
  *   at: the chosen type
  */
 export function TypeList({ at, go, add }) {
-  const [shown, others] = displayTypes();
+  const shown = displayTypes();
   const list = useRef(/** @type {any} */ (null));
   const typed = useRef({ text: "", when: 0 });
   useLayoutEffect(() => {
@@ -59,21 +55,12 @@ export function TypeList({ at, go, add }) {
   };
   /** @param {Type} type */
   const option = (type) => html`<div role="option" id=${`add-${nameOf(type.kind)}`}
-    key=${type.kind} class=${`option${type.why ? " off" : ""}`}
-      aria-selected=${String(type.kind === at)} aria-disabled=${type.why ? "true" : undefined}
-      title=${type.why ? `${nameOf(type.kind)} ${type.why}` : type.kind}
-      onClick=${() => {
-        if (!type.why) go(type.kind);
-      }} onDblClick=${() => {
-        if (!type.why) add();
-      }}>
+    key=${type.kind} class="option" aria-selected=${String(type.kind === at)}
+      title=${type.kind} onClick=${() => go(type.kind)} onDblClick=${add}>
     <${Icon} name=${nameOf(type.kind)} /><b>${nameOf(type.kind)}</b><span>${type.help}</span>
     </div>`;
   return html`<div class="options" role="listbox" tabindex="0" aria-label="Display types" data-first
     ref=${list} onKeyDown=${key} aria-activedescendant=${at ? `add-${nameOf(at)}` : undefined}>
-    <div role="group" aria-label="Shown here">${shown.map(option)}</div>
-    <div role="group" aria-labelledby="add-others"><div class="group"
-      id="add-others">Not shown here: each ${others[0]?.why || ""}</div>
-      ${others.map(option)}</div>
+    ${shown.map(option)}
   </div>`;
 }

@@ -5,6 +5,7 @@ import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
 import { pictures } from "../wire/pictures.js";
 import { useRow } from "../state.js";
+import { SceneCamera } from "../view/scene_camera.js";
 
 export function ImagesPanel() {
   useRow("panel:images");
@@ -34,20 +35,21 @@ function Camera({ id }) {
   useEffect(() => {
     if (key && seen) return showWhileVisible(key);
   }, [key, seen]);
-  useEffect(
-    () =>
-      pictures.follow(key, (bitmap, bad) => {
-        /** @type {any} */
-        const canvas = place.current?.querySelector("canvas");
-        if (!canvas) return;
-        canvas.width = bitmap?.width || 1;
-        canvas.height = bitmap?.height || 1;
-        if (bitmap) canvas.getContext("2d").drawImage(bitmap, 0, 0);
-        setSize(bitmap ? `${bitmap.width} × ${bitmap.height}` : "");
-        setBroken(bad);
-      }),
-    [key],
-  );
+  /** @type {{current: SceneCamera | null}} */
+  const camera = useRef(null);
+  useEffect(() => {
+    const made = (camera.current = new SceneCamera(place.current));
+    const end = pictures.follow(key, (bitmap, bad, view) => {
+      made.show(bitmap, view);
+      setSize(bitmap ? `${bitmap.width} × ${bitmap.height}` : "");
+      setBroken(bad);
+    });
+    return () => {
+      end();
+      made.close();
+    };
+  }, [key]);
+  useEffect(() => camera.current?.follow(seen), [key, seen]);
   const none = broken ? "The browser cannot read this picture" : row?.value || "No image";
   return html`<section class="camera" aria-label=${row?.name}>
     <header class="title">${row?.name}<span class="size">${size}</span></header>

@@ -18,8 +18,8 @@ const LENGTH = 0.3,
 /** A ghost of more meshes would make each picture slow. */
 const MOST = 1500;
 /** The nodes of visual shapes, and of collision shapes, below the node of a link. */
-const VISUAL = /^\/~[0-9a-z]*v\d[^/]*$/,
-  SHAPE = /^\/~[0-9a-z]*[vc]\d[^/]*$/;
+const VISUAL = /^\/~[0-9a-z]*_v\d[^/]*$/,
+  SHAPE = /^\/~[0-9a-z]*_[vc]\d[^/]*$/;
 
 /** @type {{glow: any[], ghost: any[]}} */
 const drawn = { glow: [], ghost: [] };

@@ -5,6 +5,7 @@
 
 import { act, rows } from "../wire/channel.js";
 import { Cell } from "../state.js";
+import { followMessages } from "./messages.js";
 
 /** @typedef {{name: string, current: boolean, first: boolean, clicks: boolean, rectangles: boolean}} Tool */
 
@@ -72,29 +73,16 @@ function hold(event) {
   held.push(event);
 }
 
-/** Notice what viser is told to use of the mouse; its queue is read before each picture.
- * @param {any[]} queue */
-function follow(queue) {
-  const take = queue.splice;
-  queue.splice = (/** @type {[number, number, ...any[]]} */ ...args) => {
-    const taken = take.apply(queue, args);
-    const told = taken.filter((message) => message.type === "ScenePointerEnableMessage");
-    for (const { event_type, modifiers } of told) used[event_type] = modifiers.length > 0;
-    // What was taken is done when this picture is drawn.
-    if (told.length) setTimeout(look);
-    return taken;
-  };
+/** Notice what viser is told to use of the mouse. @param {any[]} taken */
+function notice(taken) {
+  const told = taken.filter((message) => message.type === "ScenePointerEnableMessage");
+  for (const { event_type, modifiers } of told) used[event_type] = modifiers.length > 0;
+  // What was taken is done when this picture is drawn.
+  if (told.length) setTimeout(look);
 }
 
 // Before the scripts that follow the mouse.
 for (const type of globalThis.window ? EVENTS : [])
   addEventListener(type, (event) => hold(/** @type {PointerEvent} */ (event)), true);
 rows.listen("tools/list", look);
-const timerOfStart = globalThis.window
-  ? setInterval(() => {
-      const queue = window.__viserMutable?.messageQueue;
-      if (!queue) return;
-      clearInterval(timerOfStart);
-      follow(queue);
-    }, 20)
-  : 0;
+followMessages(notice);

@@ -8,13 +8,15 @@
  *
  * Shaders are rewritten only where their text is as expected. What is not recognised
  * is left alone, so a changed viser gives a plainer picture, never an empty page.
- * `window.sambotVizLook` counts what took effect and how many names are laid out. The
+ * `window.sambotVizLook` counts what took effect, the pictures of the view and those
+ * for cameras (scene_camera.js), and how many names are laid out. The
  * server sends a toon material for what is unlit (RViz's white links without a
  * transform).
  */
 
 import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
+import { drawSceneCameras, isSceneCamera } from "./scene_camera.js";
 import { keepSharp } from "./sharp.js";
 import { reportWindow } from "./window_size.js";
 import { beginStudio, dress, finishStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
@@ -27,6 +29,7 @@ const look = {
   names: 0,
   boxes: 0,
   frames: 0,
+  cameras: 0,
   labels: 0,
   backgrounds: 0,
   geometries: 0,
@@ -245,6 +248,7 @@ const hook = () => {
     /** @type {any} */ camera,
   ) => {
     renderer.toneMapping = 0;
+    drawSceneCameras(renderer, scene, camera, [background], tags?.parent);
     followZoom(camera);
     eye = camera.matrixWorld;
     renderer.setTransparentSort(farFirst);
@@ -252,6 +256,10 @@ const hook = () => {
     const studio = currentLook() === "studio";
     beginStudio(studio);
     visit(scene, studio, true);
+    if (isSceneCamera(camera)) {
+      look.cameras += 1;
+      return;
+    }
     look.labels = labels;
     look.waiting = finishStudio(studio, scene, camera, background, tags);
     if (look.waiting) mutable.requestRender?.();

@@ -2,7 +2,8 @@
 /* The pictures of cameras: the newest of each display, decoded while the page is quick enough. */
 
 /**
- * @typedef {{id: string, type: string, width: number, height: number, file?: Blob}} Picture
+ * @typedef {{id: string, type: string, width: number, height: number, file?: Blob,
+ *   view?: import("../view/scene_camera.js").View | null}} Picture
  */
 
 /** The first byte of a binary frame with a picture. */
@@ -16,7 +17,7 @@ export function unpacked(data) {
   return { ...about, file: about.type ? file : undefined };
 }
 
-/** @typedef {(bitmap: ImageBitmap | null, broken: boolean) => void} Draw */
+/** @typedef {(bitmap: ImageBitmap | null, broken: boolean, view?: Picture["view"]) => void} Draw */
 
 export class Pictures {
   /** @param {(file: Blob) => Promise<ImageBitmap>} [decode] */
@@ -57,7 +58,7 @@ export class Pictures {
       } catch {
         broken = true;
       }
-      this.draws.get(id)?.(bitmap, broken);
+      this.draws.get(id)?.(bitmap, broken, next.view);
       bitmap?.close();
     }
     this.busy.delete(id);

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from sambot_viz.displays.by_topic import displays_of_topic
 from sambot_viz.displays.display import Display
-from sambot_viz.displays.registry import DISPLAYS, NOT_SHOWN, REASON
+from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, Argument, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
@@ -19,10 +19,8 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.topics import reasons
 
 TYPES: list[Json] = [
-    *({"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()),
-    *({"kind": kind, "help": help, "why": REASON} for kind, help in NOT_SHOWN.items()),
+    {"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()
 ]
-"""`why` says why a type cannot be added."""
 
 
 class DisplayCommands(Panel):

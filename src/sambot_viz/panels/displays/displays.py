@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any
 
 from sambot_viz.displays.display import Display, EntryList
-from sambot_viz.displays.registry import NOT_SHOWN, REASON
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.ids import Ids
@@ -308,18 +307,19 @@ class DisplaysPanel(Panel):
             change = partial(edits.set_entry, display, entries.title, name)
             wanted = entries.rows(name) if entries.rows else tuple(item.declared)
             box = "Value" in wanted and "Value" in item.declared
-            unfolded = self._lazy.is_unfolded(row_id)
+            unfolded = not entries.has_details or self._lazy.is_unfolded(row_id)
+            above = entries.above.get(name)
             yield Row(
                 row_id,
-                parent,
+                parent if above is None else _entry_id(parent, above),
                 "display" if box else "group",
-                name,
+                name if above is None else name[len(above) + 1 :],
                 value=item.get("Value") if box else None,
                 icon=entries.singular,
                 extra={"lazy": not unfolded, "entry": True},
                 set=partial(change, "Value") if box else None,
             )
-            if not unfolded:
+            if not (unfolded and entries.has_details):
                 continue
             self._facts[display.config].append((row_id, entries, name))
             for path in wanted:
@@ -339,15 +339,11 @@ def _fact_id(row_id: str, key: str) -> str:
 
 
 def _unsupported(config: DisplayConfig, parent: str) -> Row:
-    known = config.kind in NOT_SHOWN
-    why = f"it {REASON}" if known else "this version does not know this type"
     about = about_other(config.kind)
-    start = f"Not shown. {about}" if about else f"Not shown: {why}."
-    sentence = f"{start} It stays in the file as it is."
+    why = f". {about}" if about else ": this version does not know this type."
+    sentence = f"Not shown{why} It stays in the file as it is."
     return Row(f"{parent}/:status", parent, "note", "Status", sentence, level="info")
 
 
 def _help(config: DisplayConfig, display: Display | None) -> str:
-    if display is not None:
-        return display.help
-    return f"{NOT_SHOWN.get(config.kind, '')} {row_text(config.kind)}".lstrip()
+    return row_text(config.kind) if display is None else display.help

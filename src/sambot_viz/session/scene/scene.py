@@ -57,6 +57,7 @@ class Scene:
             nodes=FrameNodes(audience.scene),
             assets=SessionAssets(meshes, reader, self._assets_read),
             models=models,
+            displays=lambda: self.displays,
             apply=self._apply,
         )
         self.anchors = Anchors(self.context)
@@ -224,7 +225,7 @@ class Scene:
     def _next_key(self) -> str:
         """Return a name that begins no other display's node names."""
         self._keys += 1
-        return f"~{short_id(self._keys)}"
+        return f"~{short_id(self._keys)}_"
 
 
 def walk(items: Sequence[DisplayConfig]) -> Iterator[DisplayConfig]:

@@ -37,6 +37,7 @@ from sambot_viz.displays.data.image.camera_info import (
     info_topic,
     no_info,
     numbers_of,
+    size_doubt,
 )
 from sambot_viz.displays.data.image.encodings import Bytes
 from sambot_viz.displays.data.image.files import read_colors, read_depths
@@ -50,7 +51,6 @@ from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
 from sambot_viz.rviz import DisplayConfig, Property
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.subscription import Subscription
 
 COLOR_IMAGE = "Color Image"
 """Key of a status."""
@@ -75,7 +75,6 @@ class DepthCloudDisplay(CloudDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._sync = DepthSync(1, False)
-        self._of: Subscription | None = None
         self._came: DepthMessage | None = None
         self._focus = 0.0
         self._occluded = Occluded()
@@ -182,15 +181,11 @@ class DepthCloudDisplay(CloudDisplay):
         super().draw()
         self._report_lacking()
 
-    def messages_came(self) -> None:
-        """Draw the depth images that have what belongs to them, and a place."""
-        subscription = self.subscription
-        if subscription is not self._of or (subscription and subscription.is_outdated):
-            self._of = subscription
-            self._sync = DepthSync(self.most_held, bool(self.color_topic))
-            for key in (CAMERA_INFO, COLOR_IMAGE):
-                self.status.remove(key)
-        super().messages_came()
+    def begin(self) -> None:
+        """Wait for images and camera infos of another time or topic."""
+        self._sync = DepthSync(self.most_held, bool(self.color_topic))
+        for key in (CAMERA_INFO, COLOR_IMAGE):
+            self.status.remove(key)
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
@@ -230,16 +225,8 @@ class DepthCloudDisplay(CloudDisplay):
         assert self.subscription is not None
         with refusing(CAMERA_INFO, "read"):
             camera = numbers_of(self.subscription.decode(info))
-        height, width = shape
-        said = (camera.width // camera.binning[0], camera.height // camera.binning[1])
-        if camera.roi[2] and camera.roi[3]:
-            said = (camera.roi[2], camera.roi[3])
-        if said in ((width, height), (0, 0)):
-            self.status.set(CAMERA_INFO, "Ok", "OK")
-        else:
-            text = f"It is of an image of {said[0]} × {said[1]} pixels; the depth image"
-            text = f"{text} has {width} × {height}: the points are not in their places"
-            self.status.set(CAMERA_INFO, "Warn", text)
+        doubt = size_doubt(camera, (shape[1], shape[0]))
+        self.status.set(CAMERA_INFO, "Warn" if doubt else "Ok", doubt or "OK")
         return camera
 
     def _colors(self, image: Recorded | None, shape: tuple[int, ...]) -> Bytes:

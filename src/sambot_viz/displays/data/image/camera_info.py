@@ -70,6 +70,23 @@ def numbers_of(message: Any) -> CameraNumbers:
     )
 
 
+def size_doubt(camera: CameraNumbers, size: tuple[int, int]) -> str | None:
+    """Return what is wrong with the size of an image; None where nothing is.
+
+    Args:
+        camera: its numbers.
+        size: width and height of the image [pixels].
+    """
+    x, y = camera.binning
+    said = (camera.width // x, camera.height // y)
+    if camera.roi[2] and camera.roi[3]:
+        said = (camera.roi[2], camera.roi[3])
+    if said in (size, (0, 0)):
+        return None
+    text = f"It is of an image of {said[0]} × {said[1]} pixels, and the image has"
+    return f"{text} {size[0]} × {size[1]}: what is drawn is not in its place"
+
+
 def info_topic(image_topic: str) -> str:
     """Return the topic of the camera infos of a topic of images; "" for none."""
     base, slash, last = image_topic.rpartition("/")

@@ -44,6 +44,21 @@ def file_of(pixels: Bytes) -> CameraPicture:
     return CameraPicture(kind, image.width, image.height, stream.getvalue())
 
 
+def picture_of(message: Any, scale: Callable[[Values], Bytes]) -> CameraPicture:
+    """Return an image, of whichever kind, for browsers.
+
+    Args:
+        message: with its fields.
+        scale: makes grey of 16-bit and float values, (H, W).
+
+    Raises:
+        MessageRefused: it cannot be shown, and why.
+    """
+    if hasattr(message, "format"):
+        return compressed(message, scale)
+    return file_of(read_image(message, scale))
+
+
 def compressed(message: Any, scale: Callable[[Values], Bytes]) -> CameraPicture:
     """Return a sensor_msgs/CompressedImage for browsers, as it came where they read it.
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values, read_image
-from sambot_viz.displays.data.image.files import compressed, file_of
+from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
+from sambot_viz.displays.data.image.files import picture_of
 from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
@@ -129,11 +129,7 @@ class ImageDisplay(TopicDisplay):
     def _show(self, came: Recorded) -> None:
         if self.subscription is None:
             return
-        message = self.subscription.decode(came)
-        if hasattr(message, "format"):
-            picture = compressed(message, self._grey)
-        else:
-            picture = file_of(read_image(message, self._grey))
+        picture = picture_of(self.subscription.decode(came), self._grey)
         self.context.pictures.put(self.key, picture)
 
     def _grey(self, values: Values) -> Bytes:

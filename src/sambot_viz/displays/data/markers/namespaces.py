@@ -5,36 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from sambot_viz.displays.data.box_item import BoxItem
 from sambot_viz.displays.display import EntryList
-from sambot_viz.rviz import BoolProperty, DisplayConfig, EntryItem
-from sambot_viz.rviz.declarations import Declared
-from sambot_viz.rviz.yaml.nodes import Map
+from sambot_viz.rviz import DisplayConfig
 
 NAMESPACES = "Namespaces"
-BOX = "Value"
-_PROPERTIES = (BoolProperty(BOX, default=True, help="Show the markers of it."),)
+_HELP = "Show the markers of it."
 MOST_NAMESPACES = 1000
-
-
-class NamespaceItem(EntryItem):
-    """One namespace in the document: its box is written beside its name.
-
-    Args:
-        owner: the display.
-        name: of the namespace.
-    """
-
-    def __init__(self, owner: DisplayConfig, name: str) -> None:
-        super().__init__(owner, (NAMESPACES, name), _PROPERTIES)
-
-    def rooted(self, keys: Sequence[str]) -> tuple[Map, Sequence[str]]:
-        """Return the display's map in the document, and the place of the box."""
-        del keys
-        return self._owner.rooted(self._keys)
-
-    def _write(self, declared: Declared, value: Any) -> None:
-        above = self._owner.map_at((NAMESPACES,))
-        above.put_text(self._keys[-1], declared.property.write(value))
 
 
 class Namespaces:
@@ -46,7 +23,7 @@ class Namespaces:
 
     def __init__(self, config: DisplayConfig) -> None:
         self._config = config
-        self._items: dict[str, NamespaceItem] = {}
+        self._items: dict[str, BoxItem] = {}
         for name in config.dynamic(NAMESPACES):
             self.item(name)
 
@@ -55,18 +32,18 @@ class Namespaces:
         """In the order of the alphabet, as RViz lists them."""
         return sorted(self._items)
 
-    def item(self, name: str) -> NamespaceItem:
+    def item(self, name: str) -> BoxItem:
         """Return a namespace; it is known from then on."""
         found = self._items.get(name)
         if found is None:
-            found = NamespaceItem(self._config, name)
+            found = BoxItem(self._config, (NAMESPACES, name), _HELP)
             if len(self._items) < MOST_NAMESPACES:
                 self._items[name] = found
         return found
 
     def is_on(self, name: str) -> bool:
         """Return whether markers of a namespace are shown."""
-        return bool(self.item(name).get(BOX))
+        return self.item(name).is_on
 
     def entries(
         self,

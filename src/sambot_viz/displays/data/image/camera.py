@@ -1,0 +1,264 @@
+"""Camera: the pictures of a camera with the scene over them, in a panel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from sambot_viz.displays.data.image.camera_info import (
+    CAMERA_INFO,
+    CameraNumbers,
+    info_topic,
+    no_info,
+    numbers_of,
+    size_doubt,
+)
+from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
+from sambot_viz.displays.data.image.files import picture_of
+from sambot_viz.displays.data.image.image import NONE_YET
+from sambot_viz.displays.data.image.ranges import Ranges, scaled
+from sambot_viz.displays.data.image.visibility import VISIBILITY, Visibility
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.refusals import MessageRefused, refusing
+from sambot_viz.displays.data.topic_display import MOST_WAITING, topic_property
+from sambot_viz.displays.display import DisplayContext, EntryList
+from sambot_viz.displays.pictures import NO_PICTURE, CameraPicture
+from sambot_viz.displays.scene.nodes import placed
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import Matrix, wxyz_from_matrix
+from sambot_viz.rviz import (
+    BoolProperty,
+    DisplayConfig,
+    EnumProperty,
+    FloatProperty,
+)
+from sambot_viz.sources.message import Recorded
+
+_BACK, _OVER = "background", "overlay"
+_BOTH = f"{_BACK} and {_OVER}"
+RENDERING = "Image Rendering"
+MEDIAN = 5
+"""The range of 16-bit and float values is the median over so many pictures."""
+MOST_HELD = 10
+"""So many pictures wait for their transform."""
+
+
+class CameraDisplay(MessageFilterDisplay):
+    """The newest picture of a camera, and what the page needs to draw the scene in it.
+
+    The picture is made while some page shows it.
+    """
+
+    kind = "rviz_default_plugins/Camera"
+    help = "The pictures of a camera with the scene over them, in the panel Images."
+    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    properties = (
+        BoolProperty(
+            VISIBILITY,
+            default=True,
+            open_keys=True,
+            help="The displays that are drawn in the picture.",
+        ),
+        topic_property(is_filtered=False),
+        EnumProperty(
+            RENDERING,
+            default=_BOTH,
+            options=(_BACK, _OVER, _BOTH),
+            help="Whether the image is behind the scene, over it, or both.",
+        ),
+        FloatProperty(
+            "Overlay Alpha",
+            default=0.5,
+            minimum=0.0,
+            maximum=1.0,
+            help="How opaque the image over the scene is.",
+            hidden_unless=(RENDERING, (_OVER, _BOTH)),
+        ),
+        FloatProperty(
+            "Zoom Factor",
+            default=1.0,
+            minimum=1e-5,
+            maximum=1e5,
+            help="How many times as large everything is.",
+        ),
+        FloatProperty(
+            "Far Plane Distance",
+            default=100.0,
+            minimum=1e-5,
+            maximum=1e5,
+            unit="m",
+            help="What is farther away is not drawn.",
+        ),
+    )
+
+    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
+        """Make the display; nothing is decoded before somebody looks."""
+        super().__init__(context, config, key)
+        self._visibility = Visibility(self)
+        self._ranges = Ranges()
+        self._info: Recorded | None = None
+        self._taken: tuple[Any, Matrix] | None = None
+        self._made: CameraPicture | None = None
+        self._put: CameraPicture | None = None
+
+    # Its topics
+
+    def other_topics(self) -> Sequence[str]:
+        """Return the topic of the camera infos."""
+        return (info_topic(self.topic),)
+
+    @property
+    def most_held(self) -> int:
+        """So many pictures are held at most."""
+        return MOST_HELD
+
+    @property
+    def most_waiting(self) -> int:
+        """So many messages wait at most between two pictures, of both topics."""
+        return 2 * MOST_WAITING
+
+    def begin(self) -> None:
+        """Wait for a camera info of another time or topic."""
+        self._info = None
+        self._ranges.clear()
+        for key in (CAMERA_INFO, IMAGE):
+            self.status.remove(key)
+
+    # What comes
+
+    def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:
+        """Return the pictures; of the camera infos the newest counts."""
+        infos = [one for one in came if one.topic != self.topic]
+        if infos:
+            self._info = infos[-1]
+        return [one for one in came if one.topic == self.topic]
+
+    def messages_came(self) -> None:
+        """Show the newest picture that has a place, if somebody looks."""
+        before = self._info
+        super().messages_came()
+        if self._info is not before:
+            self.show_taken()
+
+    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
+        """Take a picture; it is made when it is shown."""
+        self._taken, self._made = (message, T_fixed_frame.matrix), None
+
+    def drop(self) -> None:
+        """Show no picture."""
+        self._taken = self._made = None
+        self._show(NO_PICTURE)
+
+    def draw(self) -> None:
+        """Listen to the topics, and show what has come."""
+        self.context.pictures.begin(self.key, self.show_taken)
+        super().draw()
+
+    def clear(self) -> None:
+        """Listen no longer."""
+        super().clear()
+        self.context.pictures.end(self.key)
+        self._put = None
+
+    def time_passed(self) -> None:
+        """Look whether other displays are to be drawn: some were added or renamed."""
+        super().time_passed()
+        if self.shown and self._taken is not None:
+            self.show_taken()
+
+    # What is shown
+
+    def show_taken(self) -> None:
+        """Show the picture as it looks now; what is the same is not sent again."""
+        if self._taken is None:
+            if self.context.messages is not None and self.topic:
+                self.status.set(IMAGE, "Warn", NONE_YET)
+            return
+        message, T_fixed_camera = self._taken
+        camera = self._camera()
+        if not self.context.pictures.is_wanted(self.key):
+            self._made = None
+            self.status.remove(IMAGE)
+            return
+        if self._made is None:
+            self._made = self._picture(message)
+        view = None
+        if camera is not None and self._made != NO_PICTURE:
+            view = self._view(camera, self._made, T_fixed_camera)
+        self._show(replace(self._made, view=view))
+
+    def _picture(self, message: Any) -> CameraPicture:
+        """Return the picture of a message, or say why there is none."""
+        try:
+            # Files of pictures break in more ways than those of a message.
+            with refusing(IMAGE, "shown", OSError, SyntaxError):
+                picture = picture_of(message, self._grey)
+        except MessageRefused as refused:
+            self.status.set(IMAGE, "Error", refused.text)
+            return NO_PICTURE
+        self.status.remove(IMAGE)
+        return picture
+
+    def _show(self, picture: CameraPicture) -> None:
+        if picture != self._put and self.key in self.context.pictures:
+            self._put = picture
+            self.context.pictures.put(self.key, picture)
+
+    def _grey(self, values: Values) -> Bytes:
+        self._ranges.add(values)
+        return scaled(values, self._ranges.median(MEDIAN))
+
+    def _camera(self) -> CameraNumbers | None:
+        """Return the numbers of the camera, or say why there are none."""
+        messages, topic = self.context.messages, info_topic(self.topic)
+        if self._info is None or self.subscription is None or self._taken is None:
+            types = {"sensor_msgs/msg/CameraInfo"}
+            qos = self.wanted_qos
+            doubt = messages.doubt(topic, types, qos) if messages is not None else None
+            text = no_info(topic, [doubt.sentence] if doubt else [])
+            self.status.set(CAMERA_INFO, "Warn", text)
+            return None
+        try:
+            with refusing(CAMERA_INFO, "read"):
+                camera = numbers_of(self.subscription.decode(self._info))
+        except MessageRefused as refused:
+            self.status.set(CAMERA_INFO, "Error", refused.text)
+            return None
+        image, doubt = self._taken[0], None
+        if hasattr(image, "width"):
+            doubt = size_doubt(camera, (int(image.width), int(image.height)))
+        self.status.set(CAMERA_INFO, "Warn" if doubt else "Ok", doubt or "OK")
+        return camera
+
+    def _view(
+        self, camera: CameraNumbers, picture: CameraPicture, T_fixed_camera: Matrix
+    ) -> Mapping[str, object]:
+        """Return how the page draws the scene in a picture."""
+        (fx, fy), (tx, ty) = camera.focus, camera.shift
+        R: Matrix = T_fixed_camera[:3, :3]
+        with np.errstate(over="ignore", invalid="ignore"):
+            at = T_fixed_camera[:3, 3] - R[:, 0] * (tx / fx) + R[:, 1] * (ty / fy)
+        wxyz, position = placed(wxyz_from_matrix(T_fixed_camera), at.tolist())
+        get, rendering = self.config.get, self.config.acting(RENDERING)
+        return {
+            "position": position,
+            "wxyz": wxyz,
+            "focus": camera.focus,
+            "center": camera.center,
+            "size": (camera.width or picture.width, camera.height or picture.height),
+            "roi": camera.roi,
+            "zoom": float(get("Zoom Factor")),
+            "far": float(get("Far Plane Distance")),
+            "behind": rendering != _OVER,
+            "over": 0.0 if rendering == _BACK else float(get("Overlay Alpha")),
+            "hidden": list(self._visibility.hidden()),
+        }
+
+    # The displays in it
+
+    def entries(self) -> tuple[EntryList, ...]:
+        """Return the boxes of the displays."""
+        return (self._visibility.entries(),)
