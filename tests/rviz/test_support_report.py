@@ -143,6 +143,7 @@ Visualization Manager:
     - {Class: rviz_default_plugins/TF, Name: TF, Marker Alpha: 1, Tree: {map: {}}}
     - {Class: rviz_default_plugins/Axes, Name: A, Alpha: 1, Show Trail: false}
     - {Class: rviz/RobotModel, Name: R, Robot Description: robot_description}
+    - {Class: rviz/LaserScan, Name: L, Topic: /scan, Queue Size: 10, Unreliable: false}
     - {Class: rviz_default_plugins/Grid, Name: G, Glow: 1}
   Global Options: {Fixed Frame: map, Default Light: true}
   Views:
@@ -165,6 +166,9 @@ def test_keys_that_rviz_itself_writes_are_not_called_unknown():
         "Alpha": "not supported",
         "Show Trail": "not supported",
         "Robot Description": "approximated",
+        "Topic": "shown",
+        "Queue Size": "kept",
+        "Unreliable": "kept",
         "Glow": "unknown key",
         "Default Light": "shown",
         "Enable Stereo Rendering": "kept",
@@ -176,7 +180,7 @@ def test_keys_that_rviz_itself_writes_are_not_called_unknown():
 
 
 def test_a_property_of_ros_1_is_kept_in_a_file_of_ros_2():
-    text = OTHER_KEYS.replace("rviz/RobotModel", "rviz_default_plugins/RobotModel")
+    text = OTHER_KEYS.replace(" rviz/", " rviz_default_plugins/")
     document = RvizConfig.parse(text, load_declarations())
     rows = {row.path: row for row in config_report(document).global_options.properties}
     assert rows["Default Light"].level == "kept"

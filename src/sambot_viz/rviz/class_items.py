@@ -7,10 +7,19 @@ from collections.abc import Callable, Sequence
 from sambot_viz.rviz.declarations import NO_CLASS, is_ros1, kind_of
 from sambot_viz.rviz.item import ConfigItem, EntryItem
 from sambot_viz.rviz.properties.numbers import read_bool
-from sambot_viz.rviz.properties.property import Property
-from sambot_viz.rviz.properties.texts import checked_text
+from sambot_viz.rviz.properties.property import KeptProperty, Property
+from sambot_viz.rviz.properties.texts import TopicProperty, checked_text
 from sambot_viz.rviz.yaml.document import ConfigFindings
 from sambot_viz.rviz.yaml.nodes import Entry, Map, Scalar
+
+_OF_ROS1 = (
+    KeptProperty(
+        "Queue Size",
+        note="of ROS 1; the queue is as long as the display needs",
+    ),
+    KeptProperty("Unreliable", note="of ROS 1; messages are taken as they come"),
+)
+"""What ROS 1 has beside the name of a topic, where ROS 2 has its quality of service."""
 
 
 class ClassItem(ConfigItem):
@@ -39,7 +48,11 @@ class ClassItem(ConfigItem):
         """
         self.supported = declared is not None
         ros1 = is_ros1(node.text("Class") or "")
-        super().__init__(node, declared or (), findings, ros1=ros1, attach=attach)
+        properties = tuple(declared or ())
+        if ros1 and any(isinstance(one, TopicProperty) for one in properties):
+            names = {one.name for one in properties}
+            properties += tuple(one for one in _OF_ROS1 if one.name not in names)
+        super().__init__(node, properties, findings, ros1=ros1, attach=attach)
 
     @property
     def class_id(self) -> str:

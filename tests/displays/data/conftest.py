@@ -104,6 +104,7 @@ def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
                 "Topic": {"Value": "/a"},
                 **values,
             }
+            shown = {key: one for key, one in shown.items() if one is not None}
             options = {"Fixed Frame": frame}
             manager = {"Class": "", "Displays": [shown], "Global Options": options}
             config = tmp_path / "messages.rviz"

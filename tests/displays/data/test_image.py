@@ -152,6 +152,21 @@ def test_a_compressed_picture_travels_as_it_came(messages: Open, kind: str) -> N
     assert content == data
 
 
+@pytest.mark.parametrize(
+    ("hint", "topic"), [("raw", "/a"), ("compressed", "/a/compressed"), (None, "/a")]
+)
+def test_ros_1_names_the_topic_of_whole_pictures(
+    messages: Open, hint: str | None, topic: str
+) -> None:
+    def pixel(types: Any) -> tuple[str, str, object]:
+        _, kind, message = raw("mono8", octets(7, 8))(types)
+        return topic, kind, message
+
+    values = {"Class": "rviz/Image", "Topic": None, "Image Topic": "/a"}
+    shown = messages("Image", pixel, **values, **{"Transport Hint": hint})
+    assert shown.statuses["Topic"][1].startswith("1 messages received")
+
+
 def test_a_compressed_depth_is_scaled(messages: Open) -> None:
     data = bytes(12) + file_of("I;16", "PNG")
     shown = messages("Image", jpeg(data, "16UC1; compressedDepth png"))

@@ -194,3 +194,14 @@ def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
     level, text = shown.statuses["Messages"]
     assert level == "Warn"
     assert text.startswith("More than 10,000 messages or 8 MB")
+
+
+@pytest.mark.parametrize("kind", ["Marker", "MarkerArray"])
+def test_the_topic_has_another_key_in_files_of_ros_1(messages: Open, kind: str) -> None:
+    values = {"Class": f"rviz/{kind}", "Topic": None, "Marker Topic": "/a"}
+    made = marker(3) if kind == "Marker" else array(3)
+    shown = messages(kind, made, **values)
+    assert names(shown) == {("a", 3)}
+    shown.set("Topic", "/b")
+    text = session_of(shown.viz).document.config.to_yaml()
+    assert "Marker Topic: /b" in text

@@ -23,7 +23,7 @@ MOST_WAITING = 100
 
 
 def topic_property(
-    name: str = TOPIC, *, is_filtered: bool = True, default: str = ""
+    name: str = TOPIC, *, is_filtered: bool = True, default: str = "", ros1: str = ""
 ) -> TopicProperty:
     """Return the property that names a topic, with its quality of service.
 
@@ -31,6 +31,7 @@ def topic_property(
         name: of the property.
         is_filtered: whether messages wait for their transform.
         default: the topic of a new display.
+        ros1: the key that files of ROS 1 have instead; empty for the same.
     """
     children = (*QOS_PROPERTIES, FILTER_SIZE) if is_filtered else QOS_PROPERTIES
     return TopicProperty(
@@ -38,6 +39,7 @@ def topic_property(
         default=default,
         help="The topic whose messages are drawn.",
         children=children,
+        aliases=(ros1,) if ros1 else (),
     )
 
 

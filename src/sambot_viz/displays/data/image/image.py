@@ -11,11 +11,18 @@ from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.pictures import NO_PICTURE
-from sambot_viz.rviz import BoolProperty, DisplayConfig, FloatProperty, IntProperty
+from sambot_viz.rviz import (
+    BoolProperty,
+    DisplayConfig,
+    EditableEnumProperty,
+    FloatProperty,
+    IntProperty,
+)
 from sambot_viz.sources.message import Recorded
 
 NONE_YET = "No Image received"
 NORMALIZE = "Normalize Range"
+HINT, COMPRESSED = "Transport Hint", "compressed"
 
 
 class ImageDisplay(TopicDisplay):
@@ -28,7 +35,14 @@ class ImageDisplay(TopicDisplay):
     help = "The pictures of a camera, in the panel Images."
     types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
     properties = (
-        topic_property(is_filtered=False),
+        topic_property(is_filtered=False, ros1="Image Topic"),
+        EditableEnumProperty(
+            HINT,
+            default="raw",
+            options=("raw", COMPRESSED),
+            help="Of ROS 1: how the pictures of the topic are sent.",
+            ros1_only=True,
+        ),
         BoolProperty(
             NORMALIZE,
             default=True,
@@ -63,6 +77,14 @@ class ImageDisplay(TopicDisplay):
         self._ranges = Ranges()
         self._measured: Recorded | None = None
         self._made: tuple[object, ...] | None = None
+
+    @property
+    def topic(self) -> str:
+        """The name of the topic; ROS 1 names that of whole pictures for all kinds."""
+        topic, hint = super().topic, self.config.properties.get(HINT)
+        if hint != COMPRESSED or not topic or topic.endswith(f"/{COMPRESSED}"):
+            return topic
+        return f"{topic}/{COMPRESSED}"
 
     @property
     def most_waiting(self) -> int:

@@ -34,6 +34,8 @@ TOO_MANY = (
     f"More than {MOST_MESSAGES:,} messages or {MOST_BYTES / 1e6:.0f} MB came between "
     "two pictures: markers of the oldest ones may be missing"
 )
+ROS1_TOPIC = "Marker Topic"
+"""What files of ROS 1 call the topic."""
 _NAMESPACES = GroupProperty(
     NAMESPACES,
     help="The namespaces of markers, each with a box to show or hide them.",
@@ -48,7 +50,10 @@ class MarkerDisplay(MessageFilterDisplay):
     kind = "rviz_default_plugins/Marker"
     help = "Shapes and texts that a program draws."
     types = frozenset({"visualization_msgs/msg/Marker"})
-    properties: ClassVar[tuple[Property, ...]] = (topic_property(), _NAMESPACES)
+    properties: ClassVar[tuple[Property, ...]] = (
+        topic_property(ros1=ROS1_TOPIC),
+        _NAMESPACES,
+    )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
@@ -238,7 +243,9 @@ class MarkerArrayDisplay(MarkerDisplay):
     help = "Many shapes and texts that a program draws."
     types = frozenset({"visualization_msgs/msg/MarkerArray"})
     properties = (
-        topic_property(is_filtered=False, default="visualization_marker_array"),
+        topic_property(
+            is_filtered=False, default="visualization_marker_array", ros1=ROS1_TOPIC
+        ),
         _NAMESPACES,
     )
 
