@@ -51,10 +51,25 @@ def described(text: str = ROBOT, topic: str = "/robot_description") -> Make:
     return make
 
 
-def efforts(_count: int | None = None, /, **joints: float) -> Make:
+def placed(child: str, stamp_s: int) -> Make:
+    def make(types: Any) -> tuple[str, str, object]:
+        name = "tf2_msgs/msg/TFMessage"
+        stamp = types["builtin_interfaces/msg/Time"](stamp_s, 0)
+        pose = types["geometry_msgs/msg/Transform"](
+            types["geometry_msgs/msg/Vector3"](0.0, 0.0, 1.0),
+            types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0),
+        )
+        header = types["std_msgs/msg/Header"](stamp, "base")
+        stamped = types["geometry_msgs/msg/TransformStamped"](header, child, pose)
+        return "/tf", name, types[name]([stamped])
+
+    return make
+
+
+def efforts(_count: int | None = None, _stamp_s: int = 0, /, **joints: float) -> Make:
     def make(types: Any) -> tuple[str, str, object]:
         name = "sensor_msgs/msg/JointState"
-        stamp = types["builtin_interfaces/msg/Time"](0, 0)
+        stamp = types["builtin_interfaces/msg/Time"](_stamp_s, 0)
         header = types["std_msgs/msg/Header"](stamp, "")
         zeros = np.zeros(len(joints))
         values = np.array(list(joints.values()), np.float64)[:_count]
@@ -168,7 +183,7 @@ def test_revolute_joints_are_drawn_and_continuous_ones_are_listed(
 
 def test_efforts_of_no_joint_of_the_robot_are_named(messages: Open) -> None:
     shown = messages("Effort", described(), efforts(roll=3), frame="base")
-    level, text = shown.statuses["Joints"]
+    level, text = shown.statuses["Efforts"]
     assert level == "Warn"
     assert "a revolute joint of the robot" in text
     assert shown.node_names() == []
@@ -184,6 +199,17 @@ def test_older_efforts_stay_up_to_the_history_length(messages: Open) -> None:
     assert circles(shown) == 1
 
 
+def test_a_long_history_has_a_limit_of_its_circles(
+    messages: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sambot_viz.displays.data.effort.effort.MOST_CIRCLES", 7)
+    made = [efforts(shoulder=n, elbow=n) for n in range(5)]
+    history = {"History Length": 100}
+    shown = messages("Effort", described(), *made, frame="base", **history)
+    # Three joints are listed, so two messages have room.
+    assert circles(shown) == 4
+
+
 @pytest.mark.parametrize("count", [0, 1])
 def test_efforts_of_another_number_than_the_joints_are_refused(
     messages: Open, count: int
@@ -191,7 +217,7 @@ def test_efforts_of_another_number_than_the_joints_are_refused(
     made = efforts(count, shoulder=1, elbow=2)
     shown = messages("Effort", described(), made, frame="base")
     text = "Received a joint state msg with different joint names and efforts size!"
-    assert shown.statuses["Message"] == ("Error", text)
+    assert shown.statuses["Topic"] == ("Error", text)
     assert shown.node_names() == []
 
 
@@ -217,6 +243,26 @@ def test_joints_without_a_place_wait_and_a_prefix_gives_them_one(
     shown.set("TF Prefix", "")
     assert circles(shown) == 1
     assert shown.statuses["shoulder"] == ("Ok", "OK")
+
+
+@pytest.mark.parametrize(("newest", "count"), [(1, 0), (3, 1)])
+def test_efforts_wait_for_the_places_of_their_time(
+    messages: Open, newest: int, count: int
+) -> None:
+    made = (placed("upper", 0), placed("upper", newest), efforts(None, 2, shoulder=1))
+    shown = messages("Effort", described(), *made, frame="base")
+    assert circles(shown) == count
+    assert ("shoulder" in shown.statuses) == bool(count)
+
+
+def test_a_joint_without_a_place_leaves_the_others(messages: Open) -> None:
+    made = (placed("upper", 0), placed("upper", 3), placed("lower", 0))
+    both = efforts(None, 2, shoulder=1, elbow=1)
+    shown = messages("Effort", described(), *made, both, frame="base")
+    assert circles(shown) == 1
+    assert shown.statuses["shoulder"] == ("Ok", "OK")
+    text = "Error transforming from frame 'lower' to frame 'base'"
+    assert shown.statuses["elbow"] == ("Error", text)
 
 
 def test_without_a_description_nothing_is_shown(messages: Open) -> None:

@@ -35,11 +35,12 @@ from sambot_viz.rviz import (
 )
 from sambot_viz.topics.decoding import frame_and_stamp
 
-MOST_EFFORTS = 100
+MOST_CIRCLES = 500
 ROBOT = "Robot Description"
 PREFIX = "TF Prefix"
 LOADING = "Process message"
 URDF = "URDF"
+EFFORTS = "Efforts"
 _LATCHED = WantedQos("Reliable", "Transient Local")
 _LENGTHS = "Received a joint state msg with different joint names and efforts size!"
 _NO_JOINT = (
@@ -84,8 +85,9 @@ class EffortDisplay(KeptReadingsDisplay):
             default=1,
             minimum=1,
             maximum=100_000,
-            acts_up_to=MOST_EFFORTS,
-            help=f"So many of the newest messages are shown, up to {MOST_EFFORTS}.",
+            acts_up_to=MOST_CIRCLES,
+            help="So many of the newest messages are shown, with up to "
+            f"{MOST_CIRCLES} circles in all.",
         ),
         StringProperty(
             ROBOT,
@@ -151,9 +153,18 @@ class EffortDisplay(KeptReadingsDisplay):
 
     # Messages
 
+    @property
+    def most(self) -> int:
+        """So many messages are shown: what is drawn is sent again with each one."""
+        count = 0 if self._joints is None else len(self._joints.joints)
+        return min(super().most, max(1, MOST_CIRCLES // max(1, count)))
+
     def place(self, message: Any) -> Transform:
         """Return nothing to place: efforts are at their joints, whatever the header."""
         return Transform.identity()
+
+    def say_placed(self) -> None:
+        """Say nothing of a place: the statuses of the joints do."""
 
     def measured(self, message: Any) -> Sequence[JointEffort]:
         """Return the efforts of a message that have a place and a number."""
@@ -161,7 +172,7 @@ class EffortDisplay(KeptReadingsDisplay):
         if joints is None:
             raise MessageRefused("Robot model might not be loaded yet", LOADING)
         if len(message.name) != len(message.effort):
-            raise MessageRefused(_LENGTHS)
+            raise MessageRefused(_LENGTHS, TOPIC)
         named = zip(map(str, message.name), map(float, message.effort), strict=True)
         efforts = {name: value for name, value in named if name in joints.joints}
         turning = [
@@ -174,6 +185,7 @@ class EffortDisplay(KeptReadingsDisplay):
             JointEffort(joint.name, efforts[joint.name], max_effort(joint), T)
             for joint, T in self._placed(turning, frame_and_stamp(message)[1])
         ]
+        self.status.remove(TRANSFORM)
         self._report_joints(len(turning))
         return [one for one in found if self._is_number(one)]
 
@@ -213,16 +225,9 @@ class EffortDisplay(KeptReadingsDisplay):
 
     def _report_joints(self, turning: int) -> None:
         if turning:
-            self.status.remove(JOINTS)
+            self.status.remove(EFFORTS)
         else:
-            self.status.set(JOINTS, "Warn", _NO_JOINT)
-
-    def _is_done(self, one: Any) -> bool:
-        done = super()._is_done(one)
-        if done:
-            # Each joint says so for itself.
-            self.status.remove(TRANSFORM)
-        return done
+            self.status.set(EFFORTS, "Warn", _NO_JOINT)
 
     # The scene
 
