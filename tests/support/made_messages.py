@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +12,25 @@ Make = Callable[[Any], tuple[str, str, object]]
 """Returns topic, type and message, made of the types by their names."""
 
 
-def write_messages(path: Path, *made: Make) -> Path:
-    """Write an mcap file, and return its path."""
+def write_messages(
+    path: Path, *made: Make, definitions: Mapping[str, str] | None = None
+) -> Path:
+    """Write an mcap file.
+
+    Args:
+        path: of the file.
+        made: return the messages.
+        definitions: of types that ROS itself does not have, by their names.
+
+    Returns:
+        The path.
+    """
     from mcap.writer import Writer
-    from rosbags.typesys import Stores, get_typestore
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
     store = get_typestore(Stores.ROS2_JAZZY)
+    for name, text in (definitions or {}).items():
+        store.register(get_types_from_msg(text, name))
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start()

@@ -32,6 +32,7 @@ from sambot_viz.displays.data.path import PathDisplay
 from sambot_viz.displays.data.point_stamped import PointStampedDisplay
 from sambot_viz.displays.data.polygon import PolygonDisplay
 from sambot_viz.displays.data.poses.odometry import OdometryDisplay
+from sambot_viz.displays.data.poses.particle_cloud import ParticleCloudDisplay
 from sambot_viz.displays.data.poses.pose import PoseDisplay, PoseWithCovarianceDisplay
 from sambot_viz.displays.data.poses.pose_array import PoseArrayDisplay
 from sambot_viz.displays.data.range import RangeDisplay
@@ -79,6 +80,7 @@ DISPLAYS: dict[str, type[Display]] = {
         MarkerArrayDisplay,
         MarkerDisplay,
         OdometryDisplay,
+        ParticleCloudDisplay,
         PathDisplay,
         PointCloud2Display,
         PointCloudDisplay,

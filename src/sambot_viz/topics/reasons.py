@@ -50,6 +50,7 @@ _CLASSES = {
     "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
     "geometry_msgs/msg/TwistStamped": "TwistStamped",
     "geometry_msgs/msg/WrenchStamped": "Wrench",
+    "nav2_msgs/msg/ParticleCloud": "nav2_rviz_plugins/ParticleCloud",
     "nav_msgs/msg/GridCells": "GridCells",
     "nav_msgs/msg/OccupancyGrid": "Map",
     "nav_msgs/msg/Odometry": "Odometry",
@@ -74,7 +75,8 @@ _CLASSES = {
     **dict.fromkeys(TRANSFORM_TYPES, "TF"),
 }
 DISPLAYS: Mapping[str, str] = {
-    kind: f"rviz_default_plugins/{name}" for kind, name in _CLASSES.items()
+    kind: name if "/" in name else f"rviz_default_plugins/{name}"
+    for kind, name in _CLASSES.items()
 }
 """Type of messages → the class of the display that usually draws them.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -94,9 +94,12 @@ def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
             kind: str,
             *made: Make,
             frame: str = "map",
+            definitions: Mapping[str, str] | None = None,
             **values: object,
         ) -> Opened:
-            path = write_messages(tmp_path / "messages.mcap", *made)
+            path = write_messages(
+                tmp_path / "messages.mcap", *made, definitions=definitions
+            )
             shown = {
                 "Class": f"rviz_default_plugins/{kind}",
                 "Name": kind,

@@ -42,7 +42,7 @@ _SHAPES = {"box": box, "cone": cone, "cylinder": cylinder, "sphere": sphere}
 
 
 class ArrowsNode(BatchNode):
-    """Arrows of one size along +x of their poses."""
+    """Arrows along +x of their poses."""
 
     def draw(
         self,
@@ -53,6 +53,7 @@ class ArrowsNode(BatchNode):
         color: npt.ArrayLike,
         *,
         alpha: npt.ArrayLike = 1.0,
+        sizes: npt.ArrayLike = 1.0,
         wxyz: Wxyz = IDENTITY,
         position: Vector3 = ORIGIN,
     ) -> None:
@@ -66,18 +67,19 @@ class ArrowsNode(BatchNode):
             head: length and diameter [m].
             color: of all (3,) or of each (N, 3), 0 to 255.
             alpha: of all or of each (N,), 0 to 1.
+            sizes: of all or of each (N,), by the lengths and diameters.
             wxyz: rotation of all in the frame of the node above.
             position: there [m].
         """
         shape = arrow_triangles((Arrow(ORIGIN, (1.0, 0.0, 0.0), shaft, head),))
-        one = (1.0, 1.0, 1.0)
+        scales = np.asarray(sizes, np.float64)[..., None]
         self.show(
-            shape, wxyzs, positions, one, color, alpha, wxyz=wxyz, position=position
+            shape, wxyzs, positions, scales, color, alpha, wxyz=wxyz, position=position
         )
 
 
 class AxesNode(BatchNode):
-    """Axes of one size: x red, y green, z blue."""
+    """Axes: x red, y green, z blue."""
 
     def draw(
         self,
@@ -88,6 +90,7 @@ class AxesNode(BatchNode):
         *,
         colors: Sequence[Rgb] = AXIS_COLORS,
         alpha: float = 1.0,
+        sizes: npt.ArrayLike = 1.0,
         wxyz: Wxyz = IDENTITY,
         position: Vector3 = ORIGIN,
     ) -> None:
@@ -100,19 +103,21 @@ class AxesNode(BatchNode):
             diameter: of each axis, which RViz calls its radius [m].
             colors: of the three.
             alpha: 0 to 1.
+            sizes: of all or of each (N,), by the length and the diameter.
             wxyz: rotation of all in the frame of the node above.
             position: there [m].
         """
         turns: Numbers = np.reshape(np.asarray(wxyzs, np.float64), (-1, 4))
         at: Numbers = np.reshape(np.asarray(positions, np.float64), (-1, 3))
+        size = np.broadcast_to(np.asarray(sizes, np.float64), len(turns))[:, None]
         axes = np.eye(3) * (length / 2)
-        middles = [at + rotated(turns, axis) for axis in axes]
+        middles = [at + size * rotated(turns, axis) for axis in axes]
         parts = [products(turns, np.array(turn)) for turn in AXIS_WXYZ]
         self.show(
             cylinder(),
             np.concatenate(parts),
             np.concatenate(middles),
-            (diameter, diameter, length),
+            np.tile(size, (3, 1)) * (diameter, diameter, length),
             np.repeat(np.array(colors), len(turns), axis=0),
             alpha,
             wxyz=wxyz,

@@ -73,6 +73,8 @@ class PoseShapes:
         positions: npt.ArrayLike,
         wxyz: Wxyz = IDENTITY,
         position: Vector3 = ORIGIN,
+        *,
+        sizes: npt.ArrayLike = 1.0,
     ) -> None:
         """Draw poses, and nothing else.
 
@@ -82,25 +84,29 @@ class PoseShapes:
             positions: (N, 3) [m].
             wxyz: rotation of all in the frame of the node above.
             position: there [m].
+            sizes: of all, or of each (N,), by what the look says.
         """
         is_solid = look.shape in (ARROW, SOLID_ARROW)
         turns: Floats = np.reshape(np.asarray(wxyzs, np.float64), (-1, 4))
         places: Floats = np.reshape(np.asarray(positions, np.float64), (-1, 3))
         pose: dict[str, Any] = {"wxyz": wxyz, "position": position}
         if is_solid and len(turns):
-            shaft, head, color = look.shaft, look.head, look.color
+            parts = look.shaft, look.head, look.color
             self._arrows.draw(
-                turns, places, shaft, head, color, alpha=look.alpha, **pose
+                turns, places, *parts, alpha=look.alpha, sizes=sizes, **pose
             )
         else:
             self._arrows.remove()
         if look.shape == AXES and len(turns):
-            self._axes.draw(turns, places, *look.axes, **pose)
+            self._axes.draw(turns, places, *look.axes, sizes=sizes, **pose)
         else:
             self._axes.remove()
         if look.shape == FLAT_ARROW and len(turns):
             flat = look.flat * _FLAT
-            ends = [places + rotated(turns, end) for line in flat for end in line]
+            long = np.asarray(sizes, np.float64)[..., None]
+            ends = [
+                places + long * rotated(turns, end) for line in flat for end in line
+            ]
             lines = np.stack(ends, axis=1)
             self._lines.draw(
                 np.reshape(lines, (-1, 2, 3)), look.color, alpha=look.alpha, **pose
