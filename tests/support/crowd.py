@@ -252,7 +252,7 @@ async def _browse(
 
 
 async def _count(channel: ClientConnection, light: Light, says: Sequence[str]) -> None:
-    """Count what the channel brings; say what there is to say once the page is there."""
+    """Count what the channel brings; say what is to be said once the page is there."""
     async for data in channel:
         for words in says:
             await channel.send(words)
