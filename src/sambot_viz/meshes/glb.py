@@ -186,26 +186,27 @@ class _Numbers:
         return len(self.accessors) - 1
 
 
-def glb_file(document: dict[str, Any], body: bytes) -> bytes:
+def glb_file(document: dict[str, Any], *body: bytes | memoryview) -> bytes:
     """Return a GLB container.
 
     Args:
         document: the glTF document.
-        body: its one binary buffer, padded to a multiple of 4.
+        body: the parts of its one binary buffer, padded to a multiple of 4.
 
     Raises:
         ValueError: a number of the document is not finite.
     """
     text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(body)
+    length = sum(map(len, body))
+    total = 12 + 8 + len(text) + 8 + length
     return b"".join(
         [
             struct.pack("<4sII", b"glTF", 2, total),
             struct.pack("<I4s", len(text), b"JSON"),
             text,
-            struct.pack("<I4s", len(body), b"BIN\0"),
-            body,
+            struct.pack("<I4s", length, b"BIN\0"),
+            *body,
         ]
     )
 

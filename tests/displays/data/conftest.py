@@ -62,7 +62,7 @@ class Opened:
     def glb(self) -> bytes:
         """The GLB file of the only node of the display."""
         (node,) = self._nodes.values()
-        return node.glb_data
+        return bytes(node.glb_data)
 
     @property
     def _nodes(self) -> dict[str, Any]:

@@ -29,6 +29,10 @@ class Drawn:
 
     def _hear(self, message: dict[str, Any], arrays: list[memoryview]) -> None:
         size = len(msgspec.msgpack.encode(message)) + sum(a.nbytes for a in arrays)
+        props = message.get("props") or message.get("updates") or {}
+        if isinstance(props.get("glb_data"), dict):
+            # A long file travels as an array.
+            props["glb_data"] = bytes(arrays[props["glb_data"]["__binary_index"]])
         self._messages.append((message, size))
 
     def sent(self) -> list[str]:

@@ -38,6 +38,18 @@ def test_other_points_are_one_message_for_the_same_node(drawn: Drawn) -> None:
     assert drawn.sent() == ["SceneNodeUpdateMessage"]
 
 
+def test_one_other_point_or_colour_is_another_cloud(drawn: Drawn) -> None:
+    node, colors = PointNode(drawn.scene, "/p"), np.full((10_000, 3), 9, np.uint8)
+    node.draw(MANY, colors, FLAT)
+    drawn.taken()
+    node.draw(MANY.copy(), colors.copy(), FLAT)
+    assert drawn.sent() == []
+    for points, looks in ((MANY.copy(), colors), (MANY, colors.copy())):
+        (points if points is not MANY else looks)[-1, 0] += 1
+        node.draw(points, looks, FLAT)
+        assert drawn.sent() == ["SceneNodeUpdateMessage"]
+
+
 def test_what_is_nowhere_is_left_out_with_its_colour(
     drawn: Drawn, numbers: Numbers
 ) -> None:

@@ -29,6 +29,9 @@ ONE_PIXEL = base64.b64decode(
     "AAAAAgAB5Sfe/AAAAABJRU5ErkJggg=="
 )
 """A PNG file: with it a part has a texture, whose picture the page makes."""
+_LONG = 65_536
+"""A file of so many bytes is sent as it is."""
+_TOGETHER = 16
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
@@ -61,11 +64,29 @@ class GlbNode(PosedNode[viser.GlbHandle]):
             position: there [m].
         """
         digest = digest_of(content)
+        self.send(digest != self._digest, make, wxyz, position)
+        self._digest = digest
+
+    def send(
+        self,
+        is_new: bool,
+        make: Callable[[], bytes],
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Send the file if it is new or nothing was sent, and the pose if it is new.
+
+        Args:
+            is_new: whether the file has another content.
+            make: returns the file.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
         pose = placed(wxyz, position)
         if self._handle is None or self.is_gone:
             handle = self._scene.add_glb(
                 self._name,
-                make(),
+                _as_sent(make()),
                 cast_shadow=False,
                 receive_shadow=False,
                 wxyz=pose[0],
@@ -73,10 +94,17 @@ class GlbNode(PosedNode[viser.GlbHandle]):
             )
             self.has_made(handle, pose)
         else:
-            if digest != self._digest:
-                self._handle.glb_data = make()
+            if is_new:
+                self._handle.glb_data = _as_sent(make())
             self.move(pose)
-        self._digest = digest
+
+
+def _as_sent(file: bytes) -> bytes:
+    """Return a long file as an array: viser compresses bytes, and arrays it does not.
+
+    To compress floats takes longer than all else, for a fifth of their length.
+    """
+    return file if len(file) < _LONG else cast(bytes, np.frombuffer(file, np.uint8))
 
 
 def digest_of(content: Sequence[object]) -> bytes:
@@ -150,8 +178,7 @@ def drawn_glb(
         "material": 0,
     }
     position, first = attributes["POSITION"], primitive["attributes"]["POSITION"]
-    body.accessors[first]["min"] = position.min(axis=0).tolist()
-    body.accessors[first]["max"] = position.max(axis=0).tolist()
+    body.accessors[first] |= _limits(position)
     if indices is not None:
         primitive["indices"] = body.add(np.reshape(indices.astype("<u4"), (-1, 1)))
     surface: dict[str, Any] = {"baseColorFactor": [1, 1, 1, 1]}
@@ -183,25 +210,49 @@ def drawn_glb(
         "materials": [material],
         "accessors": body.accessors,
         "bufferViews": body.views,
-        "buffers": [{"byteLength": len(body.data)}],
+        "buffers": [{"byteLength": body.length}],
     }
-    return glb_file(document, bytes(body.data))
+    return glb_file(document, *body.parts)
+
+
+def _limits(rows: Array) -> dict[str, list[float]]:
+    """Return the least and the greatest value of each column, as glTF asks for."""
+    width = rows.shape[1]
+    whole = len(rows) // _TOGETHER * _TOGETHER
+    found: dict[str, list[float]] = {}
+    for name, reduce in (("min", np.min), ("max", np.max)):
+        # Many rows side by side: along narrow ones it takes ten times as long.
+        parts = [rows[whole:]]
+        if whole:
+            wide = reduce(np.reshape(rows[:whole], (-1, width * _TOGETHER)), axis=0)
+            parts.append(np.reshape(wide, (_TOGETHER, width)))
+        found[name] = reduce(np.concatenate(parts), axis=0).tolist()
+    return found
+
+
+def _bytes(rows: Array) -> memoryview:
+    """Return the bytes of an array, without a copy if they are in one piece."""
+    octets: npt.NDArray[np.uint8] = cast(Any, np.ravel(rows)).view(np.uint8)
+    return octets.data
 
 
 class _Body:
     """The one buffer of a file, its views and accessors."""
 
     def __init__(self) -> None:
-        self.data = bytearray()
+        self.parts: list[bytes | memoryview] = []
+        self.length = 0
         self.views: list[dict[str, int]] = []
         self.accessors: list[dict[str, Any]] = []
 
-    def view(self, data: bytes) -> int:
+    def view(self, data: bytes | memoryview) -> int:
         """Append bytes, padded to four."""
         self.views.append(
-            {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)}
+            {"buffer": 0, "byteOffset": self.length, "byteLength": len(data)}
         )
-        self.data += data + b"\0" * (-len(data) % 4)
+        padding = b"\0" * (-len(data) % 4)
+        self.parts += [data, padding]
+        self.length += len(data) + len(padding)
         return len(self.views) - 1
 
     def add(self, rows: Array) -> int:
@@ -211,7 +262,7 @@ class _Body:
         data = rows if bytewise or index else rows.astype("<f4")
         self.accessors.append(
             {
-                "bufferView": self.view(data.tobytes()),
+                "bufferView": self.view(_bytes(data)),
                 "componentType": _UINT8 if bytewise else _UINT32 if index else _FLOAT,
                 "normalized": bytewise,
                 "count": len(rows),

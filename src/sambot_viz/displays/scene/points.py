@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+import viser
 
 from sambot_viz.displays.scene.glb_node import POINTS, GlbNode, drawn_glb, single
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
@@ -40,8 +41,22 @@ class PointStyle:
     is_by_depth: bool = False
 
 
+Shown: TypeAlias = tuple[npt.NDArray[np.float32], npt.NDArray[np.uint8], PointStyle]
+_FEW = 64
+
+
 class PointNode(GlbNode):
-    """The points of one cloud, in one node."""
+    """The points of one cloud, in one node; it keeps the arrays that it is given.
+
+    Args:
+        scene: where to draw.
+        name: of the node.
+    """
+
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        super().__init__(scene, name)
+        # To compare them takes a fraction of what a digest of them does.
+        self._shown: Shown | None = None
 
     def draw(
         self,
@@ -61,16 +76,30 @@ class PointNode(GlbNode):
             position: there [m].
         """
         at: npt.NDArray[np.float32] = np.reshape(single(points), (-1, 3))
-        finite = np.isfinite(at).all(axis=1)
-        if not finite.all():
+        if not np.isfinite(at).all():
+            finite = np.isfinite(at).all(axis=1)
             at = at[finite]
             colors = colors[finite] if len(colors) > 1 else colors
         if not len(at):
             self.remove()
             return
-        self.show(
-            (at, colors, style), lambda: points_glb(at, colors, style), wxyz, position
+        now = at, colors, style
+        is_new = self._shown is None or not _is_same(self._shown, now)
+        self._shown = now
+        self.send(is_new, lambda: points_glb(at, colors, style), wxyz, position)
+
+
+def _is_same(one: Shown, other: Shown) -> bool:
+    # The beginnings first: most clouds differ there already.
+    return (
+        one[2] == other[2]
+        and all(
+            a.shape == b.shape and np.array_equal(a[:_FEW], b[:_FEW])
+            for a, b in zip(one[:2], other[:2], strict=True)
         )
+        and np.array_equal(one[0], other[0])
+        and np.array_equal(one[1], other[1])
+    )
 
 
 def points_glb(

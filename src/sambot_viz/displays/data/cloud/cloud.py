@@ -39,9 +39,9 @@ def finite_cloud(points: Points, fields: Mapping[str, Values]) -> Cloud:
         points: (N, 3) float32 [m].
         fields: name → (N,) values.
     """
-    kept = np.isfinite(points).all(axis=1)
-    if kept.all():
+    if np.isfinite(points).all():
         return Cloud(points, fields)
+    kept = np.isfinite(points).all(axis=1)
     return Cloud(points[kept], {name: v[kept] for name, v in fields.items()})
 
 
@@ -78,9 +78,15 @@ def cloud_of_cloud2(message: Any) -> Cloud:
 
 
 def _column(rows: npt.NDArray[np.uint8], offset: int, kind: str) -> Values:
-    size = np.dtype(kind).itemsize
-    column = np.ascontiguousarray(rows[:, offset : offset + size])
-    return np.frombuffer(column.tobytes(), kind)
+    """Return the values of a field, (N,): a view of the rows."""
+    count, step = rows.shape
+    shape: Any = {
+        "names": ["value"],
+        "formats": [kind],
+        "offsets": [offset],
+        "itemsize": step,
+    }
+    return np.ndarray((count,), np.dtype(shape), rows)["value"]
 
 
 def cloud_of_cloud(message: Any) -> Cloud:

@@ -91,7 +91,7 @@ def rainbow(values: Floats) -> Colors:
         (N, 3) uint8.
     """
     nearest = np.ceil(_STEPS * _clipped(values) - 0.5)
-    return _rainbow_table()[nearest.astype(np.intp)]
+    return _rainbow_table().take(nearest.astype(np.intp), axis=0)
 
 
 def transformers_of(cloud: Cloud) -> tuple[str, ...]:
@@ -211,8 +211,7 @@ def _rgbf32(cloud: Cloud) -> Colors:
 
 def _clipped(values: npt.NDArray[np.floating[Any]]) -> Floats:
     """Return values between 0 and 1; NaN becomes 0."""
-    numbers = np.nan_to_num(values.astype(np.float64))
-    return np.minimum(np.maximum(numbers, 0.0), 1.0)
+    return np.fmin(np.fmax(values.astype(np.float64, copy=False), 0.0), 1.0)
 
 
 def _is_float(values: Values | None) -> bool:
