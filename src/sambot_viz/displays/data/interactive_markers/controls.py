@@ -23,7 +23,7 @@ INHERIT, FIXED, VIEW_FACING = range(3)
 """How a control is turned: with its marker, with the frame, or to the view."""
 LARGEST = 1e6
 """A marker with a larger scale is not drawn [m]."""
-MOST_CONTROLS, MOST_SHAPES = 2000, 5000
+MOST_CONTROLS, MOST_SHAPES = 1000, 2500
 """A marker with more controls, or with more markers in them, is not drawn."""
 
 

@@ -219,7 +219,10 @@ class InteractiveMarkersDisplay(TopicDisplay):
         found = self._client_status()
         self.status.set(CLIENT, found.level, found.text)
         if self._missed:
-            text = f"{self._missed:,} updates are missing: markers may look otherwise"
+            many = (
+                "1 update is" if self._missed == 1 else f"{self._missed:,} updates are"
+            )
+            text = f"{many} missing: markers may look otherwise"
             self.status.set(UPDATES, "Warn", text)
         else:
             self.status.remove(UPDATES)

@@ -25,7 +25,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.nodes import short_id
 from sambot_viz.frames import LookupRefused
 
-MOST_MARKERS = 1000
+MOST_MARKERS = 500
 """So many interactive markers are shown."""
 MOST_SHOWN = MOST_SHAPES
 """So many markers of the controls of all of them are shown."""
