@@ -5,12 +5,15 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, cast
 
+import numpy as np
 import pytest
 import viser
 from patience import until
-from protocol_client import ProtocolClient
+from protocol_client import ProtocolClient, decode_frame
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
@@ -188,6 +191,33 @@ def test_a_browser_that_comes_during_a_change_has_all_when_nothing_changed(
             until(lambda: len(buffer.generator_cursors) == 2)
         client = coming.result(20.0)
     assert nodes(client) == ["/a"]
+
+
+def test_a_browser_that_reads_slowly_gets_fewer_clouds_and_never_an_old_one(
+    server: viser.ViserServer,
+) -> None:
+    """What it has not been sent when a newer one comes is left out."""
+    count, content = 150, cast(bytes, np.zeros(200_000, np.uint8))
+    cloud = server.scene.add_glb("/cloud", content)
+    buffer = viser_private.broadcast_buffer(server)
+    with connect(
+        f"ws://127.0.0.1:{server.get_port()}/?ticket=slow",
+        subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        max_size=None,
+        max_queue=1,
+        compression=None,
+    ) as slow:
+        until(lambda: buffer.generator_cursors)
+        for number in range(1, count):
+            cloud.glb_data = cast(bytes, np.full(200_000, number, np.uint8))
+            server.flush()
+        found: list[int] = []
+        while not found or found[-1] < count - 1:
+            for message in decode_frame(cast(bytes, slow.recv(20.0))):
+                if "glb_data" in message.fields.get("updates", {}):
+                    found.append(message.fields["updates"]["glb_data"][0])
+    assert found == sorted(found)
+    assert len(found) < count / 2
 
 
 def test_single_messages_are_collected_for_a_moment(
