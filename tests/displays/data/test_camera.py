@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
-from camera_messages import cube, image, info, pose
+from camera_messages import cube, file, image, info, pose
 from inside import session_of
 from made_messages import Make
+from PIL import Image
 
 from sambot_viz.displays.display import Display, EntryList
 
@@ -149,6 +151,16 @@ def test_a_picture_that_cannot_be_shown_says_why(
     about, content = shown.look()
     assert (about["type"], about["view"], content) == ("", None, b"")
     assert text in shown.statuses["Image"][1]
+
+
+def test_ros_1_names_the_topic_of_whole_pictures(messages: Open) -> None:
+    stream = io.BytesIO()
+    Image.fromarray(GREY).save(stream, "PNG")
+    made = file("/a/compressed", stream.getvalue(), "png")
+    ros1 = {"Class": "rviz/Camera", "Topic": None, "Image Topic": "/a"}
+    values = {**ros1, "Transport Hint": "compressed"}
+    shown = messages("Camera", placed(0, 0, 0), info(INFO, NUMBERS), made, **values)
+    assert view(shown)["size"] == [4, 2]
 
 
 def test_a_picture_waits_for_the_place_of_its_camera(messages: Open) -> None:

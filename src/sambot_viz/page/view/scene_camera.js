@@ -21,6 +21,7 @@ const SETTLES = 500;
 const MOST = 2;
 /** The part of a node's name that says which display has drawn it; a tool has no number. */
 const OWNER = /\/(~(?:[0-9a-z]+_)?)/;
+const TOOL = "~";
 
 /**
  * What of the scene is seen in a window, and where in it the image is.
@@ -142,7 +143,7 @@ function compose({ room, canvas, image, view }, scene) {
   const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   /** @param {number} alpha */
   const drawImage = (alpha) => {
-    const [x, y, w, h] = frame?.image || [0, 0, width, height];
+    const [x, y, w, h] = frame?.image || fitted(image, width, height);
     Object.assign(context, { globalAlpha: alpha, imageSmoothingEnabled: false });
     context.drawImage(image, x, y, w, h);
     context.globalAlpha = 1;
@@ -155,6 +156,14 @@ function compose({ room, canvas, image, view }, scene) {
   const [x, y, w, h] = drawn.part;
   context.drawImage(drawn.canvas, x, y, w, h, 0, 0, width, height);
   if (view.over > 0) drawImage(view.over);
+}
+
+/** Where an image is in a window, whole and as large as it may be.
+ * @param {HTMLCanvasElement} image @param {number} width @param {number} height */
+function fitted(image, width, height) {
+  const scale = Math.min(width / image.width, height / image.height);
+  const [w, h] = [image.width * scale, image.height * scale];
+  return [(width - w) / 2, (height - h) / 2, w, h];
 }
 
 /** @type {any} */
@@ -198,19 +207,16 @@ export function drawSceneCameras(renderer, scene, main, helpers, names) {
 function hide(displays, helpers, names) {
   const { nodeRefFromName = {} } = window.__viserMutable || {};
   /** @param {string} name */
-  const isHidden = (name) => {
-    const owner = OWNER.exec(name)?.[1];
-    return owner !== undefined && (owner === "~" || displays.has(owner));
-  };
+  const owner = (name) => OWNER.exec(name)?.[1] || "";
   const objects = [...helpers];
   for (const [name, node] of Object.entries(nodeRefFromName))
-    if (isHidden(name)) objects.push(node);
+    if (owner(name) === TOOL || displays.has(owner(name))) objects.push(node);
   // All names are one object.
   const tree = /** @type {any} */ (window).__viserSceneTree?.getState() || {};
   if (
     Object.entries(tree).some(
       ([name, node]) =>
-        /** @type {any} */ (node)?.message.type === "LabelMessage" && isHidden(name),
+        /** @type {any} */ (node)?.message.type === "LabelMessage" && displays.has(owner(name)),
     )
   )
     objects.push(names);

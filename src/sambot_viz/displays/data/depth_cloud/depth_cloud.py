@@ -32,15 +32,14 @@ from sambot_viz.displays.data.depth_cloud.properties import (
 )
 from sambot_viz.displays.data.image.camera_info import (
     CAMERA_INFO,
-    TRANSPORTS,
     CameraNumbers,
-    info_topic,
     no_info,
     numbers_of,
     size_doubt,
 )
 from sambot_viz.displays.data.image.encodings import Bytes
 from sambot_viz.displays.data.image.files import read_colors, read_depths
+from sambot_viz.displays.data.image.transports import info_topic, sent_topic
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import MOST_WAITING
 from sambot_viz.displays.display import DisplayContext
@@ -92,9 +91,7 @@ class DepthCloudDisplay(CloudDisplay):
         return self._sent(COLOR_TOPIC, COLOR_HINT)
 
     def _sent(self, path: str, hint: str) -> str:
-        topic, transport = str(self.config.get(path)), str(self.config.get(hint))
-        is_plain = transport not in TRANSPORTS or topic.rpartition("/")[2] in TRANSPORTS
-        return topic if is_plain or not topic else f"{topic}/{transport}"
+        return sent_topic(str(self.config.get(path)), self.config.get(hint))
 
     def other_topics(self) -> Sequence[str]:
         """Return the topics of the camera infos and of the colour images."""
@@ -163,10 +160,7 @@ class DepthCloudDisplay(CloudDisplay):
         if messages is None or not self.topic:
             return
         if self._sync.info is None:
-            qos = self.wanted_qos
-            doubt = messages.doubt(info, {"sensor_msgs/msg/CameraInfo"}, qos)
-            text = no_info(info, [doubt.sentence] if doubt else [])
-            self.status.set(CAMERA_INFO, "Warn", text)
+            self.status.set(CAMERA_INFO, "Warn", no_info(info, messages))
         if self._sync.waits_for_color and COLOR_IMAGE not in self.status.rows:
             text = f"No image received on [{self.color_topic}]"
             self.status.set(COLOR_IMAGE, "Warn", text)

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from sambot_viz.displays.data.image.transports import (
+    COMPRESSED,
+    COMPRESSED_DEPTH,
+    RAW,
+)
 from sambot_viz.rviz import (
     BoolProperty,
     EditableEnumProperty,
@@ -17,7 +22,6 @@ AUTO_SIZE, OCCLUSION = "Auto Size", "Occlusion Compensation"
 TIME_OUT = f"{OCCLUSION}/Occlusion Time-Out"
 FACTOR = f"{AUTO_SIZE}/Auto Size Factor"
 QUEUE_SIZE = "Queue Size"
-RAW = "raw"
 
 DEPTH_PROPERTIES: tuple[Property, ...] = (
     EditableEnumProperty(
@@ -37,7 +41,7 @@ DEPTH_PROPERTIES: tuple[Property, ...] = (
     EditableEnumProperty(
         DEPTH_HINT,
         default=RAW,
-        options=(RAW, "compressedDepth"),
+        options=(RAW, COMPRESSED_DEPTH),
         help="How the depth images are sent.",
     ),
     TopicProperty(
@@ -48,7 +52,7 @@ DEPTH_PROPERTIES: tuple[Property, ...] = (
     EditableEnumProperty(
         COLOR_HINT,
         default=RAW,
-        options=(RAW, "compressed"),
+        options=(RAW, COMPRESSED),
         help="How the colour images are sent.",
     ),
     IntProperty(

@@ -11,7 +11,6 @@ import numpy as np
 from sambot_viz.displays.data.image.camera_info import (
     CAMERA_INFO,
     CameraNumbers,
-    info_topic,
     no_info,
     numbers_of,
     size_doubt,
@@ -20,6 +19,13 @@ from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
 from sambot_viz.displays.data.image.files import picture_of
 from sambot_viz.displays.data.image.image import NONE_YET
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
+from sambot_viz.displays.data.image.transports import (
+    ROS1_HINT,
+    ROS1_TOPIC,
+    hint_property,
+    info_topic,
+    sent_topic,
+)
 from sambot_viz.displays.data.image.visibility import VISIBILITY, Visibility
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
@@ -60,9 +66,11 @@ class CameraDisplay(MessageFilterDisplay):
             VISIBILITY,
             default=True,
             open_keys=True,
-            help="The displays that are drawn in the picture.",
+            help="The displays that are drawn in the picture. Names of frames are not, "
+            "where one of the displays that have some is left out.",
         ),
-        topic_property(is_filtered=False),
+        topic_property(is_filtered=False, ros1=ROS1_TOPIC),
+        hint_property(),
         EnumProperty(
             RENDERING,
             default=_BOTH,
@@ -105,6 +113,11 @@ class CameraDisplay(MessageFilterDisplay):
         self._put: CameraPicture | None = None
 
     # Its topics
+
+    @property
+    def topic(self) -> str:
+        """The name of the topic; ROS 1 names that of whole pictures for all kinds."""
+        return sent_topic(super().topic, self.config.properties.get(ROS1_HINT))
 
     def other_topics(self) -> Sequence[str]:
         """Return the topic of the camera infos."""
@@ -215,11 +228,7 @@ class CameraDisplay(MessageFilterDisplay):
         """Return the numbers of the camera, or say why there are none."""
         messages, topic = self.context.messages, info_topic(self.topic)
         if self._info is None or self.subscription is None or self._taken is None:
-            types = {"sensor_msgs/msg/CameraInfo"}
-            qos = self.wanted_qos
-            doubt = messages.doubt(topic, types, qos) if messages is not None else None
-            text = no_info(topic, [doubt.sentence] if doubt else [])
-            self.status.set(CAMERA_INFO, "Warn", text)
+            self.status.set(CAMERA_INFO, "Warn", no_info(topic, messages))
             return None
         try:
             with refusing(CAMERA_INFO, "read"):

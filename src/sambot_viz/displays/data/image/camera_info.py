@@ -1,18 +1,19 @@
-"""The numbers of sensor_msgs/CameraInfo, and the topic that they come on."""
+"""The numbers of sensor_msgs/CameraInfo, and what is said without them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.displays.topic_messages import TopicMessages
 
 CAMERA_INFO = "Camera Info"
 """The key of the status."""
-TRANSPORTS = ("compressed", "compressedDepth", "theora")
-"""What a topic of images may end with, beside those of plain images."""
+_TYPES = frozenset({"sensor_msgs/msg/CameraInfo"})
+_QOS = WantedQos("Best Effort", "Volatile")
 _SMALLEST_FOCUS = 1e-9
 """A focal length below it shows everything at infinity [pixels]."""
 
@@ -87,19 +88,13 @@ def size_doubt(camera: CameraNumbers, size: tuple[int, int]) -> str | None:
     return f"{text} {size[0]} × {size[1]}: what is drawn is not in its place"
 
 
-def info_topic(image_topic: str) -> str:
-    """Return the topic of the camera infos of a topic of images; "" for none."""
-    base, slash, last = image_topic.rpartition("/")
-    if slash and last in TRANSPORTS:
-        base, slash, _ = base.rpartition("/")
-    return f"{base}{slash}camera_info" if image_topic else ""
-
-
-def no_info(topic: str, doubts: Sequence[str]) -> str:
+def no_info(topic: str, messages: TopicMessages | None) -> str:
     """Say that no camera info has come, and why.
 
     Args:
         topic: where it is expected.
-        doubts: what is known of the topic.
+        messages: what is known of topics.
     """
-    return ". ".join([f"No CameraInfo received on [{topic}]", *doubts])
+    text = f"No CameraInfo received on [{topic}]"
+    doubt = messages.doubt(topic, _TYPES, _QOS) if messages is not None else None
+    return text if doubt is None else f"{text}. {doubt.sentence}"

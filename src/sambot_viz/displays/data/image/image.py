@@ -7,6 +7,12 @@ from typing import Any
 from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
 from sambot_viz.displays.data.image.files import picture_of
 from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
+from sambot_viz.displays.data.image.transports import (
+    ROS1_HINT,
+    ROS1_TOPIC,
+    hint_property,
+    sent_topic,
+)
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
@@ -14,7 +20,6 @@ from sambot_viz.displays.pictures import NO_PICTURE
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
-    EditableEnumProperty,
     FloatProperty,
     IntProperty,
 )
@@ -22,7 +27,6 @@ from sambot_viz.sources.message import Recorded
 
 NONE_YET = "No Image received"
 NORMALIZE = "Normalize Range"
-HINT, COMPRESSED = "Transport Hint", "compressed"
 
 
 class ImageDisplay(TopicDisplay):
@@ -35,14 +39,8 @@ class ImageDisplay(TopicDisplay):
     help = "The pictures of a camera, in the panel Images."
     types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
     properties = (
-        topic_property(is_filtered=False, ros1="Image Topic"),
-        EditableEnumProperty(
-            HINT,
-            default="raw",
-            options=("raw", COMPRESSED),
-            help="Of ROS 1: how the pictures of the topic are sent.",
-            ros1_only=True,
-        ),
+        topic_property(is_filtered=False, ros1=ROS1_TOPIC),
+        hint_property(),
         BoolProperty(
             NORMALIZE,
             default=True,
@@ -81,10 +79,7 @@ class ImageDisplay(TopicDisplay):
     @property
     def topic(self) -> str:
         """The name of the topic; ROS 1 names that of whole pictures for all kinds."""
-        topic, hint = super().topic, self.config.properties.get(HINT)
-        if hint != COMPRESSED or not topic or topic.endswith(f"/{COMPRESSED}"):
-            return topic
-        return f"{topic}/{COMPRESSED}"
+        return sent_topic(super().topic, self.config.properties.get(ROS1_HINT))
 
     @property
     def most_waiting(self) -> int:
