@@ -129,3 +129,19 @@ def test_solids_of_negative_sizes_are_turned_and_not_inside_out(drawn: Drawn) ->
     seen = Seen(drawn, "/mco").props
     assert (seen.batched_scales > 0).all()
     assert np.abs(seen.batched_wxyzs).tolist() == [[0, 1, 0, 0], [1, 0, 0, 0]]
+
+
+def test_one_that_can_be_seen_through_is_placed_by_its_node(drawn: Drawn) -> None:
+    """The page sorts nodes by their places, as RViz does its objects."""
+    half = 0.5**0.5
+    for alpha, at in ((1.0, (0, 0, 3)), (0.5, (0, 2, 3))):
+        SolidsNode(drawn.scene, "/m").draw(
+            [Solid("box", (half, 0.0, 0.0, half), (2, 0, 0), (1, 1, 1), RED, alpha)],
+            wxyz=(half, 0.0, 0.0, half),
+            position=(0.0, 0.0, 3.0),
+        )
+        node = drawn.scene._handle_from_node_name["/mbo"]
+        assert np.allclose(node.position, at)
+        assert np.allclose(node.batched_positions, [(2 if alpha == 1 else 0, 0, 0)])
+        turn = (half, 0, 0, half) if alpha == 1 else (0, 0, 0, 1)
+        assert np.allclose(node.wxyz, turn)

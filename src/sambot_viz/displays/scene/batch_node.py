@@ -12,7 +12,14 @@ from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.displays.scene.posed_node import Pose, PosedNode
 from sambot_viz.displays.scene.solids import Compact, linear
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
+    Vector3,
+    Wxyz,
+    wxyz_product,
+    wxyz_rotated,
+)
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Floats = npt.NDArray[np.float32]
@@ -63,14 +70,15 @@ class BatchNode(PosedNode[viser.BatchedMeshHandle]):
             self.remove()
             return
         alpha = alpha[good].clip(0, 1)
+        turns, at = turns[good] / norms[good][:, None], at[good]
+        pose = placed(wxyz, position)
+        blended = bool(alpha.min() < OPAQUE_FROM)
+        if blended and len(at) == 1:
+            # Where two can be seen through, the page draws the farther node first.
+            pose = _within(pose, turns[0], at[0])
+            turns, at = single([IDENTITY]), single([ORIGIN])
         self._send(
-            shape,
-            turns[good] / norms[good][:, None],
-            at[good],
-            sizes[good],
-            shown[good],
-            None if alpha.min() >= OPAQUE_FROM else alpha,
-            placed(wxyz, position),
+            shape, turns, at, sizes[good], shown[good], alpha if blended else None, pose
         )
 
     def _send(
@@ -111,6 +119,14 @@ class BatchNode(PosedNode[viser.BatchedMeshHandle]):
             handle.batched_colors = colors
             handle.batched_opacities = alphas
             self.move(pose)
+
+
+def _within(pose: Pose, wxyz: Floats, position: Floats) -> Pose:
+    """Return a pose that is given in the frame of another one."""
+    w, x, y, z = wxyz.tolist()
+    a, b, c = position.tolist()
+    moved = np.add(wxyz_rotated(pose[0], (a, b, c)), pose[1])
+    return placed(wxyz_product(pose[0], (w, x, y, z)), moved.tolist())
 
 
 @cache

@@ -18,6 +18,7 @@ import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
 import { drawSceneCameras, isSceneCamera } from "./scene_camera.js";
 import { keepSharp } from "./sharp.js";
+import { eye, farFirst, lookFrom, sortBatch } from "./sorting.js";
 import { reportWindow } from "./window_size.js";
 import { beginStudio, dress, finishStudio, STUDIO_LIT, studioUniform, TAG } from "./studio.js";
 
@@ -183,6 +184,7 @@ const visit = (object, studio, shown) => {
   // When viser makes a batch of meshes again, as it does when it gets another material, the old
   // one is in the scene for some pictures more, disposed of: WebGL would refuse to draw it.
   if (object.isInstancedMesh2 && !object.instanceIndex) object.visible = false;
+  sortBatch(object);
   takeNormals(object.geometry);
   dressDrawn(object, eye);
   const visible = shown && object.visible;
@@ -198,23 +200,6 @@ const visit = (object, studio, shown) => {
   }
   for (const child of object.children) visit(child, studio, visible);
 };
-
-// RViz draws translucent things from far to near by the distance of their origins;
-// three.js goes by their depth along the view, which is another order.
-/** The camera's matrixWorld. @type {any} */
-let eye = null;
-/** The squared distance of an object from the camera. @param {any} object */
-const distance = (object) => {
-  const m = object.matrixWorld.elements;
-  const e = eye.elements;
-  return (m[12] - e[12]) ** 2 + (m[13] - e[13]) ** 2 + (m[14] - e[14]) ** 2;
-};
-/** @param {any} a @param {any} b */
-const farFirst = (a, b) =>
-  a.groupOrder - b.groupOrder ||
-  a.renderOrder - b.renderOrder ||
-  distance(b.object) - distance(a.object) ||
-  a.id - b.id;
 
 // viser has no orthographic camera: the server sends a far one with a field of view
 // below 1 degree, and the mouse zooms by moving it. The near plane must follow, or it
@@ -250,7 +235,7 @@ const hook = () => {
     renderer.toneMapping = 0;
     drawSceneCameras(renderer, scene, camera, [background], tags?.parent);
     followZoom(camera);
-    eye = camera.matrixWorld;
+    lookFrom(camera.matrixWorld);
     renderer.setTransparentSort(farFirst);
     labels = 0;
     const studio = currentLook() === "studio";
