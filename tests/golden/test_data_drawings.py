@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -127,3 +128,32 @@ def test_a_mesh_is_shaded_by_the_normals_of_its_file(chromium: Chromium) -> None
     shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
     for color in ((255, 204, 102), (128, 102, 51)):
         assert any(np.abs(np.subtract(one, color)).max() <= 2 for one in shown)
+
+
+def test_triangles_are_lit_on_the_side_from_which_they_turn_left(
+    chromium: Chromium,
+) -> None:
+    """The other side is black, as in RViz, also when a scale mirrors them."""
+    from sambot_viz.displays.data.markers.triangles import TrianglesNode
+
+    def draw(scene: viser.SceneApi) -> None:
+        left = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+        for number, (corners, x) in enumerate(
+            [(left, 1.0), (left, -1.0), (left[::-1], 1.0), (left[::-1], -1.0)]
+        ):
+            marker = SimpleNamespace(
+                points=[SimpleNamespace(x=a, y=b, z=c) for a, b, c in corners],
+                scale=SimpleNamespace(x=x, y=1.0, z=1.0),
+                color=SimpleNamespace(r=1.0, g=0.0, b=number / 3, a=1.0),
+                colors=[],
+                texture_resource="",
+                uv_coordinates=[],
+            )
+            place = (1.5 * (number % 2) - 0.75, 1.5 * (number // 2) - 0.75, 0.0)
+            node = TrianglesNode(scene, f"/~t{number}")
+            node.draw(marker, (1.0, 0.0, 0.0, 0.0), place)
+
+    seen = picture_of(chromium, FROM_ABOVE, (480, 640, 3), draw)
+    shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
+    assert {(255, 0, 0), (255, 0, 85), (0, 0, 0)} <= shown
+    assert not {(255, 0, 170), (255, 0, 255)} & shown

@@ -87,6 +87,18 @@ def test_normals_that_faces_do_not_give_are_there_twice() -> None:
         assert ("_NORMAL" in primitive["attributes"]) is own
 
 
+def test_a_colour_over_a_part_is_a_second_look_of_its_corners(part: MeshPart) -> None:
+    """RViz draws a tinted mesh twice: the tint has no texture."""
+    written = json_of(to_glb(part, over=(1, 0, 0, 0.5)))
+    first, second = written["meshes"][0]["primitives"]
+    assert first["attributes"] == second["attributes"]
+    own, over = (written["materials"][one["material"]] for one in (first, second))
+    assert "baseColorTexture" in own["pbrMetallicRoughness"]
+    assert over["pbrMetallicRoughness"]["baseColorFactor"] == [1, 0, 0, 0.5]
+    assert "baseColorTexture" not in over["pbrMetallicRoughness"]
+    assert "alphaMode" not in own and over["alphaMode"] == "BLEND"
+
+
 def test_our_own_reader_gets_back_what_was_written(
     part: MeshPart, write: Callable[..., Path]
 ) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import struct
 import weakref
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -74,7 +75,14 @@ def _differ(part: MeshPart, normals: FloatArray) -> bool:
     return bool((area * other).sum() > _A_BIT * area.sum())
 
 
-def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> bytes:
+def to_glb(
+    part: MeshPart,
+    *,
+    rgba: Rgba | None = None,
+    alpha: float = 1.0,
+    two_sided: bool = False,
+    over: Rgba | None = None,
+) -> bytes:
     """Return a GLB file that a browser shows as RViz shows the part.
 
     The material is not metallic and quite rough, back faces are culled, and a flat part
@@ -86,6 +94,8 @@ def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> b
         rgba: colour factors instead of the part's own (a URDF material); white
             where neither says anything.
         alpha: multiplies the colour's own; below 0.9998 the result is blended.
+        two_sided: back faces are not culled.
+        over: a colour in which the part is drawn once more, on top, without a texture.
     """
     numbers = _Numbers()
     position = numbers.add(part.vertices, "VEC3")
@@ -108,7 +118,11 @@ def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> b
         "indices": numbers.add(indices, "SCALAR"),
         "material": 0,
     }
-    material = _material(part, rgba, alpha)
+    primitives = [primitive]
+    materials = [_material(part, rgba, alpha) | {"doubleSided": two_sided}]
+    if over is not None:
+        primitives.append({**primitive, "material": 1})
+        materials.append(_material(replace(part, texture=None), over, 1.0))
     images: dict[str, Any] = {}
     if part.texture is not None and part.uv is not None:
         image = {
@@ -126,8 +140,8 @@ def to_glb(part: MeshPart, *, rgba: Rgba | None = None, alpha: float = 1.0) -> b
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [primitive]}],
-        "materials": [material],
+        "meshes": [{"primitives": primitives}],
+        "materials": materials,
         "accessors": numbers.accessors,
         "bufferViews": numbers.views,
         "buffers": [{"byteLength": len(body)}],
@@ -147,7 +161,7 @@ def _material(part: MeshPart, rgba: Rgba | None, alpha: float) -> dict[str, Any]
     }
     if part.texture is not None and part.uv is not None:
         pbr["baseColorTexture"] = {"index": 0}
-    material: dict[str, Any] = {"pbrMetallicRoughness": pbr, "doubleSided": False}
+    material: dict[str, Any] = {"pbrMetallicRoughness": pbr}
     if opacity < OPAQUE_FROM:
         material["alphaMode"] = "BLEND"
     return material

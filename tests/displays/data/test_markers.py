@@ -11,6 +11,7 @@ import pytest
 from inside import session_of
 
 from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
+from sambot_viz.displays.scene.glb_node import ONE_PIXEL
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
@@ -30,6 +31,8 @@ def built(
     x: float = 0.0,
     lifetime: int = 0,
     points: int = 0,
+    colors: int = 0,
+    image: bytes = b"",
 ) -> object:
     time, point = types["builtin_interfaces/msg/Time"], types["geometry_msgs/msg/Point"]
     turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
@@ -46,11 +49,11 @@ def built(
         types["std_msgs/msg/ColorRGBA"](1.0, 0.0, 0.0, 1.0),
         types["builtin_interfaces/msg/Duration"](lifetime, 0),
         False,
-        [point(float(n), 0.0, 0.0) for n in range(points)],
-        [],
-        "",
-        picture(header(time(0, 0), ""), "", np.zeros(0, np.uint8)),
-        [],
+        [point(float(n % 3), float(n % 2), 0.0) for n in range(points)],
+        [types["std_msgs/msg/ColorRGBA"](1.0, 1.0, 0.0, 1.0)] * colors,
+        "embedded://picture" if image else "",
+        picture(header(time(0, 0), ""), "png", np.frombuffer(image, np.uint8)),
+        [types["visualization_msgs/msg/UVCoordinate"](0.5, 0.5)] * bool(image) * points,
         "",
         "",
         types["visualization_msgs/msg/MeshFile"]("", np.zeros(0, np.uint8)),
@@ -121,6 +124,8 @@ def test_a_namespace_that_is_off_shows_nothing(messages: Open) -> None:
         (marker(0, x=float("nan")), "invalid floating point values"),
         (marker(0, kind=LINE_LIST, points=3), "multiple of 2"),
         (marker(0, kind=TRIANGLES, points=4), "multiple of 3"),
+        (marker(0, kind=TRIANGLES, points=6, colors=4), "doesn't match"),
+        (marker(0, kind=TRIANGLES, points=3, image=b"none"), "not an image"),
         (marker(0, scale=0.0), "0.0 in x, y or z"),
         (marker(0, frame="nowhere"), "nowhere"),
         (marker(0, kind=99), "99"),
@@ -131,6 +136,26 @@ def test_what_cannot_be_drawn_is_said(messages: Open, made: Make, text: str) -> 
     said = " ".join(text for _, text in shown.statuses.values())
     assert text in said
     assert {level for level, _ in shown.statuses.values()} - {"Ok"}
+
+
+@pytest.mark.parametrize("colors", [0, 3])
+def test_triangles_have_the_picture_that_they_bring(
+    messages: Open, colors: int
+) -> None:
+    shown = messages(
+        "Marker", marker(0, kind=TRIANGLES, points=3, colors=colors, image=ONE_PIXEL)
+    )
+    (name,) = shown.node_names()
+    node = shown.viz.viser.scene._handle_from_node_name[name]  # pyright: ignore[reportPrivateUsage]
+    assert ONE_PIXEL in node.glb_data
+    assert {level for level, _ in shown.statuses.values()} == {"Ok"}
+
+
+def test_triangles_with_too_few_colours_are_lit_in_one(messages: Open) -> None:
+    shown = messages("Marker", marker(0, kind=TRIANGLES, points=6, colors=4))
+    (name,) = shown.node_names()
+    node = shown.viz.viser.scene._handle_from_node_name[name]  # pyright: ignore[reportPrivateUsage]
+    assert node.color == (255, 0, 0)
 
 
 def _in_array(made: Make) -> Make:

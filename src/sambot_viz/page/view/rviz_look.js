@@ -142,7 +142,9 @@ const light = (material) => {
       material,
       "lit",
       "outgoingLight = sambotEncode(totalEmissiveRadiance)" +
-        " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);",
+        " + sambotEncode(diffuseColor.rgb) * max(0.0, normal.z);" +
+        // What is seen from both sides is lit on one.
+        "\n#ifdef DOUBLE_SIDED\nif (!gl_FrontFacing) outgoingLight = vec3(0.0);\n#endif",
     );
   }
 };

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from sambot_viz.displays.data.markers.textures import has_texture, texture_of
 from sambot_viz.displays.display import Level
+from sambot_viz.meshes.textures import TextureError
 
 (
     ARROW,
@@ -110,6 +112,11 @@ def _warnings(marker: Any, kind: int) -> Iterator[str]:
         elif abs(norm - 1.0) > _UNNORMALIZED:
             yield "Unnormalized quaternion in marker message."
     yield from _about_scale(kind, scale, len(marker.points))
+    if kind == TRIANGLES and has_texture(marker):
+        try:
+            texture_of(marker)
+        except TextureError as error:
+            yield f"The texture cannot be shown: {error}."
     if kind not in _WITH_POINTS or not marker.colors:
         if marker.color.a == 0.0 and not _has_own_colors(marker, kind):
             yield "Marker is fully transparent (color.a is 0.0)."

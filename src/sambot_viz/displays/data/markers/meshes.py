@@ -19,7 +19,7 @@ from sambot_viz.geometry import Rgba, Vector3, Wxyz
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, to_glb
-from sambot_viz.meshes.mesh import GREY, WHITE, Mesh, MeshPart, apply_scale
+from sambot_viz.meshes.mesh import WHITE, Mesh, MeshPart, apply_scale
 from sambot_viz.robot.model import asset_of
 
 _STRONGEST_TINT = 0.5
@@ -80,24 +80,29 @@ class _Look:
     tint: float | None
     alpha: float
 
-    def of(self, part: MeshPart) -> tuple[Rgba, bool]:
-        """Return the colour of a part, and whether it has its texture."""
-        own = GREY if part.rgba is None else part.rgba
+    def of(self, part: MeshPart) -> tuple[Rgba, bool, Rgba | None]:
+        """Return the colour of a part, if it has its texture, and what is over it."""
         red, green, blue = (c / 255 for c in self.color)
-        if self.tint is None or (part.rgba is None and self.tint):
-            return (red, green, blue, self.alpha), False
-        textured = part.texture is not None
-        base = WHITE if textured and part.rgba is None else own
+        if self.tint is None:
+            return (red, green, blue, self.alpha), False, None
+        if part.rgba is None and part.texture is None:
+            # RViz sees the colour as what is drawn over the mesh, and draws it alone.
+            alpha = self.alpha if self.alpha >= OPAQUE_FROM else self.tint
+            return (red, green, blue, alpha), False, None
+        own, textured = (part.rgba or WHITE)[:3], part.texture is not None
+        if not self.tint:
+            return (*own, self.alpha), textured, None
         # RViz draws the mesh, and the colour over it once more.
+        over = (red, green, blue, self.tint)
+        if textured:
+            return (*own, self.alpha), True, over
         own_part = self.alpha * (1 - self.tint)
         alpha = own_part + self.tint
-        if not self.tint:
-            alpha = own_part = self.alpha * own[3]
         mixed = [
-            (c * own_part + new * self.tint) / alpha if alpha > 0 else c
-            for c, new in zip(base[:3], (red, green, blue), strict=True)
+            (c * own_part + new * self.tint) / alpha
+            for c, new in zip(own, over[:3], strict=True)
         ]
-        return (mixed[0], mixed[1], mixed[2], alpha), textured
+        return (mixed[0], mixed[1], mixed[2], alpha), False, None
 
 
 def look_of(marker: Any) -> _Look:
@@ -175,26 +180,24 @@ class MeshNodes:
     ) -> list[Handle]:
         handles: list[Handle] = []
         for number, own in enumerate(mesh.parts):
-            part = apply_scale(own, scale)
-            rgba, textured = look.of(part)
             name = self._name if number == 0 else f"{self._name}.{number}"
-            handles.append(self._add_part(name, part, rgba, textured, pose))
+            handles.append(self._add_part(name, apply_scale(own, scale), look, pose))
         return handles
 
     def _add_part(
         self,
         name: str,
         part: MeshPart,
-        rgba: Rgba,
-        textured: bool,
+        look: _Look,
         pose: tuple[Wxyz, Vector3],
     ) -> Handle:
         scene = self._context.scene
+        rgba, textured, over = look.of(part)
         if textured or has_own_normals(part):
             shown = part if textured else replace(part, texture=None)
             return scene.add_glb(
                 name,
-                to_glb(shown, rgba=rgba),
+                to_glb(shown, rgba=rgba, over=over),
                 wxyz=pose[0],
                 position=pose[1],
                 cast_shadow=False,

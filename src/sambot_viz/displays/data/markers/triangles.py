@@ -1,7 +1,8 @@
-"""The triangles of a marker: with colours of their own, or in one that is lit."""
+"""The triangles of a marker: with colours of their own, or lit, in one or a picture."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,13 +14,64 @@ from sambot_viz.displays.data.markers.fields import (
     rgb_of,
     rgba_of,
 )
+from sambot_viz.displays.data.markers.textures import (
+    has_texture,
+    texture_of,
+    uv_of,
+)
 from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.scene.glb_node import GlbNode, digest_of, drawn_glb
 from sambot_viz.displays.scene.nodes import NodeCache, placed
+from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Vector3, Wxyz
-from sambot_viz.meshes.glb import OPAQUE_FROM
+from sambot_viz.meshes.glb import OPAQUE_FROM, to_glb
+from sambot_viz.meshes.mesh import MeshPart, Texture
+from sambot_viz.meshes.textures import TextureError
 
 Floats = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TriangleLook:
+    """How triangles that are lit look.
+
+    Attributes:
+        color: 0 to 255.
+        alpha: 0 to 1.
+        is_mirrored: by their scale.
+        texture: multiplies the colour, or None.
+        uv: (N, 2), the place of each corner in the texture, v upwards.
+    """
+
+    color: Rgb
+    alpha: float
+    is_mirrored: bool
+    texture: Texture | None = None
+    uv: Floats | None = None
+
+
+def look_of(marker: Any, good: npt.NDArray[np.bool_]) -> TriangleLook | None:
+    """Return how the triangles of a marker are lit; None when their colours are not.
+
+    Args:
+        marker: three of its points are one triangle.
+        good: which triangles are drawn.
+    """
+    scale, count = marker.scale, len(marker.points)
+    mirrored = scale.x * scale.y * scale.z < 0
+    color, alpha = rgb_of(marker.color), alpha_of(marker.color)
+    colors = marker.colors if len(marker.colors) in (count, count // 3) else ()
+    if has_texture(marker):
+        try:
+            texture = texture_of(marker)
+        except TextureError:
+            pass  # The status says so.
+        else:
+            uv = uv_of(marker)[np.repeat(good, 3)]
+            white = (255, 255, 255), 1.0
+            color, alpha = white if colors else (color, alpha)
+            return TriangleLook(color, alpha, mirrored, texture, uv)
+    return None if colors else TriangleLook(color, alpha, mirrored)
 
 
 class TrianglesNode:
@@ -34,7 +86,8 @@ class TrianglesNode:
         self._scene = scene
         self._name = name
         self._unlit = GlbNode(scene, name)
-        self._lit = NodeCache()
+        self._plain = NodeCache()
+        self._textured = GlbNode(scene, name)
 
     def draw(self, marker: Any, wxyz: Wxyz, position: Vector3) -> None:
         """Draw the triangles of a marker; those too far away for browsers are left out.
@@ -53,12 +106,15 @@ class TrianglesNode:
         at = corners[np.repeat(good, 3)]
         if not len(at):
             self.remove()
-        elif marker.colors:
-            self._lit.remove()
+            return
+        look = look_of(marker, good)
+        if look is None:
+            self._plain.remove()
+            self._textured.remove()
             self._draw_colored(marker, at, good, wxyz, position)
         else:
             self._unlit.remove()
-            self._draw_lit(marker, at, wxyz, position)
+            self._draw_lit(at, look, wxyz, position)
 
     def _draw_colored(
         self,
@@ -97,16 +153,45 @@ class TrianglesNode:
             position,
         )
 
-    def _draw_lit(self, marker: Any, at: Floats, wxyz: Wxyz, position: Vector3) -> None:
-        color, alpha = rgb_of(marker.color), alpha_of(marker.color)
+    def _draw_lit(
+        self, at: Floats, look: TriangleLook, wxyz: Wxyz, position: Vector3
+    ) -> None:
+        faces = np.reshape(np.arange(len(at), dtype=np.uint32), (-1, 3))
+        if look.is_mirrored:
+            # The dark side is the one that it is without a scale.
+            faces = faces[:, ::-1]
+        if look.texture is None:
+            self._textured.remove()
+            self._draw_plain(at, faces, look, wxyz, position)
+            return
+        self._plain.remove()
+        part = MeshPart(at, faces, uv=look.uv, texture=look.texture)
+        red, green, blue = (c / 255 for c in look.color)
+        rgba = (red, green, blue, look.alpha)
+        self._textured.show(
+            (at, look.uv, look.texture.data, rgba, look.is_mirrored),
+            lambda: to_glb(part, rgba=rgba, two_sided=True),
+            wxyz,
+            position,
+        )
+
+    def _draw_plain(
+        self,
+        at: Floats,
+        faces: npt.NDArray[np.uint32],
+        look: TriangleLook,
+        wxyz: Wxyz,
+        position: Vector3,
+    ) -> None:
         pose = placed(wxyz, position)
-        self._lit.show(
-            (digest_of((at,)), color, alpha, pose),
+        color, alpha = look.color, look.alpha
+        self._plain.show(
+            (digest_of((at,)), look.is_mirrored, color, alpha, pose),
             lambda: [
                 self._scene.add_mesh_simple(
                     self._name,
                     at,
-                    np.reshape(np.arange(len(at), dtype=np.uint32), (-1, 3)),
+                    faces,
                     color=color,
                     flat_shading=True,
                     side="double",
@@ -121,5 +206,5 @@ class TrianglesNode:
 
     def remove(self) -> None:
         """Take them out of the scene."""
-        self._unlit.remove()
-        self._lit.remove()
+        for node in (self._unlit, self._plain, self._textured):
+            node.remove()

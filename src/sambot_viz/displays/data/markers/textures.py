@@ -1,0 +1,37 @@
+"""The picture that the triangles of a marker bring along."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.meshes.mesh import Texture
+from sambot_viz.meshes.textures import TextureStore
+
+_EMBEDDED = "embedded://"
+_pictures = TextureStore()
+
+
+def has_texture(marker: Any) -> bool:
+    """Return whether triangles bring a picture, and a place in it for each corner."""
+    return (
+        str(marker.texture_resource).startswith(_EMBEDDED)
+        and len(marker.uv_coordinates) == len(marker.points) > 0
+    )
+
+
+def texture_of(marker: Any) -> Texture:
+    """Return the picture of a marker that has one.
+
+    Raises:
+        TextureError: it is no picture, or a broken one.
+    """
+    return _pictures.from_bytes(np.asarray(marker.texture.data, np.uint8).tobytes())
+
+
+def uv_of(marker: Any) -> npt.NDArray[np.float32]:
+    """Return the places in the picture, (N, 2), v upwards from its last row."""
+    given = [(uv.u, 1.0 - uv.v) for uv in marker.uv_coordinates]
+    return np.array(given, np.float32)
