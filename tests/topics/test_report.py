@@ -148,6 +148,8 @@ def test_before_its_first_message_a_topic_says_when_it_begins(
         ({"ranges": np.array([]), "range_min": 0.1, "range_max": 30.0}, "0 ranges"),
         ({"ranges": np.array([1.0]), "range_min": 0.1, "range_max": 30.0}, ""),
         ({"poses": []}, "0 poses"),
+        ({"particles": []}, "0 particles"),
+        ({"markers": [1], "poses": [], "erases": []}, ""),
         ({"markers": [1]}, ""),
         ({"data": ""}, ""),
     ],

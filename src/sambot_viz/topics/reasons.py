@@ -329,7 +329,10 @@ def emptiness(message: Any) -> str:
             is_cloud = hasattr(message, "point_step")
             return "0 points" if is_cloud else "0 × 0 pixels"
         return ""
-    for field in ("markers", "poses", "points", "detections"):
+    if hasattr(message, "erases"):
+        # An update of interactive markers has what has changed, and may have nothing.
+        return ""
+    for field in ("markers", "poses", "particles", "points", "detections"):
         listed = getattr(message, field, None)
         if listed is not None and len(listed) == 0:
             return f"0 {field}"
