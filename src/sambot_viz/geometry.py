@@ -194,6 +194,15 @@ def wxyz_from_z(direction: Vector3) -> Wxyz:
     return (w / length, -y / length, x / length, 0.0)
 
 
+def matrix_from_wxyz(wxyz: Wxyz, position: Vector3 = ORIGIN) -> Matrix:
+    """Return the (4, 4) transform of a rotation and a position [m]."""
+    w, x, y, z = wxyz
+    T = np.eye(4)
+    T[:3, :3] = rotation_from_xyzw((x, y, z, w))
+    T[:3, 3] = position
+    return T
+
+
 def inverse_matrix(matrix: Matrix) -> Matrix:
     """Return the inverse of a rigid (4, 4) transform, read-only."""
     # Twelve products of Python floats take half the time of slicing with numpy.

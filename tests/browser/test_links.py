@@ -10,7 +10,7 @@ from inside import node_of, session_of
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 
 pytestmark = pytest.mark.browser
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

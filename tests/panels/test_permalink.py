@@ -11,7 +11,7 @@ from inside import session_of
 from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import UsageError, Visualizer
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel

@@ -8,8 +8,8 @@ import pytest
 from panel_rows import edit, panel_of, row_named, rows_of
 
 from sambot_viz import Visualizer, load_robot
-from sambot_viz.displays.picking.pick_geometry import Selectable
-from sambot_viz.panels.selection import SHOWN, SelectionPanel
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.panels.selection.selection import SHOWN, SelectionPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 

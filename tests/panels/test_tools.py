@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from panel_rows import data_of, edit, panel_of, rows_of
 
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.session import Session

@@ -11,7 +11,7 @@ import pytest
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.panels.panel import Panel
 from sambot_viz.rviz import FIXED_FRAME
 from sambot_viz.session.clients import client_view

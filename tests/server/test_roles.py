@@ -13,7 +13,7 @@ from protocol_client import ROW_PATCH, ProtocolClient
 from websockets.datastructures import Headers
 
 from sambot_viz import UsageError, Visualizer, viser_private
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.server.tickets import REMOVED
 from sambot_viz.session import Session
 

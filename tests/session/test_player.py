@@ -14,7 +14,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import JointError, UsageError, Visualizer
 from sambot_viz.displays.display import AHEAD
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.frames.robot_frames import explain
 from sambot_viz.session.data.player import Player
 

@@ -18,7 +18,7 @@ from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_config, load_robot
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client_tools import ClientTools

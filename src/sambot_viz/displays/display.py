@@ -17,7 +17,10 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Part, PickGeometry, Selectable
+from sambot_viz.displays.picking.meshes import Part
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.pictures import Pictures
 from sambot_viz.displays.robot_display import (
     Descriptions,
@@ -327,6 +330,10 @@ class Display:
             of: whether something is asked for; None is what cannot be selected.
         """
         yield from ()
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return what is known of data that is selected; None when it is not here."""
+        del item
 
     def entries(self) -> tuple[EntryList, ...]:
         """Return the links, joints or frames that have rows of their own."""

@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.display import Display, DisplayContext, Status
-from sambot_viz.displays.picking.pick_geometry import Array, PickGeometry
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
 from sambot_viz.displays.scene.nodes import Handle, NodeCache
 from sambot_viz.displays.scene.ribbons import segment_ribbons

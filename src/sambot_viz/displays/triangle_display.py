@@ -10,16 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.picking.pick_geometry import (
-    Array,
-    Part,
-    PickBuffer,
-    PickGeometry,
-    RayGrid,
-    Selectable,
-    TriangleMesh,
-)
-from sambot_viz.displays.picking.rasterise import covered, nearness
+from sambot_viz.displays.picking.meshes import Part, TriangleMesh
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Matrix
 from sambot_viz.rviz import DisplayConfig
@@ -50,7 +44,7 @@ class DrawnTriangles:
         item: what a click on them selects; None when that is nothing.
         solid: False for lines, which can be seen through.
         color: of its material, 0 to 255; None for what is no shape of a robot.
-        clear: whether what is behind them can be seen through them.
+        is_clear: whether what is behind them can be seen through them.
     """
 
     triangles: Triangles
@@ -59,82 +53,7 @@ class DrawnTriangles:
     item: Selectable | None = None
     solid: bool = True
     color: Rgb | None = None
-    clear: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class PlacedMesh:
-    """Triangles with their pose, and the link or frame they belong to.
-
-    Attributes:
-        item: the link or frame; None for what is not selectable.
-        mesh: the triangles.
-        T: (4, 4) from them to the fixed frame; it may scale.
-        color: as of `DrawnTriangles`.
-        clear: likewise.
-    """
-
-    item: Selectable | None
-    mesh: TriangleMesh
-    T: Matrix
-    color: Rgb | None = None
-    clear: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class TriangleGeometry(PickGeometry):
-    """Triangles that hide what is behind them.
-
-    Attributes:
-        placed: the meshes; of two that are equally near the first one is in front.
-    """
-
-    placed: tuple[PlacedMesh, ...]
-
-    @property
-    def triangles(self) -> int:
-        """The number of triangles."""
-        return sum(len(placed.mesh.faces) for placed in self.placed)
-
-    @property
-    def clear(self) -> bool:
-        """Whether something can be seen through some of the meshes."""
-        return any(placed.clear for placed in self.placed)
-
-    def cut_off(self, pixels: RayGrid) -> Iterator[Selectable | None]:
-        """Yield the items with a mesh whose box lies beside the pixels in part."""
-        if not self.placed:
-            return
-        corners = pixels.seen(self._corners(), np.eye(4))
-        x, y, z = (corners[..., axis] for axis in range(3))
-        # A pixel reaches half its size beyond its ray.
-        right, bottom = pixels.columns - 0.5, pixels.rows - 0.5
-        inside = (z > 0.0) & (np.minimum(x, y) >= -0.5 * z)
-        inside &= (x <= right * z) & (y <= bottom * z)
-        for placed, corners_inside in zip(self.placed, inside, strict=True):
-            if not np.all(corners_inside):
-                yield placed.item
-
-    def draw(self, buffer: PickBuffer) -> None:
-        """Draw each mesh into the pixels that the box around it covers."""
-        if not self.placed:
-            return
-        pixels = buffer.pixels
-        boxes = covered(pixels, pixels.seen(self._corners(), np.eye(4)))
-        for number, left, right, top, bottom in boxes:
-            placed = self.placed[number]
-            if not buffer.takes(placed.clear):
-                continue
-            part = pixels.part(left, top, right - left + 1, bottom - top + 1)
-            near = nearness(part, placed.mesh, placed.T)
-            buffer.cover(left, top, near, placed.item)
-
-    def _corners(self) -> Array:
-        """The corners of the boxes of all meshes in the fixed frame, (M, 8, 3) [m]."""
-        T = np.stack([placed.T for placed in self.placed])
-        corners = np.concatenate([placed.mesh.corners for placed in self.placed])
-        turned: Array = np.einsum("mij,mkj->mki", T[:, :3, :3], corners)
-        return turned + T[:, None, :3, 3]
+    is_clear: bool = False
 
 
 class TriangleDisplay(Display):
@@ -155,7 +74,7 @@ class TriangleDisplay(Display):
         used = {id(shape.triangles) for shape in shapes}
         for key in [key for key in self._meshes if key not in used]:
             del self._meshes[key]
-        return TriangleGeometry(tuple(self._placed(shapes)))
+        return PlacedShapes(tuple(self._placed(shapes)))
 
     def parts(
         self, of: Callable[[Selectable | None], bool]
@@ -170,7 +89,7 @@ class TriangleDisplay(Display):
         for shape, T_fixed_frame in self._with_poses(shapes):
             T = T_fixed_frame @ shape.T_frame_shape
             mesh = self._mesh(shape.triangles)
-            yield PlacedMesh(shape.item, mesh, T, shape.color, shape.clear)
+            yield PlacedMesh(shape.item, mesh, T, shape.color, shape.is_clear)
 
     def _with_poses(
         self, shapes: Iterable[DrawnTriangles]

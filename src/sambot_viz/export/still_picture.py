@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from sambot_viz.displays.picking.pick_geometry import Array, Indices, RayGrid
+from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
 from sambot_viz.displays.picking.rasterise import covered, nearness
+from sambot_viz.displays.picking.rays import Array, Indices, RayGrid
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
 from sambot_viz.export.page_file import ViewState
 from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.scene.scene import Scene
@@ -54,9 +54,9 @@ def still_picture(
     shapes = [
         placed
         for geometry in geometries
-        if isinstance(geometry, TriangleGeometry)
+        if isinstance(geometry, PlacedShapes)
         for placed in geometry.placed
-        if placed.color is not None
+        if isinstance(placed, PlacedMesh) and placed.color is not None
     ]
     count = sum(len(placed.mesh.faces) for placed in shapes)
     if not 0 < count <= MOST_TRIANGLES:

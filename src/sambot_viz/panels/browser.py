@@ -17,7 +17,7 @@ from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.pictures import AskPage, PicturesPanel
 from sambot_viz.panels.row import Answer, Data, Json, Level, LongText, Row
 from sambot_viz.panels.row_sync import RowSync
-from sambot_viz.panels.selection import SelectionPanel
+from sambot_viz.panels.selection.selection import SelectionPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.topics import TopicsPanel
 from sambot_viz.panels.undo import UndoPanel

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from sambot_viz.displays.picking.selectable import labels
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
 from sambot_viz.panels.joints.joint_rows import joint_id
@@ -55,13 +56,15 @@ class ToolsPanel(Panel):
             Data("tools/list", [self._tool(tool) for tool in tools.tools]),
             Data("tools/controls", tools.shows_controls),
             Data("tools/hint", {"text": hint, "touch": touch}),
-            Data("tools/selected", [item.name for item in tools.selection]),
+            Data("tools/selected", [*labels(tools.selection)]),
             Data("tools/pointed", self._pointed()),
         ]
 
     def _pointed(self) -> Json:
         """Return the row of the joint that moves the link clicked on twice."""
         item, count = self._client.tools.pointed
+        if item is not None and item.is_data:
+            item = None
         joint = None if item is None else self._robot.joint_of(item.name)
         return {
             "number": count,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.displays.picking.pick_geometry import Hit
+from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.tools.tool import Click, Tool
 
 AHEAD = 1.0

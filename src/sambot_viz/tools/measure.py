@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, Hit
+from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.rviz import ColorProperty, ToolConfig
 from sambot_viz.tools.tool import Click, Tool, ToolContext
 from sambot_viz.views.camera import components

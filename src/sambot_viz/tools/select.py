@@ -1,8 +1,8 @@
-"""Select: click on a link or a frame, or drag a rectangle over several."""
+"""Select: click on a link, a frame or data, or drag a rectangle over several."""
 
 from __future__ import annotations
 
-from sambot_viz.displays.picking.pick_geometry import Hit, Selectable
+from sambot_viz.displays.picking.selectable import Hit, Selection
 from sambot_viz.tools.tool import Click, Tool
 
 
@@ -18,10 +18,9 @@ class SelectTool(Tool):
     rectangles = True
 
     def click(self, click: Click, hit: Hit) -> None:
-        """Select the link or frame under the cursor; nothing on grid and background."""
-        items = set[Selectable]() if hit.item is None else {hit.item}
-        self.context.select(items, click.modifier)
+        """Select what is under the cursor; nothing on grid and background."""
+        self.context.select(hit.selection, click.modifier)
 
-    def rectangle(self, items: set[Selectable], modifier: str | None) -> None:
+    def rectangle(self, items: Selection, modifier: str | None) -> None:
         """Select all that is visible in the rectangle."""
         self.context.select(items, modifier)

@@ -7,7 +7,8 @@ from typing import ClassVar, Literal, Protocol
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, Hit, Selectable
+from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.selectable import Hit, Selection
 from sambot_viz.rviz import Property, ToolConfig
 
 Key = Literal["I", "M", "S", "C", "N"]
@@ -21,12 +22,14 @@ class Click:
         origin: the position of its camera, (3,) [m].
         direction: from there through the pixel, (3,), of length 1.
         pixel: size of a pixel at 1 m [m].
+        up: what is up in the picture, (3,).
         modifier: held keys as viser names them ("shift", "cmd/ctrl"), or None.
     """
 
     origin: Array
     direction: Array
     pixel: float
+    up: Array
     modifier: str | None = None
 
 
@@ -38,7 +41,7 @@ class ToolContext(Protocol):
         """The scene to draw in."""
         ...
 
-    def select(self, items: set[Selectable], modifier: str | None) -> None:
+    def select(self, items: Selection, modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
         ...
 
@@ -93,7 +96,7 @@ class Tool:
         """A user clicked into the 3D view."""
         del click, hit
 
-    def rectangle(self, items: set[Selectable], modifier: str | None) -> None:
+    def rectangle(self, items: Selection, modifier: str | None) -> None:
         """A user drew a rectangle; `items` are the things visible in it."""
         del items, modifier
 

@@ -9,15 +9,10 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.grid import GridLines
-from sambot_viz.displays.picking.pick_geometry import (
-    Array,
-    Part,
-    RayGrid,
-    Selectable,
-    TriangleMesh,
-    TurnedBox,
-)
-from sambot_viz.displays.triangle_display import PlacedMesh, TriangleGeometry
+from sambot_viz.displays.picking.meshes import Part, TriangleMesh, TurnedBox
+from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
+from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.parts import Origin
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
@@ -56,7 +51,7 @@ def pixels(
 
 
 def seen(*placed: PlacedMesh, grid: RayGrid | None = None) -> set[str]:
-    found = PickSnapshot((TriangleGeometry(placed),)).items_met(grid or pixels())
+    found = PickSnapshot((PlacedShapes(placed),)).items_met(grid or pixels())
     return {item.name for item in found}
 
 
@@ -70,7 +65,7 @@ def test_a_rectangle_has_what_the_rays_through_its_pixels_meet_first() -> None:
         T[:3, :3] *= rng.uniform(0.02, 0.9, 3)
         item = None if number % 10 == 0 else link(str(number))
         placed.append(PlacedMesh(item, SHAPES[number % 3], T))
-    snapshot = PickSnapshot((TriangleGeometry(tuple(placed)),))
+    snapshot = PickSnapshot((PlacedShapes(tuple(placed)),))
     coarse = replace(PICTURE, width=32, height=24)
     for low, high in (((0.1, 0.1), (0.9, 0.9)), ((0.4, 0.3), (0.6, 0.5))):
         grid = coarse.pixels(low, high)
@@ -81,7 +76,7 @@ def test_a_rectangle_has_what_the_rays_through_its_pixels_meet_first() -> None:
             for ray in [grid.axes @ (column, row, 1.0)]
         }
         assert 4 < len(one_by_one) < 30
-        assert snapshot.items_met(grid) == one_by_one - {None}
+        assert set(snapshot.items_met(grid)) == one_by_one - {None}
 
 
 def test_a_link_behind_another_is_not_selected() -> None:
@@ -124,7 +119,7 @@ def test_a_grid_is_hit_at_its_lines_where_nothing_else_is() -> None:
         T, np.array((0.0, 0.0, 1.0)), np.array((0.0, 0.0, 0.1)), cells=4, cell=1.0
     )
     low = box("low", (0.0, 0.0, 0.0), (0.2, 0.2, 0.2))
-    snapshot = PickSnapshot((grid, TriangleGeometry((low,))))
+    snapshot = PickSnapshot((grid, PlacedShapes((low,))))
     down = np.array((0.0, 0.0, -1.0))
 
     def point(*origin: float, direction: Array = down) -> Array | None:
@@ -170,10 +165,10 @@ def test_a_box_turns_with_shapes_that_share_their_axes() -> None:
 
 
 def test_a_rectangle_takes_what_is_seen_through_others() -> None:
-    glass = replace(box("glass", (0.0, 0.0, 1.0), (1.0, 1.0, 0.1)), clear=True)
+    glass = replace(box("glass", (0.0, 0.0, 1.0), (1.0, 1.0, 0.1)), is_clear=True)
     behind = box("behind", (0.0, 0.0, 0.5), (0.3, 0.3, 0.1))
     wall = box("wall", (0.0, 0.0, 0.2), (2.0, 2.0, 0.1))
-    below = replace(box("below", (0.0, 0.0, 0.0), (0.3, 0.3, 0.1)), clear=True)
+    below = replace(box("below", (0.0, 0.0, 0.0), (0.3, 0.3, 0.1)), is_clear=True)
     assert seen(glass, behind, wall, below) == {"glass", "behind", "wall"}
     # What is cut off by the rectangle counts only where it is in front.
     middle = pixels((0.49, 0.49), (0.51, 0.51))

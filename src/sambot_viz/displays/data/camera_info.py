@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.placed import HERE, Placed, PlacedMesh
 from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.geometry import Vector3, Wxyz
@@ -107,6 +110,16 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
             )
         else:
             self._sides.remove()
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the edges and the sides, which cannot be selected, as in RViz."""
+        yield from self._edges.placed(HERE, None)
+        taken = self.taken
+        if taken is not None and self._sides.is_drawn:
+            corners, T_fixed_frame = taken
+            at = single(np.vstack([np.zeros(3), corners * self.config.get("Far clip")]))
+            sides = TriangleMesh.of(at, _SIDES).both_sides()
+            yield PlacedMesh(None, sides, T_fixed_frame, is_clear=True)
 
     def drop(self) -> None:
         """Take the pyramid out of the scene, and forget the message."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.points import PointNode, PointStyle
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import ColorProperty, DisplayConfig
@@ -58,6 +60,10 @@ class GridCellsDisplay(NewestMessageDisplay[Cells]):
         style = PointStyle("Tiles", size, alpha, normal, is_twice=True)
         color = np.array([self.config.get("Color")], np.uint8)
         self._node.draw(cells, color, style, wxyz, position)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the cells, which cannot be selected, as in RViz."""
+        yield from self._node.placed(HERE, None)
 
     def remove(self) -> None:
         """Take the cells out of the scene."""

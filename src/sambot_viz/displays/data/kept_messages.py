@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, ClassVar
 
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
@@ -95,6 +96,10 @@ class KeptSolidsDisplay(KeptReadingsDisplay):
         """Draw the solids."""
         solids = (self.solid(*one) for one in kept)
         self._node.draw([solid for solid in solids if solid is not None])
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the solids, which cannot be selected, as in RViz."""
+        yield from self._node.placed(HERE, None)
 
     def remove(self) -> None:
         """Take all solids out of the scene."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from sambot_viz.displays.data.topic_display import (
     topic_property,
 )
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.scene.maps import SCHEMES, MapNode, palette
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import LookupRefused
@@ -183,6 +185,16 @@ class MapDisplay(TopicDisplay):
         super().report_topic()
         if self.context.messages is not None and self.topic:
             self.status.set(UPDATE_TOPIC, "Ok", "OK")
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the map, which cannot be selected, as in RViz."""
+        place = self._place() if self._cells is not None else None
+        if place is None or self._node is None:
+            return
+        above = None if place[0] == "" else self._frame
+        T_fixed_above = self.context.pose(above)
+        if T_fixed_above is not None and float(self.config.get("Alpha")) > 0.0:
+            yield from self._node.placed(T_fixed_above)
 
     def notes(self) -> dict[str, str]:
         """Return what is known of the map."""

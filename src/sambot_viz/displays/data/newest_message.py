@@ -8,20 +8,32 @@ from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import Transform
-from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
+from sambot_viz.geometry import (
+    Matrix,
+    Vector3,
+    Wxyz,
+    matrix_from_wxyz,
+    wxyz_from_matrix,
+)
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import frame_and_stamp
 
 T = TypeVar("T")
 
 
 class NewestMessageDisplay(MessageFilterDisplay, Generic[T]):
-    """Draws what it reads from the newest message."""
+    """Draws what it reads from the newest message.
+
+    Attributes:
+        frame: of that message.
+    """
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._taken: tuple[T, Wxyz, Vector3] | None = None
+        self.frame = ""
 
     def read(self, message: Any) -> T:
         """Return what is drawn of a message.
@@ -50,6 +62,15 @@ class NewestMessageDisplay(MessageFilterDisplay, Generic[T]):
         matrix = T_fixed_frame.matrix
         place = wxyz_from_matrix(matrix), position_of(matrix)
         self._taken = (self.read(message), *place)
+        self.frame = frame_and_stamp(message)[0]
+
+    @property
+    def taken(self) -> tuple[T, Matrix] | None:
+        """What was read of the newest message, and T_fixed_frame, (4, 4)."""
+        if self._taken is None:
+            return None
+        read, wxyz, position = self._taken
+        return read, matrix_from_wxyz(wxyz, position)
 
     def show_taken(self) -> None:
         """Draw the newest message, if there is one."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +14,7 @@ from sambot_viz.displays.data.message_numbers import poses_of
 from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.lines import LineNode, chain_segments
 from sambot_viz.displays.scene.nodes import position_of, short_id
 from sambot_viz.displays.scene.ribbons import RibbonNode
@@ -149,6 +151,12 @@ class PathDisplay(KeptMessagesDisplay):
                 ArrowsNode(scene, f"{name}a"),
             )
         self._paths.append(_Path(turns, points, T, *nodes))
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the paths, which cannot be selected, as in RViz."""
+        for path in self._paths:
+            for node in path.nodes:
+                yield from node.placed(HERE, None)
 
     def drop(self) -> None:
         """Take all paths out of the scene."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from sambot_viz.displays.data.message_numbers import Floats, points_of
@@ -9,6 +10,7 @@ from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.lines import LineNode, chain_segments
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import ColorProperty, DisplayConfig
@@ -44,6 +46,10 @@ class PolygonDisplay(NewestMessageDisplay[Floats]):
             wxyz=wxyz,
             position=position,
         )
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the outline, which cannot be selected, as in RViz."""
+        yield from self._node.placed(HERE, None)
 
     def remove(self) -> None:
         """Take the outline out of the scene."""

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from sambot_viz.displays.display import Display, DisplayContext, Status
+from sambot_viz.displays.picking.meshes import Part
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.placed import Placed, PlacedShapes
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import (
     TopicDoubt,
@@ -94,6 +98,10 @@ class TopicDisplay(Display):
     def begin(self) -> None:
         """Take note that messages of another time or topic follow."""
 
+    def placed(self) -> Iterator[Placed]:
+        """Yield what it shows now, for rays; most nodes can say it of themselves."""
+        yield from ()
+
     @property
     def depth_s(self) -> float:
         """How far back messages count after a jump in a recording [s]."""
@@ -119,6 +127,17 @@ class TopicDisplay(Display):
         return ()
 
     # What the others call
+
+    def pick_geometry(self) -> PickGeometry:
+        """Return what it shows now, for rays."""
+        return PlacedShapes(tuple(self.placed()))
+
+    def parts(
+        self, of: Callable[[Selectable | None], bool]
+    ) -> Iterator[tuple[Selectable | None, Part]]:
+        """Yield what it shows of some items."""
+        for one in self.placed():
+            yield from one.parts(of)
 
     def draw(self) -> None:
         """Listen to the topic, and draw what has come."""

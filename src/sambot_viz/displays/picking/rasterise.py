@@ -16,12 +16,8 @@ from functools import reduce
 
 import numpy as np
 
-from sambot_viz.displays.picking.pick_geometry import (
-    Array,
-    Indices,
-    RayGrid,
-    TriangleMesh,
-)
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.rays import Array, Indices, RayGrid
 from sambot_viz.geometry import Matrix
 
 GROUPS = 2000
@@ -83,7 +79,7 @@ def nearness(grid: RayGrid, mesh: TriangleMesh, T: Matrix) -> Array:
         may = covered(grid, corners)
         edges = _edges(corners[may.index], outside)
         may, edges = may.pick(edges.shown), edges.faces[edges.shown]
-        for some in _blocks(may):
+        for some in blocks(may):
             _fill(near, may.pick(some), edges[some])
     return near
 
@@ -157,17 +153,17 @@ def _edges(corners: Array, outside: float) -> _Edges:
     return _Edges(np.concatenate([across, near[:, None]], axis=1), shown)
 
 
-def _blocks(may: Covered) -> Iterator[Indices]:
-    """Parts of the triangles, each of which covers a bounded number of pixels."""
+def blocks(may: Covered, most: int = PIXELS) -> Iterator[Indices]:
+    """Yield parts of what may cover pixels, each with about `most` pixels."""
     pixels = (may.right - may.left + 1) * (may.bottom - may.top + 1)
-    block = np.cumsum(pixels) // PIXELS
+    block = np.cumsum(pixels) // most
     cuts = np.flatnonzero(np.diff(block)) + 1
     yield from np.split(np.arange(len(block)), cuts)
 
 
 def _fill(near: Array, may: Covered, faces: Array) -> None:
     """Draw triangles (M, 4, 3) into the pixels that they may cover."""
-    which, row = _ranges(may.top, may.bottom)
+    which, row = ranges(may.top, may.bottom)
     first = may.left[which].astype(np.float64)
     last = may.right[which].astype(np.float64)
     in_row = np.ones(len(which), bool)
@@ -182,15 +178,15 @@ def _fill(near: Array, may: Covered, faces: Array) -> None:
     span = np.flatnonzero(in_row & (first <= last))
     which, row = which[span], row[span]
     begin = first[span].astype(np.int64)
-    of_span, column = _ranges(begin, last[span].astype(np.int64))
+    of_span, column = ranges(begin, last[span].astype(np.int64))
     slope, up, start = (faces[:, 3, i][which] for i in range(3))
     value = slope[of_span] * column + (up * row + start)[of_span]
     pixel = (row * near.shape[1])[of_span] + column
     np.maximum.at(near.ravel(), pixel, value)
 
 
-def _ranges(first: Indices, last: Indices) -> tuple[Indices, Indices]:
-    """All numbers of some ranges: which range it is of, and the number, both (N,)."""
+def ranges(first: Indices, last: Indices) -> tuple[Indices, Indices]:
+    """Return all numbers of some ranges: of which range, and the number, both (N,)."""
     count = last - first + 1
     which = np.repeat(np.arange(len(count)), count)
     offset = first - (np.cumsum(count) - count)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Repair, RobotDisplay, WantedQos
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.properties import (

@@ -9,7 +9,8 @@ import numpy as np
 import viser
 
 from sambot_viz import viser_private
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.box_lines import box_lines
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_model.shape_solids import (
     STAND_IN_SIZE,
     WHITE,
@@ -21,7 +22,6 @@ from sambot_viz.displays.robot_model.shape_solids import (
     stand_in,
     textured,
 )
-from sambot_viz.displays.scene.lines import box_lines
 from sambot_viz.displays.scene.nodes import any_gone, position_of, remove_all
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, sphere

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.placed_copies import Items, PlacedCopies
 from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.displays.scene.posed_node import Pose, PosedNode
@@ -15,6 +19,7 @@ from sambot_viz.displays.scene.solids import Compact, linear
 from sambot_viz.geometry import (
     IDENTITY,
     ORIGIN,
+    Matrix,
     Vector3,
     Wxyz,
     wxyz_product,
@@ -25,6 +30,56 @@ from sambot_viz.meshes.glb import OPAQUE_FROM
 Floats = npt.NDArray[np.float32]
 
 
+@lru_cache(maxsize=256)
+def mesh_of(shape: Compact) -> TriangleMesh:
+    """Return the triangles of a unit shape, for rays."""
+    return TriangleMesh.of(shape.vertices, shape.faces)
+
+
+@dataclass(frozen=True, eq=False)
+class _Copies:
+    """What was drawn last.
+
+    Attributes:
+        shape: of all copies.
+        wxyzs: (N, 4), unit quaternions.
+        positions: (N, 3) [m].
+        scales: (N, 3).
+        alphas: (N,).
+        numbers: (N,), of the copies among those that were given.
+    """
+
+    shape: Compact
+    wxyzs: Floats
+    positions: Floats
+    scales: Floats
+    alphas: Floats
+    numbers: npt.NDArray[np.intp]
+
+    @cached_property
+    def seen(self) -> npt.NDArray[np.intp]:
+        """Those that can be seen, (M,)."""
+        return np.flatnonzero(self.alphas > 0)
+
+    @cached_property
+    def poses(self) -> Matrix:
+        """The poses of these, (M, 4, 4)."""
+        turns: Matrix = self.wxyzs[self.seen].astype(np.float64)
+        T: Matrix = np.zeros((len(turns), 4, 4))
+        for axis in range(3):
+            size = self.scales[self.seen, axis, None]
+            T[:, :3, axis] = _turned(turns, np.eye(3)[axis]) * size
+        T[:, :3, 3], T[:, 3, 3] = self.positions[self.seen], 1.0
+        return T
+
+
+def _turned(wxyzs: Matrix, vector: Matrix) -> Matrix:
+    """Return a vector (3,) turned by unit quaternions (N, 4)."""
+    axis = wxyzs[:, 1:]
+    twice = 2 * np.cross(axis, vector)
+    return vector + wxyzs[:, :1] * twice + np.cross(axis, twice)
+
+
 class BatchNode(PosedNode[viser.BatchedMeshHandle]):
     """Copies of one shape in one node.
 
@@ -32,6 +87,8 @@ class BatchNode(PosedNode[viser.BatchedMeshHandle]):
         scene: where to draw.
         name: of the node; it is drawn in the frame of the node above.
     """
+
+    _copies: _Copies | None = None
 
     def show(
         self,
@@ -77,9 +134,29 @@ class BatchNode(PosedNode[viser.BatchedMeshHandle]):
             # Where two can be seen through, the page draws the farther node first.
             pose = _within(pose, turns[0], at[0])
             turns, at = single([IDENTITY]), single([ORIGIN])
+        numbers = np.flatnonzero(good)
+        self._copies = _Copies(shape, turns, at, sizes[good], alpha, numbers)
         self._send(
             shape, turns, at, sizes[good], shown[good], alpha if blended else None, pose
         )
+
+    def placed(self, T_fixed_above: Matrix, items: Items) -> Iterator[PlacedCopies]:
+        """Yield the copies for rays, if there are any.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            items: what they are to a selection, one or as many as were drawn.
+        """
+        copies = self._copies
+        if copies is None or not self.is_drawn or not len(copies.seen):
+            return
+        numbers: list[int] = copies.numbers[copies.seen].tolist()
+        if isinstance(items, Sequence):
+            items = [items[number] for number in numbers]
+        T = self.place(T_fixed_above)
+        is_clear = bool(copies.alphas.min() < OPAQUE_FROM)
+        mesh = mesh_of(copies.shape)
+        yield PlacedCopies(items, mesh, copies.poses, T, is_clear)
 
     def _send(
         self,

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.placed_lines import PlacedLines
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import (
     LINES,
     GlbNode,
@@ -18,7 +20,7 @@ from sambot_viz.displays.scene.glb_node import (
 )
 from sambot_viz.displays.scene.nodes import any_gone, remove_all
 from sambot_viz.displays.scene.solids import Rgb, linear
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM, glb_file
 
 _FLOAT, _LINES = 5126, 1
@@ -26,16 +28,6 @@ Floats = npt.NDArray[np.float32]
 
 MOST_PIECES = 20000
 """More pieces than this are not made of lines (0.5 MB)."""
-
-
-_CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-_EDGES = [(a, a | 1 << bit) for bit in range(3) for a in range(8) if not a >> bit & 1]
-
-
-def box_lines(low: npt.ArrayLike, high: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    """Return the twelve edges of a box between two corners, (12, 2, 3) [m]."""
-    corners = np.asarray(low) + _CORNERS * np.subtract(high, low)
-    return corners[np.array(_EDGES)].astype(np.float32)
 
 
 def in_pieces(
@@ -115,6 +107,8 @@ def lines_glb(
 class LineNode(GlbNode):
     """Lines that are one pixel wide at any distance, in one node."""
 
+    _drawn: Floats | None = None
+
     def draw(
         self,
         segments: npt.ArrayLike,
@@ -144,6 +138,7 @@ class LineNode(GlbNode):
         if not len(points):
             self.remove()
             return
+        self._drawn = points
         self.show(
             (points, colors),
             lambda: drawn_glb(
@@ -155,6 +150,19 @@ class LineNode(GlbNode):
             wxyz,
             position,
         )
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedLines]:
+        """Yield the lines for rays, if there are any.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what they are to a selection.
+        """
+        if self._drawn is not None and self.is_drawn:
+            segments = np.reshape(self._drawn, (-1, 2, 3))
+            yield PlacedLines(item, segments, self.place(T_fixed_above))
 
 
 def chain_segments(points: npt.ArrayLike, closed: bool = False) -> npt.NDArray[Any]:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.placed import PlacedMesh
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
 from sambot_viz.displays.scene.nodes import placed, short_id
 from sambot_viz.displays.scene.posed_node import PosedNode
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
+from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Cells = npt.NDArray[np.uint8]
 Palette = npt.NDArray[np.uint8]
@@ -82,6 +86,7 @@ class MapNode(PosedNode[viser.FrameHandle]):
         self._tiles: dict[tuple[int, int], GlbNode] = {}
         self._cells: Cells | None = None
         self._resolution = 0.0
+        self._hides = False
 
     def draw(
         self,
@@ -131,6 +136,7 @@ class MapNode(PosedNode[viser.FrameHandle]):
             "alpha": float(min(1.0, max(0.0, alpha))),
             "behind": bool(is_behind),
         }
+        self._hides = alpha >= OPAQUE_FROM and not is_behind
         self._look.show((look,), lambda: _look_glb(look))
 
     def update(self, x: int, y: int, cells: Cells) -> None:
@@ -148,6 +154,19 @@ class MapNode(PosedNode[viser.FrameHandle]):
         for row in range(y // TILE, (y + rows - 1) // TILE + 1):
             for column in range(x // TILE, (x + columns - 1) // TILE + 1):
                 self._draw_tile(row, column)
+
+    def placed(self, T_fixed_above: Matrix) -> Iterator[PlacedMesh]:
+        """Yield the map for rays, as one square; nothing of it can be selected.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+        """
+        if self._cells is None or not self.is_drawn:
+            return
+        T = self.place(T_fixed_above)
+        rows, columns = self._cells.shape
+        T[:3, :3] *= (columns * self._resolution, rows * self._resolution, 1.0)
+        yield PlacedMesh(None, _square_mesh(), T, is_clear=not self._hides)
 
     def remove(self) -> None:
         """Take the map out of the scene."""
@@ -183,6 +202,13 @@ class MapNode(PosedNode[viser.FrameHandle]):
             (part, corner, resolution),
             lambda: tile_glb(self._name, part, corner, resolution),
         )
+
+
+@cache
+def _square_mesh() -> TriangleMesh:
+    """Return a square between 0 and 1, seen from above and from below."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
+    return TriangleMesh.of(corners, np.array([[0, 1, 2], [2, 1, 3]])).both_sides()
 
 
 def _tiles(shape: tuple[int, ...]) -> Iterator[tuple[int, int]]:

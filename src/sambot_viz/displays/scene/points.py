@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -9,8 +10,15 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.placed_points import (
+    Outline,
+    PlacedPoints,
+    PointOutline,
+)
+from sambot_viz.displays.picking.rays import Indices
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import POINTS, GlbNode, drawn_glb, single
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 PointShape = Literal["Points", "Squares", "Flat Squares", "Spheres", "Boxes", "Tiles"]
@@ -43,6 +51,14 @@ class PointStyle:
 
 Shown: TypeAlias = tuple[npt.NDArray[np.float32], npt.NDArray[np.uint8], PointStyle]
 _FEW = 64
+_OUTLINES: Mapping[PointShape, Outline] = {
+    "Points": "dot",
+    "Squares": "square",
+    "Flat Squares": "square",
+    "Spheres": "disc",
+    "Boxes": "box",
+    "Tiles": "tile",
+}
 
 
 class PointNode(GlbNode):
@@ -87,6 +103,34 @@ class PointNode(GlbNode):
         is_new = self._shown is None or not _is_same(self._shown, now)
         self._shown = now
         self.send(is_new, lambda: points_glb(at, colors, style), wxyz, position)
+
+    def placed(
+        self,
+        T_fixed_above: Matrix,
+        item: Selectable | None,
+        numbers: Indices | None = None,
+    ) -> Iterator[PlacedPoints]:
+        """Yield the points for rays, if there are any.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what they are to a selection.
+            numbers: as of `PlacedPoints`.
+        """
+        if self._shown is None or not self.is_drawn:
+            return
+        points, _, style = self._shown
+        outline = PointOutline(
+            _OUTLINES[style.shape],
+            style.size,
+            style.normal,
+            style.up,
+            style.is_by_depth,
+        )
+        if style.alpha > 0.0:
+            is_clear = style.alpha < OPAQUE_FROM
+            T = self.place(T_fixed_above)
+            yield PlacedPoints(item, points, T, outline, numbers, is_clear)
 
 
 def _is_same(one: Shown, other: Shown) -> bool:

@@ -7,7 +7,14 @@ from typing import Generic, TypeVar
 import viser
 
 from sambot_viz.displays.scene.nodes import any_gone, remove_all
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
+    Matrix,
+    Vector3,
+    Wxyz,
+    matrix_from_wxyz,
+)
 from sambot_viz.viser_private import set_pose
 
 Handle = TypeVar("Handle", bound=viser.SceneNodeHandle)
@@ -33,6 +40,19 @@ class PosedNode(Generic[Handle]):
     def is_gone(self) -> bool:
         """Whether the node was removed together with one above it."""
         return self._handle is not None and any_gone([self._handle])
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether the node is in the scene."""
+        return self._handle is not None and not self.is_gone
+
+    def place(self, T_fixed_above: Matrix) -> Matrix:
+        """Return T_fixed_node, (4, 4); only while it is drawn.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+        """
+        return T_fixed_above @ matrix_from_wxyz(*self._pose)
 
     def remove(self) -> None:
         """Take the node out of the scene."""

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode, arrow_solids
 from sambot_viz.displays.scene.solids import Arrow, Rgb
+from sambot_viz.geometry import Matrix
 
 Floats = npt.NDArray[np.float64]
 _WHOLE = 32
@@ -92,6 +94,15 @@ class RingsNode:
         self._lines.draw(
             points, width, np.repeat(colors, counts, axis=0), counts=counts
         )
+
+    def placed(self, T_fixed_above: Matrix) -> Iterator[Placed]:
+        """Yield rings and solids for rays; nothing of them can be selected.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+        """
+        yield from self._lines.placed(T_fixed_above, None)
+        yield from self._solids.placed(T_fixed_above, None)
 
     def remove(self) -> None:
         """Take everything out of the scene."""

@@ -5,7 +5,7 @@ The page pays for each node, so all copies of one shape are a batch.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.displays.picking.placed_copies import Items, PlacedCopies
 from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.solids import (
     AXIS_COLORS,
@@ -219,6 +220,7 @@ class SolidsNode:
 
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
         self._batches = {kind: BatchNode(scene, name + kind[:2]) for kind in _SHAPES}
+        self._kinds: list[Kind] = []
 
     @property
     def is_gone(self) -> bool:
@@ -239,6 +241,7 @@ class SolidsNode:
             wxyz: rotation of that frame in the one of the node above.
             position: there [m].
         """
+        self._kinds = [solid.kind for solid in solids]
         for kind, batch in self._batches.items():
             some = [solid for solid in solids if solid.kind == kind]
             if not some:
@@ -254,6 +257,15 @@ class SolidsNode:
                 wxyz=wxyz,
                 position=position,
             )
+
+    def placed(self, T_fixed_above: Matrix, items: Items) -> Iterator[PlacedCopies]:
+        """Yield the shapes for rays (see `BatchNode.placed`)."""
+        for kind, batch in self._batches.items():
+            some = items
+            if isinstance(items, Sequence):
+                pairs = zip(items, self._kinds, strict=True)
+                some = [item for item, one in pairs if one == kind]
+            yield from batch.placed(T_fixed_above, some)
 
     def remove(self) -> None:
         """Take the shapes out of the scene."""

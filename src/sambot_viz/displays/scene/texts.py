@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
+from sambot_viz.displays.picking.placed_points import PlacedPoints, PointOutline
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3
 from sambot_viz.text import text as printable
 
 LONGEST = 2000
 """More characters than this are not drawn."""
+LETTER = 0.5
+"""Width of a letter by the height of a line, about: only browsers know the letters."""
 SPACE = 0.593
 """Width of a space by the height of a line: that of an A, as RViz meant it."""
 
 
 class TextNode(GlbNode):
     """A text in one node, with its middle at a position; lines begin at the left."""
+
+    _size: Vector3 = ORIGIN
 
     def draw(
         self,
@@ -44,6 +51,8 @@ class TextNode(GlbNode):
         if not "".join(lines).strip() or not 0 < height < 1e6 or not alpha > 0:
             self.remove()
             return
+        count = max(len(line) for line in lines)
+        self._size = (LETTER * height * count, height * len(lines), 0.0)
         wide = SPACE * height if space is None or not math.isfinite(space) else space
         said: dict[str, object] = {
             "lines": lines,
@@ -53,6 +62,19 @@ class TextNode(GlbNode):
             "alpha": min(1.0, float(alpha)),
         }
         self.show((said,), lambda: _glb(said), IDENTITY, position)
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedPoints]:
+        """Yield the text for rays, as a rectangle of about its size.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what it is to a selection.
+        """
+        if self.is_drawn:
+            look, here = PointOutline("text", self._size), np.zeros((1, 3), np.float32)
+            yield PlacedPoints(item, here, self.place(T_fixed_above), look)
 
 
 def _glb(said: dict[str, object]) -> bytes:

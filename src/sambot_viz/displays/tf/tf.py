@@ -10,7 +10,7 @@ import numpy as np
 import viser
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.nodes import (
     Handle,

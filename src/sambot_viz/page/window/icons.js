@@ -21,6 +21,9 @@ const PATHS = {
   link: "M4 4h8v8H4z",
   joint: "M8 5.5a2.5 2.5 0 1 0 .01 0M1.5 8h4M10.5 8h4",
   frame: "M4 12V3M4 12h9M4 12l4-4",
+  points: "M4 10a1.5 1.5 0 1 0 .01 0M8 3a1.5 1.5 0 1 0 .01 0M12 9a1.5 1.5 0 1 0 .01 0",
+  marker: "M8 2l5.5 3v6L8 14l-5.5-3V5zM2.5 5L8 8l5.5-3M8 8v6",
+  pose: "M2 8h11M9 4l4 4-4 4",
   Interact:
     "M6 8V3.2a1.2 1.2 0 0 1 2.4 0V7l4 .8c.8.2 1 .8.9 1.5l-.7 4.2H7L4 9.8c-.6-1 .6-1.8 1.3-1.1z",
   "Move Camera":

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, cast
 
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import LIST, command
 from sambot_viz.panels.joints.joint_rows import joint_id
@@ -111,6 +111,9 @@ class PermalinkPanel(Panel):
             if toggle.on != toggle.first:
                 yield f"show.{name}", ON if toggle.on else OFF
         for item in self._client.tools.selection:
+            # Data is of one moment.
+            if item.is_data:
+                continue
             yield "select", f"{item.kind}:{item.name}"
         yield "v", VERSION
 

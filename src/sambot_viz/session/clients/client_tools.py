@@ -6,12 +6,19 @@ of the mouse moves the camera. What tools draw is drawn for their own client alo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, Hit, RayGrid, Selectable
+from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.selectable import (
+    Hit,
+    Selectable,
+    Selection,
+    merged,
+)
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.errors import UsageError
 from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.clients.pointer_events import listen, pointed_at
@@ -48,7 +55,7 @@ class ClientTools:
     Attributes:
         changed: the tools, the selection or the status.
         status: what the current tool reports; empty shows its help.
-        selection: the selected links and frames, in the order of selection.
+        selection: what is selected, in the order of selection.
         pointed: what was clicked on twice last, and how often that has happened.
         tools: those of the document first, then the others.
         current: the tool that gets clicks.
@@ -64,11 +71,11 @@ class ClientTools:
         robot: RobotState,
         picker: Picker,
         worker: Worker,
-        selected: Callable[[int, Collection[Selectable]], None],
+        selected: Callable[[int, Selection], None],
     ) -> None:
         self.changed = Signal(change, None)
         self.status = ""
-        self.selection: dict[Selectable, None] = {}
+        self.selection: Selection = {}
         self.pointed: tuple[Selectable | None, int] = (None, 0)
         self._client = client
         self._change = change
@@ -85,7 +92,7 @@ class ClientTools:
         self.tools: tuple[Tool, ...] = ()
         self.current: Tool = MoveCameraTool(self, None)
         self._take_config()
-        shapes = [scene.frames, scene.statuses, document.values]
+        shapes = [scene.frames, scene.statuses, scene.data, document.values]
         self._drawn = (robot.positions, robot.changed, *shapes)
         self._moving = Listening(self._move_boxes)
         facts = [document.replaced, document.tools]
@@ -224,20 +231,22 @@ class ClientTools:
         """Where to draw."""
         return self._client.scene
 
-    def select(self, items: set[Selectable], modifier: str | None) -> None:
+    def select(self, items: Selection | Set[Selectable], modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
+        given = items if isinstance(items, Mapping) else dict.fromkeys(items)
         with self._change(self.changed):
-            if modifier == "shift":
-                kept = {**self.selection, **dict.fromkeys(items)}
-            elif modifier == "cmd/ctrl":
-                kept = {item: None for item in self.selection if item not in items}
-            else:
-                kept = dict.fromkeys(sorted(items, key=lambda i: (i.kind, i.name)))
-            self.selection = kept
-            self._draw_boxes()
-            # A step of a joint costs nothing while nothing is selected.
-            self._moving.to(*(self._drawn if kept else ()))
-        self._selected(self._client.client_id, kept)
+            self._take_selection(merged(self.selection, given, modifier))
+        self._selected(self._client.client_id, self.selection)
+
+    def _take_selection(self, selection: Selection) -> None:
+        self.selection = selection
+        self._draw_boxes()
+        # A step of a joint costs nothing while nothing is selected.
+        self._moving.to(*(self._drawn if selection else ()))
+
+    def data_of(self, item: Selectable) -> SelectedData | None:
+        """Return what is known of selected data; None when it is not drawn any more."""
+        return self._picker.data_of(item)
 
     def look_at(self, point: Array) -> None:
         """Turn the camera to a point of the fixed frame, (3,) [m]."""
@@ -255,7 +264,7 @@ class ClientTools:
     # Inside
 
     def _follow(self, what: str, click: Click, then: Callable[[Hit], None]) -> None:
-        ray = click.origin, click.direction, click.pixel
+        ray = click.origin, click.direction, click.pixel, click.up
         self._picker.follow((self, what), lambda s: s.first_hit(*ray), then)
 
     def _follow_mouse(self, tool: Tool) -> None:
@@ -321,7 +330,7 @@ class ClientTools:
         self._follow("click", click, then)
 
     def _rectangle(self, tool: Tool, rays: RayGrid, modifier: str | None) -> None:
-        def then(items: set[Selectable]) -> None:
+        def then(items: Selection) -> None:
             with self._change(self.changed):
                 if self.current is tool:
                     tool.rectangle(items, modifier)
@@ -334,6 +343,11 @@ class ClientTools:
             self._take_settings()
 
     def _move_boxes(self) -> None:
+        kept = self._picker.kept(self.selection)
+        if len(kept) < len(self.selection):
+            with self._change(self.changed):
+                self._take_selection(kept)
+            return
         with self._change():
             self._draw_boxes()
 

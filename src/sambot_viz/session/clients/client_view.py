@@ -16,7 +16,7 @@ from typing import Any
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Corners
+from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import short_name

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selection
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.client_tools import ClientTools
 from sambot_viz.session.clients.client_view import ClientView, ViewOwner
@@ -172,7 +172,7 @@ class Clients:
         self.brought.set((client_id, times + 1))
         return len(others)
 
-    def _point(self, client_id: int, items: Collection[Selectable]) -> None:
+    def _point(self, client_id: int, items: Selection) -> None:
         """Show all what a client has selected, where it presents."""
         if self._roles.presented and self._roles.may_edit(client_id) and items:
             self.pointer.show(items)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection
 
-from sambot_viz.displays.picking.pick_geometry import Selectable
+from sambot_viz.displays.picking.selectable import Selection
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
@@ -21,7 +20,7 @@ THICKNESS = 5.0
 
 
 class Pointer:
-    """Draws boxes round links and frames, for all clients alike.
+    """Draws boxes round what is selected, for all clients alike.
 
     They are in the scene of all, so that the message is packed once, and one who comes
     meanwhile sees them too. When they are removed, nothing of them is left for those
@@ -45,15 +44,15 @@ class Pointer:
     ) -> None:
         self._picker, self._change, self._worker = picker, change, worker
         self._boxes = SelectionBoxes(scene.context.scene, "pointed", COLOR, THICKNESS)
-        self._items: Collection[Selectable] = ()
+        self._items: Selection = {}
         self._until = 0.0
         self._waiting = False
         self._motion = (robot.positions, robot.changed, scene.frames)
         self._moving = Listening(self._draw)
 
-    def show(self, items: Collection[Selectable]) -> None:
-        """Show links and frames from now on, for some seconds."""
-        self._items, self._until = tuple(items), time.monotonic() + SHOWN_FOR
+    def show(self, items: Selection) -> None:
+        """Show what is selected from now on, for some seconds."""
+        self._items, self._until = dict(items), time.monotonic() + SHOWN_FOR
         self._draw()
         self._moving.to(*self._motion)
         if not self._waiting:
@@ -62,7 +61,7 @@ class Pointer:
 
     def hide(self) -> None:
         """Show nothing."""
-        self._items = ()
+        self._items = {}
         self._moving.to()
         self._draw()
 

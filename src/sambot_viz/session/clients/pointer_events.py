@@ -9,7 +9,7 @@ from typing import Any, Literal, cast
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, RayGrid
+from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.picture import Picture, ScreenPoint
 from sambot_viz.tools.tool import Click, Tool
@@ -66,7 +66,7 @@ def click_of(event: viser.SceneClickEvent) -> Click | None:
     picture = Picture.of(event.client.camera)
     if picture is None:
         return None
-    return Click(origin, direction / length, picture.pixel, event.modifier)
+    return Click(origin, direction / length, picture.pixel, picture.up, event.modifier)
 
 
 def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
@@ -81,7 +81,7 @@ def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
     if not ((point >= 0.0) & (point <= 1.0)).all():
         return None
     x, y = point.tolist()
-    return Click(picture.eye, picture.direction((x, y)), picture.pixel)
+    return Click(picture.eye, picture.direction((x, y)), picture.pixel, picture.up)
 
 
 def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:

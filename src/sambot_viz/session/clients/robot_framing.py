@@ -6,7 +6,7 @@ import math
 
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Corners
+from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker

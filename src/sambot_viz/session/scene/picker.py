@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
-from sambot_viz.displays.picking.pick_geometry import Corners, Selectable, TurnedBox
+from sambot_viz.displays.picking.meshes import Corners
+from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.selectable import Selectable, Selection
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
@@ -73,17 +76,25 @@ class Picker:
             work = self._waiting.pop(of)
         work()
 
-    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, TurnedBox]:
-        """The boxes around the shapes of links and the axes of frames, turned as they.
+    def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
+        """Return the edges of the boxes around what is selected.
 
         Args:
-            items: which; one that is not drawn now has no box.
+            selection: what; that which is not drawn now has no box.
         """
-        return self._scene.boxes_of(items)
+        return self._scene.boxes_of(selection)
 
-    def box_of(self, items: Iterable[Selectable]) -> Corners | None:
-        """The box around some links and frames; None when none is drawn."""
-        return self._scene.box_of(items)
+    def box_of(self, selection: Selection) -> Corners | None:
+        """Return the box around what is selected; None when nothing of it is drawn."""
+        return self._scene.box_of(selection)
+
+    def data_of(self, item: Selectable) -> SelectedData | None:
+        """Return what a display knows of data; None when it is not drawn any more."""
+        return self._scene.data_of(item)
+
+    def kept(self, selection: Selection) -> Selection:
+        """Return a selection without data that is gone."""
+        return self._scene.kept(selection)
 
     def robot_box(self) -> Corners | None:
         """The box around all links, or else around all that is drawn."""

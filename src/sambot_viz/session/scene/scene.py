@@ -39,6 +39,7 @@ class Scene:
         statuses: what displays report, and what has been read for them.
         frames: the frames that are drawn, their parents and poses, and the fixed frame;
             moves of joints are told by the robot.
+        data: what displays draw of messages.
         progress: how many files of how many have been read; None when all have been.
     """
 
@@ -64,6 +65,7 @@ class Scene:
         self.displays: list[Display] = []
         self.statuses = Signal(change, None)
         self.frames = Signal(change, None)
+        self.data = Signal(change, None)
         self.progress: Signal[tuple[int, int] | None] = Signal(change, None)
         self._change = change
         self._keys = 0
@@ -161,7 +163,7 @@ class Scene:
         """Let displays draw what has come for them; else nothing is sent."""
         messages = self.context.messages
         if messages is not None and messages.has_news:
-            with self._change(), self._telling_statuses():
+            with self._change(self.data), self._telling_statuses():
                 messages.deliver()
 
     @contextmanager

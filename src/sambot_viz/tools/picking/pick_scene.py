@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from sambot_viz.displays.display import Display
-from sambot_viz.displays.picking.pick_geometry import (
-    Array,
-    Corners,
-    Hit,
-    Part,
-    PickBuffer,
-    PickGeometry,
-    RayGrid,
-    Selectable,
-    TurnedBox,
-)
+from sambot_viz.displays.picking.meshes import Corners, Part, TurnedBox
+from sambot_viz.displays.picking.pick_buffer import Owner, PickBuffer, hides
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
+from sambot_viz.displays.picking.selected import Cubes, SelectedData
+
+MOST_CUBES = 10_000
+"""So many of the selected points of one message have a box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,49 +34,92 @@ class PickSnapshot:
         """The number of triangles."""
         return sum(geometry.triangles for geometry in self.geometries)
 
-    def first_hit(self, origin: Array, direction: Array, pixel: float) -> Hit:
+    def first_hit(
+        self, origin: Array, direction: Array, pixel: float, up: Array | None = None
+    ) -> Hit:
         """Return what one ray meets first.
 
-        What can be seen through, such as the lines of a grid, only counts where the ray
-        meets nothing else.
+        A point of a cloud is also met from some pixels, unless something selectable is
+        met. What can be seen through and selects nothing, such as the lines of a grid,
+        only counts where the ray meets nothing else.
 
         Args:
             origin: (3,), in the fixed frame [m].
             direction: (3,), of length 1.
             pixel: size of a pixel at 1 m [m].
+            up: what is up in the picture, (3,).
         """
-        buffer = self._drawn(RayGrid.through(origin, direction))
-        near = buffer.near[0, 0]
-        if near > 0.0:
-            return Hit(origin + direction / near, next(iter(buffer.items), None))
+        ray = RayGrid.through(origin, direction, pixel, up)
+        front = _front(self._drawn(ray))
+        if front is not None and front[1].item is not None:
+            return front[1]
+        passed = (one.nearby(ray) for one in self.geometries)
+        near = [one for one in passed if one is not None]
+        if near:
+            nearest = min(near, key=lambda one: one.distance)
+            # What is seen at a flat angle is farther away a few pixels beside.
+            slack = 1.0 + FLAT * pixel
+            if front is None or nearest.distance <= front[0] * slack:
+                return nearest.hit
+        if front is not None:
+            return front[1]
+        clear = _front(self._drawn(ray, lambda owner: not hides(owner)))
         thin = (one.cast(origin, direction, pixel) for one in self.geometries)
-        nearest = min(thin, default=np.inf)
-        if not np.isfinite(nearest):
+        distance = min(thin, default=np.inf)
+        if clear is not None and clear[0] <= distance:
+            return clear[1]
+        if not np.isfinite(distance):
             return Hit(None, None)
-        return Hit(origin + nearest * direction, None)
+        return Hit(origin + distance * direction, None)
 
-    def items_met(self, pixels: RayGrid) -> set[Selectable]:
-        """Return the links and frames that have at least one of some pixels.
+    def items_met(self, pixels: RayGrid) -> Selection:
+        """Return what has at least one of some pixels.
 
         As in RViz that is what is in front. Here it is also what is seen through other
         shapes and lies in the rectangle as a whole; of what is cut off, such as the
         body behind a wheel, nobody can say that it was meant.
         """
-        front = self._drawn(pixels).items
-        if not any(geometry.clear for geometry in self.geometries):
+        front = self._drawn(pixels).selection
+        if not any(geometry.is_clear for geometry in self.geometries):
             return front
-        buffer = PickBuffer(pixels)
-        for buffer.clear in (False, True):
-            for geometry in self.geometries:
-                geometry.draw(buffer)
+        buffer = self._drawn(pixels, lambda owner: not owner.is_clear)
+        buffer.takes, buffer.writes = _is_clear, False
+        for geometry in self.geometries:
+            geometry.draw(buffer)
         cut = {item for one in self.geometries for item in one.cut_off(pixels)}
-        return front | (buffer.items - cut)
+        seen = buffer.selection
+        return front | {item: seen[item] for item in seen if item not in cut}
 
-    def _drawn(self, pixels: RayGrid) -> PickBuffer:
-        buffer = PickBuffer(pixels)
+    def _drawn(
+        self, pixels: RayGrid, takes: Callable[[Owner], bool] = hides
+    ) -> PickBuffer:
+        buffer = PickBuffer(pixels, takes)
         for geometry in self.geometries:
             geometry.draw(buffer)
         return buffer
+
+
+FLAT = 30.0
+"""How many pixels deeper a surface may be where a point is meant."""
+
+
+def _is_clear(owner: Owner) -> bool:
+    return owner.is_clear
+
+
+def _front(buffer: PickBuffer) -> tuple[float, Hit] | None:
+    """Return the distance along a single ray and what it meets; None for nothing."""
+    found = buffer.front()
+    if found is None:
+        return None
+    owner, number = found
+    distance = 1.0 / float(buffer.near[0, 0])
+    ray = buffer.pixels
+    meant = owner.position(number)
+    point = ray.origin + distance * ray.axes[:, 2] if meant is None else meant
+    for item, numbers in owner.selection(np.array([number])).items():
+        return distance, Hit(point, item, None if numbers is None else int(numbers[0]))
+    return distance, Hit(point, None)
 
 
 class PickScene:
@@ -95,25 +136,34 @@ class PickScene:
         """Return everything that is drawn now; files are not read for it."""
         return PickSnapshot(tuple(d.pick_geometry() for d in self._shown()))
 
-    def boxes_of(self, items: Iterable[Selectable]) -> dict[Selectable, TurnedBox]:
-        """Return the boxes around the shapes of links and the axes of frames.
+    def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
+        """Return the boxes around what is selected, as the lines of their edges.
 
-        They turn with the shapes.
+        They turn with shapes; those of points are along the axes of the fixed frame.
 
         Args:
-            items: which; one that is not drawn now has no box.
+            selection: what; that which is not drawn now has no box.
+
+        Returns:
+            Item → (N, 2, 3), begin and end of each line in the fixed frame [m].
         """
-        wanted = set(items)
+        wanted = {item for item, numbers in selection.items() if numbers is None}
         parts: dict[Selectable | None, list[Part]] = {}
         for display in self._shown() if wanted else ():
             for item, part in display.parts(lambda item: item in wanted):
                 parts.setdefault(item, []).append(part)
-        return {i: TurnedBox.around(parts[i]) for i in wanted if i in parts}
+        boxes = {i: TurnedBox.around(parts[i]).lines for i in wanted if i in parts}
+        for item, cubes in self._cubes(selection):
+            boxes[item] = cubes.lines(MOST_CUBES)
+        return boxes
 
-    def box_of(self, items: Iterable[Selectable]) -> Corners | None:
-        """Return the box around some links and frames; None when none is drawn."""
-        wanted = set(items)
-        return self._box(lambda item: item in wanted)
+    def box_of(self, selection: Selection) -> Corners | None:
+        """Return the box around what is selected; None when nothing of it is drawn."""
+        wanted = {item for item, numbers in selection.items() if numbers is None}
+        box = self._box(lambda item: item in wanted)
+        for _, cubes in self._cubes(selection):
+            box = _union(cubes.box, box)
+        return box
 
     def robot_box(self) -> Corners | None:
         """Return the box around all links, or else around all that is drawn.
@@ -124,6 +174,25 @@ class PickScene:
         return self._box(
             lambda item: item is not None and item.kind == "link"
         ) or self._box(lambda _: True)
+
+    def data_of(self, item: Selectable) -> SelectedData | None:
+        """Return what a display knows of data; None when it is not drawn any more."""
+        known = (display.selected(item) for display in self._shown())
+        return next((one for one in known if one is not None), None)
+
+    def kept(self, selection: Selection) -> Selection:
+        """Return a selection without data that is gone, such as points of old scans."""
+        return {
+            item: numbers
+            for item, numbers in selection.items()
+            if not item.is_data or self.data_of(item) is not None
+        }
+
+    def _cubes(self, selection: Selection) -> Iterator[tuple[Selectable, Cubes]]:
+        for item, numbers in selection.items():
+            data = None if numbers is None else self.data_of(item)
+            if data is not None and numbers is not None:
+                yield item, data.cubes(numbers)
 
     def _box(self, of: Callable[[Selectable | None], bool]) -> Corners | None:
         box: Corners | None = None

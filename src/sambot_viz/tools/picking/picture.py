@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, RayGrid
+from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.geometry import rotation_from_xyzw
 
 LARGEST_SIDE = 100_000
@@ -60,6 +60,11 @@ class Picture:
         """Size of a pixel at 1 m [m]."""
         return 2.0 * self.half / self.height
 
+    @property
+    def up(self) -> Array:
+        """What is up in the picture, (3,), of length 1."""
+        return -self.axes[:, 1]
+
     def direction(self, at: ScreenPoint) -> Array:
         """The direction of the ray through a point of the picture, (3,), length 1."""
         x = (2.0 * at[0] - 1.0) * self.half * self.width / self.height
@@ -94,7 +99,7 @@ class Picture:
             axis=1,
         )
         columns, rows = (max(1, int(n)) for n in (count // step).tolist())
-        return RayGrid(self.eye, axes, columns, rows)
+        return RayGrid(self.eye, axes, columns, rows, pixel)
 
 
 def _numbers(values: object, *shape: int) -> Array | None:

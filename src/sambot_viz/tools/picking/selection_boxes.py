@@ -1,4 +1,4 @@
-"""The cyan boxes that RViz draws around selected links and frames."""
+"""The cyan boxes that RViz draws around what is selected."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.picking.pick_geometry import Array, Selectable, TurnedBox
-from sambot_viz.displays.scene.lines import box_lines
+from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.picking.selectable import Selectable
 
 CYAN = (0, 255, 255)
 
@@ -38,18 +38,16 @@ class SelectionBoxes:
         self._name, self._color, self._thickness = name, color, thickness
         self._drawn: dict[Selectable, tuple[bytes, viser.LineSegmentsHandle]] = {}
 
-    def draw(self, boxes: Mapping[Selectable, TurnedBox]) -> None:
+    def draw(self, boxes: Mapping[Selectable, Array]) -> None:
         """Draw these boxes and no others; a box that has not moved is not sent again.
 
         Args:
-            boxes: item → its box.
+            boxes: item → the edges of its box or boxes, (N, 2, 3) [m].
         """
         for item in [item for item in self._drawn if item not in boxes]:
             self._drawn.pop(item)[1].remove()
-        for item, box in boxes.items():
-            straight = box_lines(box.low, box.high)
-            turned: Array = np.einsum("ij,nkj->nki", box.T[:3, :3], straight)
-            lines = (turned + box.T[:3, 3]).astype(np.float32)
+        for item, edges in boxes.items():
+            lines = edges.astype(np.float32)
             known = self._drawn.get(item)
             if known is None:
                 self._drawn[item] = (lines.tobytes(), self._add(lines))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.picking.rays import Indices
 
 Points = npt.NDArray[np.float32]
 Values = npt.NDArray[Any]
@@ -26,23 +27,44 @@ class Cloud:
     Attributes:
         points: (N, 3) float32 [m], in the frame of the message.
         fields: name → (N,) values, x, y and z left out.
+        names: of all fields, in the order of the message; x, y and z first without.
+        kept: (N,), the numbers of the points in the message; None for all of it.
     """
 
     points: Points
     fields: Mapping[str, Values] = field(default_factory=dict[str, Values])
+    names: Sequence[str] = ()
+    kept: Indices | None = None
+
+    @property
+    def numbers(self) -> Indices:
+        """The numbers of the points in the message, (N,)."""
+        return np.arange(len(self.points)) if self.kept is None else self.kept
+
+    def rows_of(self, numbers: Indices) -> Indices:
+        """Return where points are here, from their numbers in the message."""
+        return numbers if self.kept is None else np.searchsorted(self.kept, numbers)
+
+    def number_of(self, name: str) -> int:
+        """Return the number of a field in the message."""
+        return [*(self.names or (*"xyz", *self.fields))].index(name)
 
 
-def finite_cloud(points: Points, fields: Mapping[str, Values]) -> Cloud:
+def finite_cloud(
+    points: Points, fields: Mapping[str, Values], names: Sequence[str] = ()
+) -> Cloud:
     """Return a cloud without the points that are nowhere.
 
     Args:
         points: (N, 3) float32 [m].
         fields: name → (N,) values.
+        names: as of `Cloud`.
     """
     if np.isfinite(points).all():
-        return Cloud(points, fields)
+        return Cloud(points, fields, names)
     kept = np.isfinite(points).all(axis=1)
-    return Cloud(points[kept], {name: v[kept] for name, v in fields.items()})
+    some = {name: values[kept] for name, values in fields.items()}
+    return Cloud(points[kept], some, names, np.flatnonzero(kept))
 
 
 def cloud_of_cloud2(message: Any) -> Cloud:
@@ -74,7 +96,8 @@ def cloud_of_cloud2(message: Any) -> Cloud:
         raise MessageRefused("No position transformer available for cloud")
     points = np.stack([axis[1] for axis in place if axis is not None], axis=1)
     fields = {name: values for name, (_, values) in found.items()}
-    return finite_cloud(points.astype(np.float32, copy=False), fields)
+    names = [str(one.name) for one in message.fields]
+    return finite_cloud(points.astype(np.float32, copy=False), fields, names)
 
 
 def _column(rows: npt.NDArray[np.uint8], offset: int, kind: str) -> Values:

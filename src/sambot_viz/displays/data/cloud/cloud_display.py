@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -20,15 +20,20 @@ from sambot_viz.displays.data.cloud.properties import (
     TRANSFORMER,
     color_options,
 )
+from sambot_viz.displays.data.cloud.selected_points import DOT, SelectedPoints
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.nodes import position_of, short_id
 from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.rviz import DisplayConfig, Property
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.decoding import frame_and_stamp
 
 _NS = 1_000_000_000
 _LOOKS = ("Style", "Size (m)", "Size (Pixels)", "Alpha")
@@ -46,6 +51,8 @@ class _Shown:
         came_ns: when they came [ns].
         node: draws them.
         colors: of each point.
+        item: what they are to a selection.
+        frame: in which the points are given.
         drawn: the colours and the style that they were drawn with last.
     """
 
@@ -54,6 +61,8 @@ class _Shown:
     came_ns: int
     node: PointNode
     colors: Colors
+    item: Selectable
+    frame: str
     drawn: tuple[Colors, PointStyle] | None = None
 
     def draw(self, style: PointStyle) -> None:
@@ -72,12 +81,14 @@ class CloudDisplay(MessageFilterDisplay):
     """Draws the points of messages, of the newest one or of some seconds."""
 
     properties: ClassVar[tuple[Property, ...]] = (topic_property(), *CLOUD_PROPERTIES)
+    in_fixed_frame: ClassVar[bool] = False
+    """Whether its points are those in the fixed frame, not in that of the message."""
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._clouds: list[_Shown] = []
-        self._made = 0
+        self._made = self._taken = 0
 
     def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
         """Return the points of a message, and the pose they are drawn at.
@@ -118,7 +129,12 @@ class CloudDisplay(MessageFilterDisplay):
             name = f"/{self.key}p{short_id(self._made)}"
             node = PointNode(self.context.scene, name)
         colors = colors_of(cloud, color_options(self.config), T_fixed_cloud)
-        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node, colors)
+        self._taken += 1
+        item = Selectable("points", self.config.name, f"{self.key}/{self._taken}")
+        frame = self.context.fixed_frame
+        if not self.in_fixed_frame:
+            frame = frame_and_stamp(message)[0]
+        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node, colors, item, frame)
         self._clouds.append(shown)
 
     def show_taken(self) -> None:
@@ -129,6 +145,31 @@ class CloudDisplay(MessageFilterDisplay):
         style = self.style()
         for shown in self._clouds:
             shown.draw(style)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the points for rays."""
+        for shown in self._clouds:
+            if self.config.get("Selectable"):
+                numbers = shown.cloud.numbers
+                yield from shown.node.placed(HERE, shown.item, numbers)
+            else:
+                yield from shown.node.placed(HERE, None)
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return the points of a message, while they are shown."""
+        for shown in self._clouds:
+            if shown.item == item and self.config.get("Selectable"):
+                style = self.style()
+                is_dot = style.shape == "Points"
+                return SelectedPoints(
+                    shown.cloud,
+                    shown.T_fixed_cloud,
+                    self.config.name,
+                    shown.frame,
+                    DOT if is_dot else style.size[0],
+                    style.is_by_depth and not is_dot,
+                )
+        return None
 
     def drop(self) -> None:
         """Take all points out of the scene."""

@@ -28,6 +28,7 @@ class LaserScanDisplay(CloudDisplay):
     kind = "rviz_default_plugins/LaserScan"
     help = "The points that a laser scanner measures."
     types = frozenset({"sensor_msgs/msg/LaserScan"})
+    in_fixed_frame = True
 
     def place(self, message: Any) -> Transform:
         """Return where the scanner was at the first reading, if the last is known."""

@@ -28,8 +28,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
     BoolProperty(
         "Selectable",
         default=True,
-        help="Whether the points can be selected; here none can.",
-        support="none",
+        help="Whether the points can be selected.",
     ),
     EnumProperty(
         "Style",

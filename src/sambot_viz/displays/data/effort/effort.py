@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from sambot_viz.displays.data.effort.joints import (
@@ -18,6 +18,7 @@ from sambot_viz.displays.data.message_filter import TRANSFORM
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.robot_model.described_robot import DescribedRobot
 from sambot_viz.displays.scene.glb_node import single
@@ -241,6 +242,10 @@ class EffortDisplay(KeptReadingsDisplay):
         scale = float(self.config.get("Scale"))
         efforts = (one for some, _ in kept for one in some if joints.is_on(one.joint))
         self._node.draw([one.ring(scale, width) for one in efforts], width)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the circles, which cannot be selected, as in RViz."""
+        yield from self._node.placed(HERE)
 
     def remove(self) -> None:
         """Take all circles out of the scene."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 from sambot_viz.displays.data.markers.markers import Markers
@@ -17,6 +17,9 @@ from sambot_viz.displays.data.message_filter import (
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
+from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.frames import LookupRefused, Transform
 from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
 from sambot_viz.sources.message import Recorded
@@ -182,6 +185,14 @@ class MarkerDisplay(MessageFilterDisplay):
             self._try()
         self._markers.follow_frames()
         self._markers.files_read()
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the markers for rays."""
+        yield from self._markers.placed()
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return a marker while it is shown."""
+        return self._markers.selected(item)
 
     def drop(self) -> None:
         """Take all markers out of the scene."""

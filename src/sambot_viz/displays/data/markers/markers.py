@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
+
 from sambot_viz.displays.data.markers.checks import check_of
+from sambot_viz.displays.data.markers.drawing import Shown
 from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
-from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes, Shown
+from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
+from sambot_viz.displays.data.selected_pose import SelectedPose
 from sambot_viz.displays.display import DisplayContext, StatusList
+from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.frames import LookupRefused
 from sambot_viz.topics.decoding import frame_and_stamp
 
@@ -46,6 +53,7 @@ class Markers:
     ) -> None:
         self.shown: dict[Key, Shown] = {}
         self._context = context
+        self._key = key
         self._status = status
         self._namespaces = namespaces
         self._nodes = MarkerNodes(context, key)
@@ -212,6 +220,34 @@ class Markers:
         self._free.clear()
         self._finders.clear()
         self._nodes.remove()
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield what is drawn, for rays."""
+        yield from self._nodes.placed(self.shown, self.item_of)
+
+    def item_of(self, key: Key) -> Selectable:
+        """Return a marker as something that can be selected."""
+        return Selectable("marker", f"{key[0]}/{key[1]}", self._key)
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return a marker as its message has it; None when it is gone."""
+        namespace, _, number = item.name.rpartition("/")
+        if item.kind != "marker" or item.of != self._key:
+            return None
+        one = self.shown.get((namespace, int(number)))
+        T = None if one is None else self._context.pose(one.frame)
+        if one is None or T is None:
+            return None
+        pose = one.marker.pose
+        here = T[:3, :3] @ np.array(one.place.of(pose)[1]) + T[:3, 3]
+        p, q = pose.position, pose.orientation
+        return SelectedPose(
+            f"Marker {item.name}",
+            frame_and_stamp(one.marker)[0],
+            (float(q.w), float(q.x), float(q.y), float(q.z)),
+            (float(p.x), float(p.y), float(p.z)),
+            here,
+        )
 
     def count_of(self, namespace: str) -> int:
         """Return how many markers of a namespace are shown."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 from xml.sax.saxutils import quoteattr
@@ -10,12 +10,23 @@ from xml.sax.saxutils import quoteattr
 from sambot_viz import viser_private
 from sambot_viz.displays.data.markers.fields import alpha_of, rgb_of
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.placed import PlacedMesh
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Description, ModelRequest, ModelResult
 from sambot_viz.displays.robot_model.shape_solids import rgb255
-from sambot_viz.displays.scene.nodes import Handle, NodeCache, placed
+from sambot_viz.displays.scene.nodes import Handle, NodeCache, any_gone, placed
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.errors import RobotError
-from sambot_viz.geometry import Rgba, Vector3, Wxyz
+from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
+    Matrix,
+    Rgba,
+    Vector3,
+    Wxyz,
+    matrix_from_wxyz,
+)
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, to_glb
@@ -133,6 +144,9 @@ class MeshNodes:
         self._name = name
         self._nodes = NodeCache()
         self._content: Content | None = None
+        self._parts: list[MeshPart] = []
+        self._triangles: list[TriangleMesh] | None = None
+        self._pose: tuple[Wxyz, Vector3] = (IDENTITY, ORIGIN)
         context.assets.register(self)
 
     @property
@@ -171,6 +185,24 @@ class MeshNodes:
             (id(mesh), look, pose, scale), lambda: self._add(mesh, look, pose, scale)
         )
 
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedMesh]:
+        """Yield the parts for rays, if they are drawn.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what they are to a selection.
+        """
+        if not self._nodes.handles or any_gone(self._nodes.handles):
+            return
+        if self._triangles is None:
+            parts = self._parts
+            self._triangles = [TriangleMesh.of(p.vertices, p.faces) for p in parts]
+        T = T_fixed_above @ matrix_from_wxyz(*self._pose)
+        for mesh in self._triangles:
+            yield PlacedMesh(item, mesh, T)
+
     def remove(self) -> None:
         """Take it out of the scene."""
         self._nodes.remove()
@@ -179,9 +211,12 @@ class MeshNodes:
         self, mesh: Mesh, look: _Look, pose: tuple[Wxyz, Vector3], scale: Vector3
     ) -> list[Handle]:
         handles: list[Handle] = []
+        self._parts, self._triangles, self._pose = [], None, pose
         for number, own in enumerate(mesh.parts):
+            part = apply_scale(own, scale)
+            self._parts.append(part)
             name = self._name if number == 0 else f"{self._name}.{number}"
-            handles.append(self._add_part(name, apply_scale(own, scale), look, pose))
+            handles.append(self._add_part(name, part, look, pose))
         return handles
 
     def _add_part(

@@ -2,39 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
-
-import numpy as np
+from typing import Protocol
 
 from sambot_viz.displays.data.markers.checks import (
-    CUBE_LIST,
-    LINE_LIST,
     LINES,
     LISTS,
     MESH,
-    POINTS,
     SOLIDS,
-    SPHERE_LIST,
     TEXT,
 )
-from sambot_viz.displays.data.markers.fields import (
-    MarkerPose,
-    alpha_of,
-    points_of,
-    rgb_of,
-    rgba_of,
+from sambot_viz.displays.data.markers.drawing import (
+    Shown,
+    draw_lines,
+    draw_list,
+    draw_text,
 )
 from sambot_viz.displays.data.markers.meshes import MeshFinder, MeshNodes
 from sambot_viz.displays.data.markers.solids import solids_of
 from sambot_viz.displays.data.markers.triangles import TrianglesNode
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.nodes import short_id
-from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
+from sambot_viz.displays.scene.points import PointNode
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.displays.scene.texts import TextNode
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Key = tuple[str, int]
@@ -43,34 +39,16 @@ BATCH = 500
 """So many solids are in one batch: more are sent when one of them changes."""
 ALONE = 100
 """So many that can be seen through have nodes of their own, which browsers sort."""
-_SHAPES: Mapping[int, PointShape] = {
-    CUBE_LIST: "Boxes",
-    SPHERE_LIST: "Spheres",
-    POINTS: "Squares",
-}
-
-
-@dataclass(slots=True, eq=False)
-class Shown:
-    """A marker that is shown.
-
-    Attributes:
-        marker: the message.
-        frame: the frame that it follows; None when it stays where it was.
-        place: where the frame was; that frame itself when it follows it.
-        until_ns: when it vanishes [ns]; None when it stays.
-        slot: a small number that no other one has.
-    """
-
-    marker: Any
-    frame: str | None
-    place: MarkerPose
-    until_ns: int | None
-    slot: int
 
 
 class MarkerNode(Protocol):
     """What draws one marker that is no solid."""
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterable[Placed]:
+        """Yield it for rays (see `scene.points.PointNode.placed`)."""
+        ...
 
     def remove(self) -> None:
         """Take it out of the scene."""
@@ -140,6 +118,34 @@ class MarkerNodes:
         # Names of nodes are free again when all that is gone has been removed.
         for key, one, above in todo:
             self._draw_single(key, one, above, finder)
+
+    def placed(
+        self, shown: Mapping[Key, Shown], item_of: Callable[[Key], Selectable]
+    ) -> Iterator[Placed]:
+        """Yield all markers for rays.
+
+        Args:
+            shown: the markers.
+            item_of: what each is to a selection.
+        """
+        poses: dict[str | None, Matrix | None] = {}
+
+        def above(key: Key) -> Matrix | None:
+            frame = shown[key].frame
+            if frame not in poses:
+                poses[frame] = self._context.pose(frame)
+            return poses[frame]
+
+        for batch in self._batches.values():
+            T_fixed_above = above(next(iter(batch.members)))
+            if T_fixed_above is not None:
+                members = batch.members.items()
+                items = [item_of(key) for key, solids in members for _ in solids]
+                yield from batch.node.placed(T_fixed_above, items)
+        for key, (_, node) in self._single.items():
+            T_fixed_above = above(key)
+            if T_fixed_above is not None:
+                yield from node.placed(T_fixed_above, item_of(key))
 
     def remove(self) -> None:
         """Take everything out of the scene."""
@@ -235,55 +241,3 @@ class MarkerNodes:
                 node = TrianglesNode(scene, name)
             node.draw(one.marker, *one.place.of(one.marker.pose))
         self._single[key] = ((kind, above, one.slot), node)
-
-
-def draw_list(node: PointNode, one: Shown) -> None:
-    """Draw the copies of a list, all along the axes of its pose."""
-    marker = one.marker
-    scale, alpha = marker.scale, 1.0
-    if len(marker.colors) == len(marker.points):
-        colors = rgba_of(marker.colors)
-        if (colors[:, 3] == 255).all():
-            colors = colors[:, :3]
-    else:
-        alpha = alpha_of(marker.color)
-        colors = rgba_of([marker.color])
-        colors = colors if alpha < OPAQUE_FROM else colors[:, :3]
-    style = PointStyle(
-        _SHAPES[int(marker.type)],
-        (float(scale.x), float(scale.y), float(scale.z)),
-        alpha,
-        is_twice=True,
-    )
-    node.draw(points_of(marker), colors, style, *one.place.of(marker.pose))
-
-
-def draw_lines(node: RibbonNode, one: Shown) -> None:
-    """Draw the lines, which face the view."""
-    marker = one.marker
-    count = len(marker.points)
-    own = len(marker.colors) == count
-    wxyz, position = one.place.of(marker.pose)
-    node.draw(
-        points_of(marker),
-        float(marker.scale.x),
-        rgba_of(marker.colors) if own else np.array(rgb_of(marker.color)),
-        counts=[2] * (count // 2) if int(marker.type) == LINE_LIST else None,
-        alpha=1.0 if own else alpha_of(marker.color),
-        wxyz=wxyz,
-        position=position,
-    )
-
-
-def draw_text(node: TextNode, one: Shown) -> None:
-    """Draw the text, which faces the view."""
-    marker = one.marker
-    _, position = one.place.of(marker.pose)
-    node.draw(
-        str(marker.text),
-        float(marker.scale.z),
-        rgb_of(marker.color),
-        alpha=alpha_of(marker.color),
-        space=float(marker.scale.x) / 2 if marker.scale.x else None,
-        position=position,
-    )

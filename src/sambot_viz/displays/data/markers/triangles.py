@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,10 +21,20 @@ from sambot_viz.displays.data.markers.textures import (
     uv_of,
 )
 from sambot_viz.displays.data.message_numbers import coordinates_of
+from sambot_viz.displays.picking.meshes import TriangleMesh
+from sambot_viz.displays.picking.placed import PlacedMesh
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import GlbNode, digest_of, drawn_glb
 from sambot_viz.displays.scene.nodes import NodeCache, placed
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
+    Matrix,
+    Vector3,
+    Wxyz,
+    matrix_from_wxyz,
+)
 from sambot_viz.meshes.glb import OPAQUE_FROM, to_glb
 from sambot_viz.meshes.mesh import MeshPart, Texture
 from sambot_viz.meshes.textures import TextureError
@@ -88,6 +99,9 @@ class TrianglesNode:
         self._unlit = GlbNode(scene, name)
         self._plain = NodeCache()
         self._textured = GlbNode(scene, name)
+        self._corners: Floats = np.zeros((0, 3), np.float32)
+        self._mesh: TriangleMesh | None = None
+        self._pose: tuple[Wxyz, Vector3] = (IDENTITY, ORIGIN)
 
     def draw(self, marker: Any, wxyz: Wxyz, position: Vector3) -> None:
         """Draw the triangles of a marker; those too far away for browsers are left out.
@@ -104,6 +118,7 @@ class TrianglesNode:
         finite = np.isfinite(np.reshape(corners, (-1, 9)))
         good: npt.NDArray[np.bool_] = np.all(finite, axis=1)
         at = corners[np.repeat(good, 3)]
+        self._corners, self._mesh, self._pose = at, None, placed(wxyz, position)
         if not len(at):
             self.remove()
             return
@@ -203,6 +218,23 @@ class TrianglesNode:
                 )
             ],
         )
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedMesh]:
+        """Yield the triangles for rays.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what they are to a selection.
+        """
+        if not len(self._corners):
+            return
+        if self._mesh is None:
+            faces = np.reshape(np.arange(len(self._corners)), (-1, 3))
+            self._mesh = TriangleMesh.of(self._corners, faces).both_sides()
+        T = T_fixed_above @ matrix_from_wxyz(*self._pose)
+        yield PlacedMesh(item, self._mesh, T)
 
     def remove(self) -> None:
         """Take them out of the scene."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
@@ -156,6 +158,11 @@ class OdometryDisplay(MessageFilterDisplay):
             return
         covariance = covariance_of(message.pose)
         self._kept.append(_PastPose(wxyz, position, T_fixed_frame.matrix, covariance))
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the poses, which cannot be selected, as in RViz."""
+        yield from self._shapes.placed(None)
+        yield from self._solids.placed(HERE, None)
 
     def drop(self) -> None:
         """Take all poses out of the scene."""

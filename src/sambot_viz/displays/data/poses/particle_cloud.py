@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 from sambot_viz.displays.data.properties import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import DisplayConfig, EnumProperty
 
@@ -84,6 +86,10 @@ class ParticleCloudDisplay(NewestMessageDisplay[Particles]):
             1.0,
         )
         self._shapes.draw(look, turns, places, wxyz, position, sizes=lengths)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the particles, which cannot be selected."""
+        yield from self._shapes.placed(None)
 
     def remove(self) -> None:
         """Take the particles out of the scene."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,8 +25,12 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     look_of,
 )
 from sambot_viz.displays.data.properties import alpha_property
+from sambot_viz.displays.data.selected_pose import SelectedPose
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.display import DisplayContext, numbers
+from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import Fact, SelectedData
 from sambot_viz.displays.scene.covariance import covariance_solids
 from sambot_viz.displays.scene.solid_nodes import SolidsNode
 from sambot_viz.geometry import Vector3, Wxyz
@@ -70,6 +75,30 @@ class PoseDisplay(NewestMessageDisplay[PoseRead]):
         turn, at, _ = read
         self._shapes.draw(look_of(self.config), [turn], [at], wxyz, position)
 
+    @property
+    def item(self) -> Selectable:
+        """The pose as something that can be selected."""
+        return Selectable("pose", self.config.name, self.key)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the pose for rays."""
+        yield from self._shapes.placed(self.item)
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return the pose as its message has it."""
+        taken = self.taken
+        if item != self.item or taken is None:
+            return None
+        (turn, at, covariance), T = taken
+        title, here = f"Pose {self.config.name}", T[:3, :3] @ np.array(at) + T[:3, 3]
+        more = self.other_facts(covariance)
+        return SelectedPose(title, self.frame, turn, at, here, more)
+
+    def other_facts(self, covariance: Floats) -> Sequence[Fact]:
+        """Return what else is said of a selected pose."""
+        del covariance
+        return ()
+
     def remove(self) -> None:
         """Take the pose out of the scene."""
         self._shapes.remove()
@@ -100,6 +129,19 @@ class PoseWithCovarianceDisplay(PoseDisplay):
         look = covariance_look(self.config)
         solids = covariance_solids(covariance, turn, at, look)
         self._solids.draw(solids, wxyz=wxyz, position=position)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the pose and its covariance for rays."""
+        yield from super().placed()
+        yield from self._solids.placed(HERE, self.item)
+
+    def other_facts(self, covariance: Floats) -> Sequence[Fact]:
+        """Return the variances of the position [m²] and of the orientation [rad²]."""
+        variances = covariance[::7].tolist()
+        return (
+            ("Covariance Position", f"{numbers(variances[:3])} m²"),
+            ("Covariance Orientation", f"{numbers(variances[3:])} rad²"),
+        )
 
     def remove(self) -> None:
         """Take the pose out of the scene."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +21,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 from sambot_viz.displays.data.properties import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.rviz import DisplayConfig, EnumProperty
 
@@ -66,6 +68,10 @@ class PoseArrayDisplay(NewestMessageDisplay[Poses]):
         look = look_of(self.config)
         look = replace(look, flat=float(self.config.get("Arrow Length")))
         self._shapes.draw(look, *read, wxyz, position)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the poses, which cannot be selected, as in RViz."""
+        yield from self._shapes.placed(None)
 
     def remove(self) -> None:
         """Take the poses out of the scene."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,8 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.data.properties import metres
+from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
 from sambot_viz.displays.scene.solids import Rgb
@@ -113,6 +116,15 @@ class PoseShapes:
             )
         else:
             self._lines.remove()
+
+    def placed(self, item: Selectable | None) -> Iterator[Placed]:
+        """Yield the shapes for rays.
+
+        Args:
+            item: what they are to a selection.
+        """
+        for node in (self._arrows, self._axes, self._lines):
+            yield from node.placed(HERE, item)
 
     def remove(self) -> None:
         """Take all out of the scene."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import Any, ClassVar
@@ -12,6 +12,7 @@ import numpy as np
 from sambot_viz.displays.data.kept_messages import KeptReadingsDisplay
 from sambot_viz.displays.data.message_numbers import vector_of
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.rings import Ring, RingsNode
 from sambot_viz.displays.scene.solid_nodes import Solid, arrow_solids
 from sambot_viz.displays.scene.solids import Arrow, Rgb
@@ -148,6 +149,10 @@ class VectorsDisplay(KeptReadingsDisplay):
             solids += arrow_of(second, about, T)
             rings += ring_of(second, about, T)
         self._node.draw(rings, 0.05 * about.width, solids)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield the arrows and circles, which cannot be selected, as in RViz."""
+        yield from self._node.placed(HERE)
 
     def remove(self) -> None:
         """Take all arrows out of the scene."""

@@ -1,0 +1,1 @@
+"""The Selection panel of one client."""
