@@ -466,6 +466,18 @@ def test_points_that_no_browser_can_show_do_no_harm(shown: Open) -> None:
     assert known(opened) == {"far", "good"}
 
 
+@pytest.mark.parametrize("name", ["", CLIENT, "Updates"])
+def test_any_name_of_a_marker_has_a_row(shown: Open, name: str) -> None:
+    opened = shown(update(lambda t: marker(t, name)), update(erases=[name], number=3))
+    assert not known(opened)
+    client = opened.statuses[CLIENT]
+    opened.viz.player.jump(0.0)
+    assert client == opened.statuses[CLIENT]
+    opened.display.report_topic()
+    rows = [key for key, row in opened.statuses.items() if "Locked" in row[1]]
+    assert len(rows) == 1 and rows != [CLIENT] and rows != [""]
+
+
 def test_thousands_of_controls_are_refused(shown: Open) -> None:
     opened = shown(
         update(

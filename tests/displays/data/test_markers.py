@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from inside import session_of
 
 from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
+from sambot_viz.displays.data.markers.textures import has_texture
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL
 
 Make = Callable[[Any], tuple[str, str, object]]
@@ -230,3 +232,7 @@ def test_the_topic_has_another_key_in_files_of_ros_1(messages: Open, kind: str) 
     shown.set("Topic", "/b")
     text = session_of(shown.viz).document.config.to_yaml()
     assert "Marker Topic: /b" in text
+
+
+def test_a_marker_of_ros_1_has_no_texture() -> None:
+    assert not has_texture(SimpleNamespace(points=[1, 2, 3]))

@@ -61,6 +61,7 @@ class ControlMarker:
         text: of a text.
         mesh_resource: of a mesh.
         mesh_use_embedded_materials: a mesh has the colours of its file.
+        texture_resource: of triangles; so are the two others.
         frame: that it is placed in once; empty for the interactive marker.
         stamp_ns: when that frame is looked up [ns]; None for the latest time.
     """
@@ -74,6 +75,9 @@ class ControlMarker:
     text: str = ""
     mesh_resource: str = ""
     mesh_use_embedded_materials: bool = False
+    texture_resource: str = ""
+    texture: Any = None
+    uv_coordinates: Sequence[Any] = ()
     frame: str = ""
     stamp_ns: int | None = None
 
@@ -92,6 +96,9 @@ def control_marker(marker: Any) -> ControlMarker:
         str(marker.text),
         str(marker.mesh_resource),
         bool(marker.mesh_use_embedded_materials),
+        str(getattr(marker, "texture_resource", "")),
+        getattr(marker, "texture", None),
+        getattr(marker, "uv_coordinates", ()),
         plain_name(str(marker.header.frame_id)),
         stamp_ns,
     )

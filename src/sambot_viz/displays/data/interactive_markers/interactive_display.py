@@ -91,9 +91,8 @@ class InteractiveMarkersDisplay(TopicDisplay):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._markers = InteractiveMarkers(
-            context, MarkerRows(self.status), key, self.assets_read
-        )
+        rows = MarkerRows(self.status, (CLIENT, UPDATES, MESSAGE))
+        self._markers = InteractiveMarkers(context, rows, key, self.assets_read)
         self._drawn_in = context.fixed_frame
         self._full: tuple[str, int] | None = None
         self._last: tuple[str, int] | None = None
@@ -162,6 +161,8 @@ class InteractiveMarkersDisplay(TopicDisplay):
                     self._take_update(message)
         except MessageRefused as refused:
             self.status.set(refused.key, "Error", refused.text)
+        else:
+            self.status.remove(MESSAGE)
 
     def _take_full(self, message: Any) -> None:
         self._full = self._last = (str(message.server_id), int(message.seq_num))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from sambot_viz.displays.display import Level, StatusList
 
 MOST_ROWS = 100
@@ -14,17 +16,23 @@ class MarkerRows:
 
     Args:
         status: of the display.
+        taken: what its other rows are called.
     """
 
-    def __init__(self, status: StatusList) -> None:
+    def __init__(self, status: StatusList, taken: Collection[str] = ()) -> None:
         self._status = status
-        self._rows: set[str] = set()
+        self._taken = {"", MARKERS, *taken}
+        self._rows: dict[str, str] = {}
 
     def say(self, name: str, level: Level, text: str) -> None:
         """Say something of a marker, in place of what was said before."""
-        if name in self._rows or len(self._rows) < MOST_ROWS:
-            self._rows.add(name)
-            self._status.set(name, level, text)
+        row = self._rows.get(name)
+        if row is None and len(self._rows) < MOST_ROWS:
+            # A marker may be called as another row is, or have no name.
+            row = f"Marker '{name}'" if name in self._taken else name
+            self._rows[name] = row
+        if row is not None:
+            self._status.set(row, level, text)
         elif level != "Ok":
             more = f"More markers than the {MOST_ROWS} that have a row here are wrong"
             self.say_of_all(more)
@@ -35,9 +43,9 @@ class MarkerRows:
 
     def unsay(self, name: str) -> None:
         """Say nothing more of a marker."""
-        if name in self._rows:
-            self._rows.discard(name)
-            self._status.remove(name)
+        row = self._rows.pop(name, None)
+        if row is not None:
+            self._status.remove(row)
 
     def clear(self) -> None:
         """Say nothing more."""

@@ -17,7 +17,8 @@ _pictures = TextureStore()
 def has_texture(marker: Any) -> bool:
     """Return whether triangles bring a picture, and a place in it for each corner."""
     return (
-        str(marker.texture_resource).startswith(_EMBEDDED)
+        # ROS 1 and ROS 2 Foxy have no textures.
+        str(getattr(marker, "texture_resource", "")).startswith(_EMBEDDED)
         and len(marker.uv_coordinates) == len(marker.points) > 0
     )
 
