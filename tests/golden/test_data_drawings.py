@@ -157,3 +157,19 @@ def test_triangles_are_lit_on_the_side_from_which_they_turn_left(
     shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
     assert {(255, 0, 0), (255, 0, 85), (0, 0, 0)} <= shown
     assert not {(255, 0, 170), (255, 0, 255)} & shown
+
+
+def test_points_of_a_depth_image_grow_with_their_depth(chromium: Chromium) -> None:
+    """Two squares, 0.2 m for each metre along z, at 112 pixels a metre."""
+    from sambot_viz.displays.scene.points import PointNode, PointStyle
+
+    style = PointStyle("Flat Squares", (0.2, 0.2, 0.2), is_by_depth=True)
+    colors = np.array([[255, 0, 0], [0, 255, 0]], np.uint8)
+
+    def draw(scene: viser.SceneApi) -> None:
+        PointNode(scene, "/~p").draw([(-1, 0, 1), (1, 0, 3)], colors, style)
+
+    seen = picture_of(chromium, FROM_ABOVE, (240, 320), draw)
+    for channel, metres in ((0, 0.2), (1, 0.6)):
+        pixels = (seen[..., channel] == 255).sum()
+        assert np.sqrt(pixels) == pytest.approx(112 * metres, abs=1)

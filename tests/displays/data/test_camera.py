@@ -250,6 +250,20 @@ def test_boxes_are_kept_in_the_file_as_rviz_writes_them(among: Any) -> None:
     assert view(among)["hidden"] == []
 
 
+def test_a_display_with_another_name_keeps_its_box(among: Any) -> None:
+    session = session_of(among.viz)
+    (marker,) = (one for one in session.scene.displays if one.kind.endswith("/Marker"))
+    session.display_edits.set_entry(
+        among.display, "Visibility", "All/Cube", "Value", False
+    )
+    session.display_edits.rename_display(marker.config, "Box")
+    with session.lock:
+        among.display.time_passed()
+    assert view(among)["hidden"] == [marker.key]
+    kept = among.display.config.dynamic("Visibility")
+    assert kept["All"]["Box"] == "false"
+
+
 def test_boxes_of_the_file_hold(messages: Open) -> None:
     values = {"Visibility": {"Value": True, "Camera": True, "Grid": False}}
     made = (placed(0, 0, 0), info(INFO, NUMBERS), picture())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from sambot_viz.displays.data.box_item import BoxItem
+from sambot_viz.displays.data.box_item import BOX, BoxItem
 from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import GROUP
@@ -24,7 +24,7 @@ class Visibility:
 
     def __init__(self, owner: Display) -> None:
         self._owner = owner
-        self._items: dict[Names, BoxItem] = {}
+        self._items: dict[DisplayConfig, tuple[Names, BoxItem]] = {}
 
     def hidden(self) -> Sequence[str]:
         """Return the keys of the displays that are shown, and not in the picture."""
@@ -45,7 +45,7 @@ class Visibility:
         for names, config in found.items():
             name = "/".join(names)
             if name not in items:
-                items[name] = self._item(names, config)
+                items[name] = self._item(config)
                 if len(names) > 1:
                     above[name] = "/".join(names[:-1])
 
@@ -71,15 +71,21 @@ class Visibility:
     def _is_on(self, config: DisplayConfig) -> bool:
         """Return whether the boxes of a display and of its groups are ticked."""
         group = config.parent
-        is_on = self._item(names_of(config), config).is_on
+        is_on = self._item(config).is_on
         return is_on and (group is None or self._is_on(group))
 
-    def _item(self, names: Names, config: DisplayConfig) -> BoxItem:
-        if names not in self._items:
-            keys, is_group = (VISIBILITY, *names), config.kind == GROUP
-            owner = self._owner.config
-            self._items[names] = BoxItem(owner, keys, _HELP, is_group=is_group)
-        return self._items[names]
+    def _item(self, config: DisplayConfig) -> BoxItem:
+        """Return the box of a display; another name does not change it."""
+        names = names_of(config)
+        before, item = self._items.get(config, (names, None))
+        if item is None or names != before:
+            keys, owner = (VISIBILITY, *names), self._owner.config
+            made = BoxItem(owner, keys, _HELP, is_group=config.kind == GROUP)
+            if item is not None and not item.is_on and not made.is_given(BOX):
+                made.set(BOX, False)
+            self._items[config] = names, made
+            return made
+        return item
 
 
 def names_of(config: DisplayConfig) -> Names:
