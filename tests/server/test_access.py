@@ -15,13 +15,13 @@ from websockets.typing import Origin, Subprotocol
 
 from sambot_viz.errors import UsageError
 from sambot_viz.options import Options
-from sambot_viz.server.access import (
+from sambot_viz.server.handshake import without_base
+from sambot_viz.server.listener import listen
+from sambot_viz.server.protection.access import (
     content_policy,
     is_welcome,
     only_this_machine,
 )
-from sambot_viz.server.handshake import without_base
-from sambot_viz.server.listener import listen
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 

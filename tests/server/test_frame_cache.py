@@ -16,8 +16,14 @@ from viser.infra import Message
 
 from sambot_viz import viser_private
 from sambot_viz.options import Options
-from sambot_viz.server.frame_cache import HEAVY, RECENT, Batch, FrameCache, weight
 from sambot_viz.server.listener import listen
+from sambot_viz.server.outgoing.frame_cache import (
+    HEAVY,
+    RECENT,
+    Batch,
+    FrameCache,
+    weight,
+)
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from websockets.typing import Subprotocol
 from sambot_viz import viser_private
 from sambot_viz.options import Options
 from sambot_viz.server.listener import listen
-from sambot_viz.server.news import News
+from sambot_viz.server.outgoing.news import News
 
 Connect = Callable[..., ProtocolClient]
 A_LONG_TIME = 50_000_000

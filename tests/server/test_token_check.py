@@ -21,9 +21,9 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server import token_check
 from sambot_viz.server.listener import Listener, listen
-from sambot_viz.server.token_check import TokenCheck
+from sambot_viz.server.protection import token_check
+from sambot_viz.server.protection.token_check import TokenCheck
 
 TOKEN = "s3cret-of.the_lab"
 PRESENTER = "teach-the-class"

@@ -73,8 +73,8 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     inputs = Inputs(options, may_be_broken=options.watch)
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
-    from sambot_viz.server.access import only_this_machine
     from sambot_viz.server.listener import listen, public_url, reachable_at
+    from sambot_viz.server.protection.access import only_this_machine
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)

@@ -22,12 +22,13 @@ from websockets.http11 import Request, Response
 from websockets.protocol import State
 
 from sambot_viz.options import Options
-from sambot_viz.server import access, page_files
+from sambot_viz.server import page_files
 from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.connection import ClientContext, Connection
-from sambot_viz.server.connection_limit import ConnectionLimiter
+from sambot_viz.server.protection import access
+from sambot_viz.server.protection.connection_limit import ConnectionLimiter
+from sambot_viz.server.protection.token_check import Knows, TokenCheck
 from sambot_viz.server.tickets import Channels
-from sambot_viz.server.token_check import Knows, TokenCheck
 
 _PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002

@@ -6,8 +6,8 @@ from urllib.parse import urlsplit
 
 from sambot_viz.options import Options
 from sambot_viz.panels.people import Invitation
-from sambot_viz.server.access import only_this_machine
 from sambot_viz.server.listener import public_url, reachable_at, with_secret
+from sambot_viz.server.protection.access import only_this_machine
 
 
 def invite(options: Options, opened_at: str) -> Invitation:

@@ -19,16 +19,17 @@ from websockets.asyncio.server import ServerConnection
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
-from sambot_viz.server import handshake, outbox
+from sambot_viz.server import handshake
 from sambot_viz.server.connection import Connection
-from sambot_viz.server.inbound_filter import (
+from sambot_viz.server.outgoing import outbox
+from sambot_viz.server.protection.inbound_filter import (
     CLOSE_TIME,
     LARGEST_MESSAGE,
     ClientHandler,
     InboundFilter,
 )
+from sambot_viz.server.protection.token_check import Knows
 from sambot_viz.server.tickets import Channels
-from sambot_viz.server.token_check import Knows
 
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""

@@ -16,10 +16,10 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.options import Options
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
-from sambot_viz.server import outbox
 from sambot_viz.server.client_sessions import ClientSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot

@@ -20,8 +20,12 @@ from websockets.protocol import State
 from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.server.channel import Channel
 from sambot_viz.server.connection import Connection
-from sambot_viz.server.inbound_filter import CLOSE_TIME, ClientHandler, NoSessions
 from sambot_viz.server.page_files import plain_page
+from sambot_viz.server.protection.inbound_filter import (
+    CLOSE_TIME,
+    ClientHandler,
+    NoSessions,
+)
 
 ANSWER_TIME = 2.0
 """Who has a ticket, and does not answer for so long, is gone [s]."""

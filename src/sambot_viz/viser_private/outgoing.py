@@ -30,7 +30,7 @@ class Message(Protocol):
 
 
 class MessageBuffer(Protocol):
-    """The fields of viser's buffer of messages that `server.outbox` uses.
+    """The fields of viser's buffer of messages that `server.outgoing` uses.
 
     Attributes:
         event_loop: that of the server.

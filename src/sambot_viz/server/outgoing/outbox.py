@@ -18,8 +18,8 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.server.connection import Connection
-from sambot_viz.server.frame_cache import HEAVY, Batch, FrameCache, weight
-from sambot_viz.server.news import News
+from sambot_viz.server.outgoing.frame_cache import HEAVY, Batch, FrameCache, weight
+from sambot_viz.server.outgoing.news import News
 
 
 def prepare(server: viser.ViserServer) -> None:

@@ -1,0 +1,1 @@
+"""Collect, pack and send what goes out to clients."""

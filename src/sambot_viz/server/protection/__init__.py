@@ -1,0 +1,1 @@
+"""Decide who may connect, what clients may send, and how much of it."""

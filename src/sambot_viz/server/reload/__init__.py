@@ -1,0 +1,1 @@
+"""Read models and configs again when they are saved."""
