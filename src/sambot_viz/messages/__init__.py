@@ -3,6 +3,7 @@
 from sambot_viz.messages.decoder import Decoder
 from sambot_viz.messages.joint_states import JointStateTemplate
 from sambot_viz.messages.reason import Reason
+from sambot_viz.messages.rows import Rows
 from sambot_viz.messages.schema import Schema
 from sambot_viz.messages.transforms import TransformDecoder
 from sambot_viz.messages.types import MessageTypes
@@ -12,6 +13,7 @@ __all__ = [
     "JointStateTemplate",
     "MessageTypes",
     "Reason",
+    "Rows",
     "Schema",
     "TransformDecoder",
 ]

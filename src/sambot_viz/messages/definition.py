@@ -32,7 +32,8 @@ _MOST_EMPTY = 64
 """Values that no byte of a message stands for."""
 _DEEPEST = 50
 _UNREADABLE = {"wstring", "wchar", "float128", "fixed"}
-_DUMMY = "structure_needs_at_least_one_member"
+DUMMY = "structure_needs_at_least_one_member"
+"""The field of types without fields, of which ROS 1 writes nothing."""
 _TYPE = re.compile(r"[A-Za-z]\w*(?:/[A-Za-z]\w*)+", re.ASCII)
 _WORD = re.compile(r"[A-Za-z]\w*", re.ASCII)
 
@@ -56,7 +57,7 @@ class TypeDefinition:
     @property
     def is_empty(self) -> bool:
         """Whether it has no field but the dummy that rosidl adds."""
-        return all(field == _DUMMY for field, _ in self.types[self.name])
+        return all(field == DUMMY for field, _ in self.types[self.name])
 
 
 def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:

@@ -1,15 +1,16 @@
-"""The functions that read a type, as rosbags generates them."""
+"""The functions that read types, each made when it is first needed."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Mapping
 from threading import Lock
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
+
+from sambot_viz.messages.flat_types import leaves_of
+from sambot_viz.messages.reader_code import ReaderCode
+from sambot_viz.messages.rows import ArrayReader, Read
 
 if TYPE_CHECKING:
-    from rosbags.interfaces.typing import Fielddefs
-
     from sambot_viz.messages.definition import Types
 
 # rosbags' generated module lies in sys.modules while its dataclasses are made.
@@ -17,49 +18,35 @@ _register_lock = Lock()
 
 
 class Functions:
-    """The functions of types, each made when it is first asked for.
+    """The functions that read the types of one definition, written in one way.
 
-    rosbags' own store makes fourteen for each type, of which reading needs one.
+    Args:
+        types: all that the definition needs.
+        order: of the bytes, "<" or ">".
+        aligned: whether fields are aligned to their size, as in CDR and not in ROS 1.
+
+    Attributes:
+        types: as given; so are `order` and `aligned`.
+        classes: of the objects, by the names of their types.
     """
 
-    def __init__(self, types: Types) -> None:
+    def __init__(self, types: Types, order: str, aligned: bool) -> None:
         from rosbags.typesys.store import Typestore
 
         store = Typestore()
         with _register_lock:
             store.register({name: ([], fields) for name, fields in types.items()})
-        self._types = {
-            name: _TypeFunctions(store.types[name], fields, self)
-            for name, (_, fields) in store.fielddefs.items()
-        }
+        self.types, self.order, self.aligned = types, order, aligned
+        self.classes: Mapping[str, type] = {name: store.types[name] for name in types}
+        self._made: dict[str, Read] = {}
 
-    def get_msgdef(self, name: str) -> _TypeFunctions:
-        """Return those of a type; rosbags' generated code asks with this name."""
-        return self._types[name]
+    def reader(self, name: str) -> Read:
+        """Return what reads a type."""
+        if (known := self._made.get(name)) is None:
+            known = self._made[name] = ReaderCode(self).function(name)
+        return known
 
-
-@dataclass
-class _TypeFunctions:
-    """What generated code asks for, with rosbags' names."""
-
-    cls: type
-    fields: Fielddefs
-    _all: Functions = field(repr=False)
-
-    @cached_property
-    def deserialize_cdr_le(self) -> Any:
-        from rosbags.serde.cdr import generate_deserialize_cdr
-
-        return generate_deserialize_cdr(self.fields, cast("Any", self._all), "le")
-
-    @cached_property
-    def deserialize_cdr_be(self) -> Any:
-        from rosbags.serde.cdr import generate_deserialize_cdr
-
-        return generate_deserialize_cdr(self.fields, cast("Any", self._all), "be")
-
-    @cached_property
-    def deserialize_ros1(self) -> Any:
-        from rosbags.serde.ros1 import generate_deserialize_ros1
-
-        return generate_deserialize_ros1(self.fields, cast("Any", self._all))
+    def array_reader(self, name: str) -> ArrayReader:
+        """Return what reads arrays of a type."""
+        leaves = leaves_of(name, self.types)
+        return ArrayReader(self.reader(name), leaves, self.order, self.aligned)
