@@ -81,7 +81,7 @@ def draw_lines(node: RibbonNode, one: Shown) -> None:
     wxyz, position = one.place.of(marker.pose)
     node.draw(
         points_of(marker),
-        float(marker.scale.x),
+        abs(float(marker.scale.x)),
         rgba_of(marker.colors) if own else np.array(rgb_of(marker.color)),
         counts=[2] * (count // 2) if int(marker.type) == LINE_LIST else None,
         alpha=1.0 if own else alpha_of(marker.color),
