@@ -28,9 +28,18 @@ def display_table() -> str:
         "",
         "Made from the declarations in the code. All other displays and keys of a "
         "file are kept when it is saved.",
+        "",
+        "What is drawn is compared with pictures of RViz (`tests/golden`). Outlines "
+        "are within a pixel of those of RViz for ROS 1, and within two of those of "
+        "RViz 2's own tests, for 97 % of their length or more; colours of flat "
+        "patches are within 8 of 255. Lines of one pixel are smoothed otherwise, and "
+        "letters are 3.7 % larger than those of RViz for ROS 1, as in RViz 2. What "
+        "else differs is said of each display.",
     ]
     for kind, display in sorted(DISPLAYS.items()):
         lines += ["", f"## {kind.rpartition('/')[2]}", "", display.help]
+        if display.differs:
+            lines += ["", display.differs]
         rows = list(_rows(display.properties, ""))
         if rows:
             lines += [

@@ -240,6 +240,7 @@ class Display:
     Attributes:
         kind: the ROS 2 class id, such as "rviz_default_plugins/Grid".
         help: one sentence for the list of displays.
+        differs: what RViz draws otherwise, for docs/displays.md.
         properties: the declaration of everything a user can set.
         config: this display in the document: name, enabled, values.
         status: the rows RViz shows under "Status".
@@ -248,6 +249,7 @@ class Display:
 
     kind: ClassVar[str]
     help: ClassVar[str]
+    differs: ClassVar[str] = ""
     properties: ClassVar[tuple[Property, ...]]
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

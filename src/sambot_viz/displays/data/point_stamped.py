@@ -23,6 +23,7 @@ class PointStampedDisplay(KeptSolidsDisplay):
 
     kind = "rviz_default_plugins/PointStamped"
     help = "A single point."
+    differs = "RViz for ROS 1 draws the ball twice as large."
     types = frozenset({"geometry_msgs/msg/PointStamped"})
     length = "History Length"
     properties = (

@@ -57,6 +57,10 @@ class RobotModelDisplay(TriangleDisplay):
 
     kind = "rviz_default_plugins/RobotModel"
     help = "A robot, posed by its joints."
+    differs = (
+        "Where a mesh has a second texture, such as one for its bumps, RViz multiplies "
+        "its colours by themselves; here they are those of the file."
+    )
     properties = ROBOT_MODEL_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

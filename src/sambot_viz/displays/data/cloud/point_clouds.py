@@ -15,6 +15,12 @@ class PointCloud2Display(CloudDisplay):
 
     kind = "rviz_default_plugins/PointCloud2"
     help = "Points, such as those of a 3D scanner."
+    differs = (
+        "Squares turn with the y axis of their cloud, as in RViz where it has no "
+        "geometry shaders; else RViz keeps them upright on the screen. Of points that "
+        "overlap in a plane the later one is in front, but for one of 64, which "
+        "rounding decides. So it is in all displays of points."
+    )
     types = frozenset({"sensor_msgs/msg/PointCloud2"})
 
     def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
