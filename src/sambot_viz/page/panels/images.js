@@ -53,6 +53,7 @@ function Camera({ id }) {
   const none = broken ? "The browser cannot read this picture" : row?.value || "No image";
   return html`<section class="camera" aria-label=${row?.name}>
     <header class="title">${row?.name}<span class="size">${size}</span></header>
+    ${size && row?.value && html`<p class="doubt">${row.value}</p>`}
     <div class="picture" ref=${place}>
       <canvas role="img" aria-label=${`Picture of ${row?.name}`} hidden=${!size}></canvas>
       ${!size && html`<p>${none}</p>`}

@@ -214,6 +214,7 @@ function hide(displays, helpers, names) {
   // All names are one object.
   const tree = /** @type {any} */ (window).__viserSceneTree?.getState() || {};
   if (
+    displays.size &&
     Object.entries(tree).some(
       ([name, node]) =>
         /** @type {any} */ (node)?.message.type === "LabelMessage" && displays.has(owner(name)),
