@@ -39,6 +39,7 @@ SIZE = """(() => {
   const { width, height } = document.querySelector(".camera canvas");
   return [width, height];
 })()"""
+DOUBT = "(document.querySelector('.camera .doubt')?.textContent || '')"
 DRAWN = "window.sambotVizLook?.cameras > 0"
 TAB = "document.querySelector('[data-tab=NAME]').click()"
 PLUGIN = "rviz_default_plugins"
@@ -53,6 +54,7 @@ def viz(tmp_path: Path, make_viz: Callable[..., Visualizer]) -> Visualizer:
         info("/camera_info", (FX, FY, CX, CY), (WIDTH, HEIGHT)),
         cube("/cube", CENTER, EDGE),
         image("/image", "rgb8", grey),
+        image("/alone/image", "rgb8", grey),
     )
     marker = {"Class": f"{PLUGIN}/Marker", "Name": "Cube", "Topic": {"Value": "/cube"}}
     camera = {
@@ -156,6 +158,10 @@ def test_settings_and_other_displays_change_the_picture(
     looked.until(middle, GREY)
     edits.set_property(camera, "Image Rendering", "overlay")
     looked.until(middle, (64, 64, 64))
+    # Without the numbers of the camera there is its image, and why.
+    edits.set_property(camera, "Topic", "/alone/image")
+    looked.page.wait_for(f"{SIZE}[0] === {WIDTH}")
+    looked.page.wait_for(f"{DOUBT}.includes('received on [/alone/camera_info]')")
 
 
 def test_a_picture_that_nobody_sees_is_not_drawn(
