@@ -36,6 +36,7 @@ from sambot_viz.displays.data.interactive_markers.controls import controls_of
 from sambot_viz.displays.data.interactive_markers.handles import handles
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import IDENTITY
+from sambot_viz.tools.picking.pick_scene import PickSnapshot
 
 Open = Callable[..., Any]
 NAMESPACE = "Interactive Markers Namespace"
@@ -381,6 +382,27 @@ def test_a_pose_moves_one_node_and_makes_none(shown: Open) -> None:
     assert root(opened).position[0] == 2.0
     assert before == {name: id(handle_of(opened, name)) for name in before}
     assert set(opened.node_names()) == set(before)
+
+
+def test_rays_meet_what_is_always_visible(shown: Open) -> None:
+    def boxed(types: Any, name: str, always: bool, **values: Any) -> object:
+        box = [cube(types, scale=(1.0, 1.0, 1.0))]
+        controls = [control(types, markers=box, always=always)]
+        return marker(types, name, controls=controls, **values)
+
+    opened = shown(
+        update(
+            lambda t: boxed(t, "a", True, x=2.0, frame="moving"),
+            lambda t: boxed(t, "b", False, x=-3.0),
+        )
+    )
+    add_frame(opened, "moving", (1.0, 0.0, 0.0))
+    snapshot = PickSnapshot((opened.display.pick_geometry(),))
+    down = np.array((0.0, 0.0, -1.0))
+    hit = snapshot.first_hit(np.array((3.0, 0.0, 9.0)), down, 0.001)
+    assert hit.point == pytest.approx((3.0, 0.0, 0.5))
+    # A tool that clicks hides the other one.
+    assert snapshot.first_hit(np.array((-3.0, 0.0, 9.0)), down, 0.001).point is None
 
 
 # What is refused

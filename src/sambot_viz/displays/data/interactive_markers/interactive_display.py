@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
@@ -13,6 +13,7 @@ from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
 from sambot_viz.displays.display import DisplayContext, Status
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
 from sambot_viz.rviz import BoolProperty, DisplayConfig, StringProperty
@@ -182,6 +183,10 @@ class InteractiveMarkersDisplay(TopicDisplay):
         for pose in message.poses:
             self._markers.move(pose)
         self._markers.erase(str(name) for name in message.erases)
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield what tools that click can see: controls that are always visible."""
+        yield from self._markers.placed()
 
     def redraw(self) -> None:
         """Draw what was taken again, with other properties or other frames."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,7 @@ from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.nodes import Key, Shown
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.scene.nodes import short_id
 from sambot_viz.frames import LookupRefused
 
@@ -174,6 +175,16 @@ class InteractiveMarkers:
         return InteractiveMarkerNodes(self._context.scene, name)
 
     # What is drawn
+
+    def placed(self) -> Iterator[Placed]:
+        """Yield what is visible with every tool, for rays; nothing can be selected."""
+        self._nodes.poses = {
+            known.nodes.path(group): T_fixed_group
+            for known in self.known.values()
+            if known.drawn is not None
+            for group, T_fixed_group in known.visible_groups(self._context)
+        }
+        yield from self._nodes.placed(self._shown, lambda _: None)
 
     def draw(self, options: ShowOptions) -> None:
         """Draw what has changed, and what had no place."""

@@ -25,9 +25,10 @@ from sambot_viz.displays.data.interactive_markers.marker_nodes import (
 from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.message_numbers import point_of, wxyz_of
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.frames import Transform
+from sambot_viz.frames import LookupRefused, Transform
 from sambot_viz.geometry import (
     IDENTITY,
+    Matrix,
     Vector3,
     Wxyz,
     rotation_from_xyzw,
@@ -132,6 +133,24 @@ class KnownMarker:
 
     # Its controls
 
+    def visible_groups(self, context: DisplayContext) -> Iterator[tuple[Group, Matrix]]:
+        """Yield groups that any tool shows and the view does not turn, T_fixed_group.
+
+        Args:
+            context: has the frames.
+        """
+        try:
+            _, wxyz, position = self.place(context)
+        except LookupRefused:
+            return
+        T_fixed_above = context.pose(self.frame) if self.is_locked else np.eye(4)
+        groups = dict.fromkeys(part.group for part in self._parts or ())
+        for group in groups:
+            if T_fixed_above is not None and group.is_always:
+                if group.turning != VIEW_FACING:
+                    turn = wxyz if group.turning == INHERIT else IDENTITY
+                    yield group, T_fixed_above @ _matrix(turn, position)
+
     def parts(
         self, context: DisplayContext, *, transparency: bool
     ) -> Sequence[ControlPart]:
@@ -180,7 +199,7 @@ class KnownMarker:
         return context.tree.lookup(target, marker.frame, marker.stamp_ns)
 
 
-def _matrix(wxyz: Wxyz, position: Vector3 = (0.0, 0.0, 0.0)) -> Any:
+def _matrix(wxyz: Wxyz, position: Vector3 = (0.0, 0.0, 0.0)) -> Matrix:
     w, x, y, z = wxyz
     matrix = np.eye(4)
     matrix[:3, :3] = rotation_from_xyzw((x, y, z, w))

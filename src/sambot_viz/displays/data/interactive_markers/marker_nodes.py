@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
 
 import viser
 
@@ -16,7 +17,7 @@ from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb
 from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.displays.scene.solid_nodes import AxesNode
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 
 AXES_DIAMETER = 0.05
 """Of the axes of a marker, by their length."""
@@ -133,7 +134,17 @@ class InteractiveMarkerNodes:
 
 
 class ControlNodes(MarkerNodes):
-    """The markers of controls; the `frame` of each is the node that it hangs below."""
+    """The markers of controls; the `frame` of each is the node that it hangs below.
+
+    Attributes:
+        poses: those nodes in the fixed frame, T_fixed_group, by their names, as far as
+            rays may meet what is below them.
+    """
+
+    poses: Mapping[str, Matrix] = MappingProxyType({})
 
     def _above(self, one: Shown) -> str | None:
         return one.frame
+
+    def _pose_above(self, frame: str | None) -> Matrix | None:
+        return None if frame is None else self.poses.get(frame)

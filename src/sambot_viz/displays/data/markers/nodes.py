@@ -120,20 +120,20 @@ class MarkerNodes:
             self._draw_single(key, one, above, finder)
 
     def placed(
-        self, shown: Mapping[Key, Shown], item_of: Callable[[Key], Selectable]
+        self, shown: Mapping[Key, Shown], item_of: Callable[[Key], Selectable | None]
     ) -> Iterator[Placed]:
         """Yield all markers for rays.
 
         Args:
             shown: the markers.
-            item_of: what each is to a selection.
+            item_of: what each is to a selection; None for nothing.
         """
         poses: dict[str | None, Matrix | None] = {}
 
         def above(key: Key) -> Matrix | None:
             frame = shown[key].frame
             if frame not in poses:
-                poses[frame] = self._context.pose(frame)
+                poses[frame] = self._pose_above(frame)
             return poses[frame]
 
         for batch in self._batches.values():
@@ -146,6 +146,10 @@ class MarkerNodes:
             T_fixed_above = above(key)
             if T_fixed_above is not None:
                 yield from node.placed(T_fixed_above, item_of(key))
+
+    def _pose_above(self, frame: str | None) -> Matrix | None:
+        """Return the pose of the node above, T_fixed_above; None where it has none."""
+        return self._context.pose(frame)
 
     def remove(self) -> None:
         """Take everything out of the scene."""
