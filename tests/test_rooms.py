@@ -430,7 +430,7 @@ HOLDERS = {
     "scripting/player.py",
     "server/client_sessions.py",
     "server/places.py",
-    "server/reload/reloader.py",
+    "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",
 }

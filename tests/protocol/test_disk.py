@@ -13,7 +13,7 @@ from inside import session_of
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.server import connection
+from sambot_viz.server.connections import connection
 
 Connect = Callable[..., ProtocolClient]
 

@@ -15,7 +15,7 @@ from protocol_client import ProtocolClient
 from troublemakers import garbage, garbage_edit
 
 from sambot_viz import Visualizer, bundled, viser_private
-from sambot_viz.server import connection
+from sambot_viz.server.connections import connection
 
 Connect = Callable[..., ProtocolClient]
 LEFT = "drivewhl_l_joint"

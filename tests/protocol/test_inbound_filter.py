@@ -18,8 +18,7 @@ from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer
-from sambot_viz.server import connection
-from sambot_viz.server.outgoing import client_writer
+from sambot_viz.server.connections import client_writer, connection
 from sambot_viz.server.protection import inbound_filter
 from sambot_viz.session.clients.camera import ClientCamera
 

@@ -25,10 +25,11 @@ from websockets.typing import Origin, Subprotocol
 
 from sambot_viz import Visualizer, viser_private
 from sambot_viz.panels.row_store import ClientRows, RowStore
-from sambot_viz.server import connection, tickets
+from sambot_viz.server import tickets
 from sambot_viz.server.channel import PING, PONG, SUBPROTOCOL, Channel
-from sambot_viz.server.connection import ClientContext, Connection
-from sambot_viz.server.protection import inbound_filter, rate_limit
+from sambot_viz.server.connections import connection, rate_limit
+from sambot_viz.server.connections.connection import ClientContext, Connection
+from sambot_viz.server.protection import inbound_filter
 from sambot_viz.server.protection.inbound_filter import NoSessions
 from sambot_viz.server.tickets import CLIENT_LEFT, PAGE_LEFT, Channels
 

@@ -9,8 +9,8 @@ from typing import Any, cast
 
 import pytest
 
-from sambot_viz.server.outgoing import client_writer
-from sambot_viz.server.outgoing.client_writer import PIECE, ClientWriter
+from sambot_viz.server.connections import client_writer
+from sambot_viz.server.connections.client_writer import PIECE, ClientWriter
 
 
 class Line:

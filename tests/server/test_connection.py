@@ -13,7 +13,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server.connection import SMALL_FRAMES_AT_ONCE
+from sambot_viz.server.connections.connection import SMALL_FRAMES_AT_ONCE
 from sambot_viz.server.listener import listen
 from sambot_viz.server.protection import inbound_filter
 

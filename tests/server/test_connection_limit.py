@@ -15,8 +15,8 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
+from sambot_viz.server.connections import connection_limit
 from sambot_viz.server.listener import listen
-from sambot_viz.server.protection import connection_limit
 
 MOST = 3
 PRESENTER = "teach-the-class"

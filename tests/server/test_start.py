@@ -21,8 +21,8 @@ from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
 from sambot_viz.server import listener
+from sambot_viz.server.connections.client_writer import ClientWriter
 from sambot_viz.server.outgoing import outbox
-from sambot_viz.server.outgoing.client_writer import ClientWriter
 from sambot_viz.server.protection import inbound_filter
 
 Early = Callable[[viser.ViserServer], object]

@@ -19,8 +19,8 @@ from protocol_client import ProtocolClient
 from sambot_viz import Visualizer, bundled
 from sambot_viz.errors import Problem
 from sambot_viz.files import Stamp
-from sambot_viz.server.reload import watch
-from sambot_viz.server.reload.watch import FileWatcher, Watched
+from sambot_viz.server import watch
+from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
 

@@ -32,7 +32,7 @@ from recorded_page import RecordedPage
 
 from sambot_viz import Visualizer, viser_private
 from sambot_viz.export.devtools import BrowserError
-from sambot_viz.server.connection import ClientContext
+from sambot_viz.server.connections.connection import ClientContext
 from sambot_viz.session.clients.client_view import READ_PERIOD
 
 _HAS_READ = """(() => {

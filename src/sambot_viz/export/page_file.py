@@ -17,7 +17,7 @@ from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.export.recorded_scene import PERIOD, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import sweep
-from sambot_viz.server.page_files import page_of_viser
+from sambot_viz.server.connections.page_files import page_of_viser
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.robot_framing import Size, window_of
 from sambot_viz.session.document.document_view import (

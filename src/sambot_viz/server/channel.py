@@ -26,9 +26,9 @@ from websockets.protocol import State
 
 from sambot_viz.panels import validation
 from sambot_viz.panels.row_store import ClientRows
-from sambot_viz.server.connection import Connection
+from sambot_viz.server.connections.connection import Connection
+from sambot_viz.server.connections.rate_limit import InFlightLimit
 from sambot_viz.server.protection.inbound_filter import ClientHandler, report
-from sambot_viz.server.protection.rate_limit import InFlightLimit
 
 SUBPROTOCOL = "sambot-viz-1"
 """Another number: an older page cannot talk to this server."""

@@ -16,7 +16,7 @@ from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.panels.window import Window
-from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.links import invite
 from sambot_viz.server.places import SessionPlace
 from sambot_viz.server.sessions import Sessions

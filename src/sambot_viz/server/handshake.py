@@ -22,11 +22,11 @@ from websockets.http11 import Request, Response
 from websockets.protocol import State
 
 from sambot_viz.options import Options
-from sambot_viz.server import page_files
 from sambot_viz.server.channel import SUBPROTOCOL
-from sambot_viz.server.connection import ClientContext, Connection
+from sambot_viz.server.connections import page_files
+from sambot_viz.server.connections.connection import ClientContext, Connection
+from sambot_viz.server.connections.connection_limit import ConnectionLimiter
 from sambot_viz.server.protection import access
-from sambot_viz.server.protection.connection_limit import ConnectionLimiter
 from sambot_viz.server.protection.token_check import Knows, TokenCheck
 from sambot_viz.server.tickets import Channels
 

@@ -20,7 +20,7 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import handshake
-from sambot_viz.server.connection import Connection
+from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.protection.inbound_filter import (
     CLOSE_TIME,

@@ -16,7 +16,7 @@ from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.live_model import LiveModel
 from sambot_viz.server.model_thread import ModelThread
-from sambot_viz.server.reload.reloader import Reloader
+from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.config_file import take_root
 from sambot_viz.topics.live_robot import LiveRobot

@@ -19,8 +19,8 @@ from websockets.protocol import State
 
 from sambot_viz.panels.row_store import ClientRows
 from sambot_viz.server.channel import Channel
-from sambot_viz.server.connection import Connection
-from sambot_viz.server.page_files import plain_page
+from sambot_viz.server.connections.connection import Connection
+from sambot_viz.server.connections.page_files import plain_page
 from sambot_viz.server.protection.inbound_filter import (
     CLOSE_TIME,
     ClientHandler,

@@ -17,7 +17,7 @@ from typing import Any, cast
 import viser
 
 from sambot_viz import viser_private
-from sambot_viz.server.connection import Connection
+from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.outgoing.frame_cache import HEAVY, Batch, FrameCache, weight
 from sambot_viz.server.outgoing.news import News
 

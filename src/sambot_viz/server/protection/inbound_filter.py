@@ -29,7 +29,8 @@ from websockets.protocol import State
 
 from sambot_viz import viser_private
 from sambot_viz.panels.row_store import ClientRows
-from sambot_viz.server.connection import Connection
+from sambot_viz.server.connections.connection import Connection
+from sambot_viz.server.connections.rate_limit import InFlightLimit
 from sambot_viz.server.protection.client_messages import (
     CameraMoved,
     ClientMessage,
@@ -37,7 +38,6 @@ from sambot_viz.server.protection.client_messages import (
     SetValue,
     decode,
 )
-from sambot_viz.server.protection.rate_limit import InFlightLimit
 
 LARGEST_MESSAGE = 64 * 1024
 """A connection that sends a longer message is closed [bytes]."""

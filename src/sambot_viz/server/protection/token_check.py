@@ -22,7 +22,7 @@ from urllib.parse import parse_qsl, quote, urlencode
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from sambot_viz.server.page_files import is_websocket, plain_page
+from sambot_viz.server.connections.page_files import is_websocket, plain_page
 
 WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""

@@ -15,7 +15,7 @@ import http
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Response
 
-from sambot_viz.server.page_files import plain_page
+from sambot_viz.server.connections.page_files import plain_page
 
 MOST_PAGES = 200
 """So many pages may be open."""

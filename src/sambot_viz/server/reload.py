@@ -20,8 +20,8 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import Sources
-from sambot_viz.server.reload.watch import FileWatcher, Watched
 from sambot_viz.server.sessions import Sessions
+from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 
 _log = logging.getLogger(__name__)

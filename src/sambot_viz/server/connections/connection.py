@@ -13,9 +13,9 @@ from websockets.frames import CTRL_OPCODES, Frame, Opcode
 from websockets.protocol import State
 from websockets.typing import Data
 
-from sambot_viz.server.outgoing.client_writer import ClientWriter
-from sambot_viz.server.protection.connection_limit import ConnectionLimiter
-from sambot_viz.server.protection.rate_limit import TokenBucket
+from sambot_viz.server.connections.client_writer import ClientWriter
+from sambot_viz.server.connections.connection_limit import ConnectionLimiter
+from sambot_viz.server.connections.rate_limit import TokenBucket
 
 MESSAGES_PER_SECOND = 300.0
 """A user with a mouse sends about 110: 60 values and 50 cameras."""

@@ -1,1 +1,0 @@
-"""Read models and configs again when they are saved."""
