@@ -81,6 +81,7 @@ def to_glb(
     rgba: Rgba | None = None,
     alpha: float = 1.0,
     two_sided: bool = False,
+    blended: bool = False,
     over: Rgba | None = None,
 ) -> bytes:
     """Return a GLB file that a browser shows as RViz shows the part.
@@ -95,6 +96,7 @@ def to_glb(
             where neither says anything.
         alpha: multiplies the colour's own; below 0.9998 the result is blended.
         two_sided: back faces are not culled.
+        blended: the alpha of the texture counts.
         over: a colour in which the part is drawn once more, on top, without a texture.
     """
     numbers = _Numbers()
@@ -119,7 +121,8 @@ def to_glb(
         "material": 0,
     }
     primitives = [primitive]
-    materials = [_material(part, rgba, alpha) | {"doubleSided": two_sided}]
+    material = _material(part, rgba, alpha) | {"doubleSided": two_sided}
+    materials = [material | {"alphaMode": "BLEND"} if blended else material]
     if over is not None:
         primitives.append({**primitive, "material": 1})
         materials.append(_material(replace(part, texture=None), over, 1.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from inside import session_of
+from PIL import Image
 
 from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
 from sambot_viz.displays.data.markers.textures import has_texture
@@ -151,6 +153,20 @@ def test_triangles_have_the_picture_that_they_bring(
     node = shown.viz.viser.scene._handle_from_node_name[name]  # pyright: ignore[reportPrivateUsage]
     assert ONE_PIXEL in node.glb_data
     assert {level for level, _ in shown.statuses.values()} == {"Ok"}
+
+
+def test_where_the_picture_of_triangles_is_clear_it_is_blended(
+    messages: Open,
+) -> None:
+    for mode, blended in (("RGB", False), ("RGBA", True)):
+        file = io.BytesIO()
+        Image.new(mode, (2, 2)).save(file, "PNG")
+        shown = messages(
+            "Marker", marker(0, kind=TRIANGLES, points=3, image=file.getvalue())
+        )
+        (name,) = shown.node_names()
+        node = shown.viz.viser.scene._handle_from_node_name[name]  # pyright: ignore[reportPrivateUsage]
+        assert (b'"BLEND"' in node.glb_data) is blended
 
 
 def test_triangles_with_too_few_colours_are_lit_in_one(messages: Open) -> None:

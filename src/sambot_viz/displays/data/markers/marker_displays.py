@@ -54,7 +54,7 @@ class MarkerDisplay(MessageFilterDisplay):
     help = "Shapes and texts that a program draws."
     differs = (
         "Dark colours of solids are up to 6 of 255 off, as they have 8 bits in linear "
-        "light. The picture of triangles is opaque where it has an alpha of its own."
+        "light."
     )
     types = frozenset({"visualization_msgs/msg/Marker"})
     properties: ClassVar[tuple[Property, ...]] = (

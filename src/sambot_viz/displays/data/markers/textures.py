@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,14 @@ def texture_of(marker: Any) -> Texture:
         TextureError: it is no picture, or a broken one.
     """
     return _pictures.from_bytes(np.asarray(marker.texture.data, np.uint8).tobytes())
+
+
+def is_clear(texture: Texture) -> bool:
+    """Return whether one can see through parts of a picture."""
+    from PIL import Image
+
+    image: Image.Image = Image.open(io.BytesIO(texture.data))
+    return "A" in image.getbands() or "transparency" in image.info
 
 
 def uv_of(marker: Any) -> npt.NDArray[np.float32]:

@@ -17,6 +17,7 @@ from sambot_viz.displays.data.markers.fields import (
 )
 from sambot_viz.displays.data.markers.textures import (
     has_texture,
+    is_clear,
     texture_of,
     uv_of,
 )
@@ -180,12 +181,13 @@ class TrianglesNode:
             self._draw_plain(at, faces, look, wxyz, position)
             return
         self._plain.remove()
-        part = MeshPart(at, faces, uv=look.uv, texture=look.texture)
+        texture = look.texture
+        part = MeshPart(at, faces, uv=look.uv, texture=texture)
         red, green, blue = (c / 255 for c in look.color)
         rgba = (red, green, blue, look.alpha)
         self._textured.show(
-            (at, look.uv, look.texture.data, rgba, look.is_mirrored),
-            lambda: to_glb(part, rgba=rgba, two_sided=True),
+            (at, look.uv, texture.data, rgba, look.is_mirrored),
+            lambda: to_glb(part, rgba=rgba, two_sided=True, blended=is_clear(texture)),
             wxyz,
             position,
         )
