@@ -12,8 +12,8 @@ from sambot_viz.geometry import Vector3, Wxyz
 
 
 def position_text(position: Sequence[float]) -> str:
-    """Return a position [m]."""
-    return f"{numbers(position)} m"
+    """Return a position [m], without what is less than a micrometre."""
+    return f"{numbers([round(value, 6) for value in position])} m"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,7 +20,7 @@ SHOWN = 30
 SHORT = 3
 """The rows of so many items, or more, come folded."""
 IN_TABLE = 10
-"""At most this many items are in the table of distances."""
+"""At most this many items are in the table of distances; more points have none."""
 _FRAME = TfFrameProperty(
     "Relative to",
     default=FIXED_FRAME,
@@ -117,7 +117,8 @@ class SelectionPanel(Panel):
         """Yield how far two items are apart, or a table of more of them."""
         if len(entries) == 2:
             yield from _fact_rows("apart", "", self._entries.apart(*entries))
-        if len(entries) < SHORT:
+        is_data = any(one.position is not None for one in entries)
+        if len(entries) < SHORT or (is_data and count > IN_TABLE):
             return
         yield Row("apart", "", "group", "Distances [m]", expanded=True)
         # A link and its frame are at one place.
@@ -132,10 +133,10 @@ class SelectionPanel(Panel):
     def _table(self, entries: Sequence[SelectedEntry]) -> str:
         """Return the distances of all pairs [m], the columns by number."""
         width = max(len(one.name) for one in entries)
-        heads = [f"{number:>7}" for number in range(1, len(entries) + 1)]
+        heads = [f"{number:>8}" for number in range(1, len(entries) + 1)]
         lines = [" " * (width + 3) + "".join(heads)]
         for number, one in enumerate(entries, 1):
-            parts = [f"{self._entries.length(one, other):>7}" for other in entries]
+            parts = [f"{self._entries.length(one, other):>8}" for other in entries]
             lines.append(f"{number:>2} {one.name:<{width}}{''.join(parts)}")
         return "\n".join(lines)
 
