@@ -170,6 +170,13 @@ def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
     return (w / norm, x / norm, y / norm, z / norm)
 
 
+def unit_wxyzs(wxyzs: Matrix) -> Matrix:
+    """Return quaternions (N, 4) as `unit_wxyz` does, each by itself."""
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        norms = np.sqrt((wxyzs * wxyzs).sum(axis=1, keepdims=True))
+        return np.where((norms > 0.0) & (norms < np.inf), wxyzs / norms, IDENTITY)
+
+
 def wxyz_product(a: Wxyz, b: Wxyz) -> Wxyz:
     """Return the rotation b followed by the rotation a, both (w, x, y, z)."""
     x, y, z, w = xyzw_product((*a[1:], a[0]), (*b[1:], b[0]))

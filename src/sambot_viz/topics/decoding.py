@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from operator import attrgetter
 from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.messages import MessageTypes, TransformDecoder
+from sambot_viz.messages import MessageTypes, Rows, TransformDecoder
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.transforms import Transforms
 
@@ -69,3 +74,17 @@ def frame_and_stamp(message: Any) -> tuple[str, int | None]:
         return plain_name(str(header.frame_id)), stamp or None
     except AttributeError:
         raise DecodeError("it has no header") from None
+
+
+def numbers_of(elements: Sequence[Any], *paths: str) -> npt.NDArray[np.float64]:
+    """Return fields of all elements of an array, (N, number of paths).
+
+    Args:
+        elements: of a message.
+        paths: of the fields, such as "pose.position.x".
+    """
+    if isinstance(elements, Rows):
+        return elements.numbers(*paths)
+    get = attrgetter(*paths)
+    found = np.array([get(one) for one in elements], np.float64)
+    return np.reshape(found, (-1, len(paths)))

@@ -12,7 +12,8 @@ import numpy.typing as npt
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
-from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz
+from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz, unit_wxyzs
+from sambot_viz.topics.decoding import numbers_of
 
 Floats = npt.NDArray[np.float64]
 MOST_POSES = 100_000
@@ -57,23 +58,29 @@ def vector_of(vector: Any, *, nan_is_zero: bool = False) -> Vector3:
     return (values[0], values[1], values[2])
 
 
-def points_of(points: Any) -> Floats:
+def points_of(points: Any, path: str = "") -> Floats:
     """Return geometry_msgs/Points, (N, 3) [m].
+
+    Args:
+        points: an array of them, or of what has them.
+        path: before the names of their fields, such as "pose.position.".
 
     Raises:
         MessageRefused: one is not finite, or there are too many.
     """
     require_few(len(points))
-    found = coordinates_of(points)
-    if not np.isfinite(found).all():
-        raise MessageRefused(INVALID_FLOATS, TOPIC)
-    return found
+    return _finite(coordinates_of(points, path))
 
 
-def coordinates_of(points: Any) -> Floats:
+def coordinates_of(points: Any, path: str = "") -> Floats:
     """Return geometry_msgs/Points, (N, 3) [m], which need not be finite."""
-    values = (value for point in points for value in (point.x, point.y, point.z))
-    return np.reshape(np.fromiter(values, np.float64, 3 * len(points)), (-1, 3))
+    return numbers_of(points, *(path + axis for axis in "xyz"))
+
+
+def _finite(numbers: Floats) -> Floats:
+    if not np.isfinite(numbers).all():
+        raise MessageRefused(INVALID_FLOATS, TOPIC)
+    return numbers
 
 
 def wxyz_of(quaternion: Any) -> Wxyz:
@@ -92,16 +99,19 @@ def wxyz_of(quaternion: Any) -> Wxyz:
     return unit_wxyz(found)
 
 
-def poses_of(poses: Any) -> tuple[Floats, Floats]:
+def poses_of(poses: Any, path: str = "") -> tuple[Floats, Floats]:
     """Return the rotations w, x, y, z, (N, 4), and positions, (N, 3) [m], of poses.
+
+    Args:
+        poses: an array of them, or of what has them.
+        path: before the names of their fields, such as "pose.".
 
     Raises:
         MessageRefused: one is not finite, or there are too many.
     """
     require_few(len(poses))
-    turns = np.array([wxyz_of(pose.orientation) for pose in poses], np.float64)
-    places = points_of([pose.position for pose in poses])
-    return (turns if len(turns) else np.zeros((0, 4))), places
+    turns = _finite(numbers_of(poses, *(f"{path}orientation.{one}" for one in "wxyz")))
+    return unit_wxyzs(turns), points_of(poses, f"{path}position.")
 
 
 def covariance_of(pose: Any) -> Floats:

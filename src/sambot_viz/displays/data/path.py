@@ -136,7 +136,7 @@ class PathDisplay(KeptMessagesDisplay):
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Take a path; the oldest one that is too many goes."""
-        turns, points = poses_of([one.pose for one in message.poses])
+        turns, points = poses_of(message.poses, "pose.")
         T = T_fixed_frame.matrix
         # The nodes of a path that goes are used again.
         if len(self._paths) >= self.most:

@@ -135,10 +135,11 @@ def rgba_rows(color: npt.ArrayLike, alpha: float, count: int) -> npt.NDArray[np.
         count: of vertices.
     """
     given = np.asarray(color, np.float64)
-    rows = np.full((count, 4), 255.0)
+    rows = np.full((count if given.ndim > 1 else 1, 4), 255.0)
     rows[:, : given.shape[-1]] = given
     rows[:, 3] *= alpha
-    return np.round(rows).clip(0, 255).astype(np.uint8)
+    each = np.round(rows).clip(0, 255).astype(np.uint8)
+    return each if given.ndim > 1 else np.repeat(each, count, axis=0)
 
 
 def drawn_glb(

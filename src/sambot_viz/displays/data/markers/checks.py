@@ -7,9 +7,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from sambot_viz.displays.data.markers.textures import has_texture, texture_of
+from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.display import Level
 from sambot_viz.meshes.textures import TextureError
+from sambot_viz.topics.decoding import numbers_of
 
 (
     ARROW,
@@ -120,7 +124,7 @@ def _warnings(marker: Any, kind: int) -> Iterator[str]:
     if kind not in _WITH_POINTS or not marker.colors:
         if marker.color.a == 0.0 and not _has_own_colors(marker, kind):
             yield "Marker is fully transparent (color.a is 0.0)."
-    elif all(color.a == 0.0 for color in marker.colors) and kind != TRIANGLES:
+    elif kind != TRIANGLES and not numbers_of(marker.colors, "a").any():
         yield "All points are fully transparent (colors[].a is 0.0)."
     if kind not in (ARROW, *_WITH_POINTS) and len(marker.points):
         yield "Non-empty points array is ignored."
@@ -189,4 +193,5 @@ def _wrong_count(kind: int, count: int) -> Iterator[str]:
 
 
 def _all_finite(points: Sequence[Any]) -> bool:
-    return math.isfinite(sum(abs(p.x) + abs(p.y) + abs(p.z) for p in points))
+    with np.errstate(over="ignore"):
+        return bool(np.isfinite(np.abs(coordinates_of(points)).sum()))

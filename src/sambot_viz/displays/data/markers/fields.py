@@ -13,6 +13,7 @@ from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import IDENTITY, Vector3, Wxyz, unit_wxyz, wxyz_product
 from sambot_viz.meshes.glb import OPAQUE_FROM
+from sambot_viz.topics.decoding import numbers_of
 
 
 class MarkerPose:
@@ -71,8 +72,5 @@ def points_of(marker: Any) -> npt.NDArray[np.float32]:
 
 def rgba_of(colors: Any) -> npt.NDArray[np.uint8]:
     """Return colours with alpha, (N, 4), 0 to 255."""
-    flat = np.fromiter(
-        (v for c in colors for v in (c.r, c.g, c.b, c.a)), np.float64, 4 * len(colors)
-    )
-    scaled = np.nan_to_num(np.reshape(flat, (-1, 4)) * 255.0)
+    scaled = np.nan_to_num(numbers_of(colors, *"rgba") * 255.0)
     return np.round(scaled.clip(0, 255)).astype(np.uint8)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from sambot_viz.meshes.mesh import Texture
 from sambot_viz.meshes.textures import TextureStore
+from sambot_viz.topics.decoding import numbers_of
 
 _EMBEDDED = "embedded://"
 _pictures = TextureStore()
@@ -43,5 +44,5 @@ def is_clear(texture: Texture) -> bool:
 
 def uv_of(marker: Any) -> npt.NDArray[np.float32]:
     """Return the places in the picture, (N, 2), v upwards from its last row."""
-    given = [(uv.u, 1.0 - uv.v) for uv in marker.uv_coordinates]
-    return np.array(given, np.float32)
+    uv = numbers_of(marker.uv_coordinates, "u", "v")
+    return np.where([False, True], 1.0 - uv, uv).astype(np.float32)

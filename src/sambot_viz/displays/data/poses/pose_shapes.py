@@ -23,14 +23,8 @@ Floats = npt.NDArray[np.float64]
 ARROW, AXES = "Arrow", "Axes"
 FLAT_ARROW, SOLID_ARROW = "Arrow (Flat)", "Arrow (3D)"
 COLOR = (255, 25, 0)
-_FLAT = np.array(
-    [
-        [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)],
-        [(1.0, 0.0, 0.0), (0.75, 0.2, 0.0)],
-        [(1.0, 0.0, 0.0), (0.75, -0.2, 0.0)],
-    ]
-)
-"""The three lines of a flat arrow of length 1, each from its start to its end."""
+_FLAT = np.array([(1.0, 0.0, 0.0), (0.75, 0.2, 0.0), (0.75, -0.2, 0.0)])
+"""The tip of a flat arrow of length 1, and the ends of the lines that go back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,10 +101,8 @@ class PoseShapes:
         if look.shape == FLAT_ARROW and len(turns):
             flat = look.flat * _FLAT
             long = np.asarray(sizes, np.float64)[..., None]
-            ends = [
-                places + long * rotated(turns, end) for line in flat for end in line
-            ]
-            lines = np.stack(ends, axis=1)
+            tip, left, right = (places + long * rotated(turns, end) for end in flat)
+            lines = np.stack([places, tip, tip, left, tip, right], axis=1)
             self._lines.draw(
                 np.reshape(lines, (-1, 2, 3)), look.color, alpha=look.alpha, **pose
             )
