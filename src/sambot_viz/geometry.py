@@ -22,6 +22,8 @@ Wxyz = tuple[float, float, float, float]
 """A rotation as viser wants it."""
 IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
 """The rotation that turns nothing."""
+SHORTEST = 1e-150
+"""A quaternion that is not longer has no direction: its squares are 0."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 Rgba = tuple[float, float, float, float]
 """A colour with its opacity, each 0 to 1."""
@@ -164,8 +166,8 @@ def wxyz_from_matrix(T: Matrix) -> Wxyz:
 def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
     """Return a quaternion (w, x, y, z) with length 1; `IDENTITY` where it has none."""
     w, x, y, z = wxyz
-    norm = math.sqrt(w * w + x * x + y * y + z * z)
-    if not 0.0 < norm < math.inf:
+    norm = math.hypot(w, x, y, z)
+    if not SHORTEST < norm < math.inf:
         return IDENTITY
     return (w / norm, x / norm, y / norm, z / norm)
 
@@ -191,7 +193,8 @@ def wxyz_rotated(wxyz: Wxyz, vector: Vector3) -> Vector3:
 def wxyz_from_z(direction: Vector3) -> Wxyz:
     """Return the shortest rotation of +z into a direction (any length but 0)."""
     x, y, z = direction
-    norm = math.sqrt(x * x + y * y + z * z)
+    # Squares of the least and of the greatest numbers are none.
+    norm = math.hypot(x, y, z)
     x, y, z = x / norm, y / norm, z / norm
     if z < -0.999999:
         # Every axis across z is right; this one is Ogre's, so RViz's.

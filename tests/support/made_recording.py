@@ -27,8 +27,24 @@ def described(*links: str, radius: float = 0.2) -> str:
     return f'<robot name="{links[0]}">{"".join(parts)}</robot>'
 
 
+OF_NAV2 = {
+    "nav2_msgs/msg/Particle": "geometry_msgs/Pose pose\nfloat64 weight\n",
+    "nav2_msgs/msg/ParticleCloud": "std_msgs/Header header\n"
+    "nav2_msgs/Particle[] particles\n",
+}
+"""Definitions of types that are not ROS's own, by their names."""
 Message = tuple[str, str, int, object]
-"""Topic, type, log time [ns], and what rosbags writes of it."""
+"""Topic, type, log time [ns], and what rosbags writes of it, or its bytes."""
+
+
+def store_of_all() -> Any:
+    """Return rosbags' types of ROS 2, with those of others that displays draw."""
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for name, text in OF_NAV2.items():
+        store.register(get_types_from_msg(text, name))
+    return store
 
 
 def write_messages(
@@ -45,9 +61,8 @@ def write_messages(
         The path.
     """
     from mcap.writer import Writer
-    from rosbags.typesys import Stores, get_typestore
 
-    store = get_typestore(Stores.ROS2_JAZZY)
+    store = store_of_all()
     channels: dict[str, int] = {}
     with path.open("wb") as stream:
         writer = Writer(stream)
@@ -61,7 +76,8 @@ def write_messages(
             return channels[topic]
 
         for topic, name, time, message in messages:
-            data = bytes(store.serialize_cdr(message, name))
+            is_data = isinstance(message, bytes)
+            data = message if is_data else bytes(store.serialize_cdr(message, name))
             writer.add_message(channel(topic, name), time, data, time)
         for topic, name in (empty or {}).items():
             channel(topic, name)

@@ -16,9 +16,14 @@ START_NS = 1_700_000_000 * 10**9
 NAN = float("nan")
 TYPES = {
     "AccelStamped": "geometry_msgs/msg/AccelStamped",
+    "CameraInfo": "sensor_msgs/msg/CameraInfo",
+    "DepthCloud": "sensor_msgs/msg/Image",
+    "Effort": "sensor_msgs/msg/JointState",
     "FluidPressure": "sensor_msgs/msg/FluidPressure",
     "GridCells": "nav_msgs/msg/GridCells",
     "Illuminance": "sensor_msgs/msg/Illuminance",
+    "Image": "sensor_msgs/msg/Image",
+    "InteractiveMarkers": "visualization_msgs/msg/InteractiveMarkerInit",
     "LaserScan": "sensor_msgs/msg/LaserScan",
     "Map": "nav_msgs/msg/OccupancyGrid",
     "Marker": "visualization_msgs/msg/Marker",
@@ -74,7 +79,8 @@ def message_of(store: Any, situation: str, time_ns: int) -> Any:
 
 def headed(message: Any) -> list[Any]:
     """Return what has the header: a message, or the markers of an array."""
-    return message.markers if hasattr(message, "markers") else [message]
+    inside = getattr(message, "markers", [message])
+    return [one for one in inside if hasattr(one, "header")]
 
 
 def frame_of(what: str, display: str) -> str:
@@ -160,16 +166,38 @@ def _fill_range(store: Any, measured: Any) -> None:
     measured.field_of_view, measured.max_range, measured.range = 1.0, 5.0, 2.0
 
 
-def _fill_vectors(store: Any, stamped: Any) -> None:
+def _fill_image(store: Any, image: Any) -> None:
     del store
-    for field in ("wrench", "twist", "accel"):
-        for vector in vars(getattr(stamped, field, None) or object()).values():
-            if hasattr(vector, "x"):
-                vector.x = 1.0
+    image.width, image.height, image.step, image.encoding = 2, 2, 4, "16UC1"
+    image.data = np.frombuffer(np.array([900, 1000, 1100, 1200], "<u2"), np.uint8)
+
+
+def _fill_camera(store: Any, camera: Any) -> None:
+    del store
+    camera.width, camera.height = 2, 2
+    camera.p = np.array([2.0, 0, 1, 0, 0, 2, 1, 0, 0, 0, 1, 0])
+
+
+def _fill_joints(store: Any, joints: Any) -> None:
+    del store
+    joints.name, joints.position = ["base_tip"], np.zeros(1)
+    joints.effort = np.ones(1)
+
+
+def _fill_interactive(store: Any, full: Any) -> None:
+    marker = _appended(store, full, "markers")
+    marker.header.frame_id, marker.name, marker.scale = "map", "knob", 1.0
+    control = _appended(store, marker, "controls")
+    control.name, control.interaction_mode, control.always_visible = "x", 3, True
 
 
 _FILLED: Mapping[str, Callable[[Any, Any], None]] = {
+    "CameraInfo": _fill_camera,
+    "DepthCloud": _fill_image,
+    "Effort": _fill_joints,
     "GridCells": _fill_cells,
+    "Image": _fill_image,
+    "InteractiveMarkers": _fill_interactive,
     "LaserScan": _fill_scan,
     "Map": _fill_map,
     "PointCloud": _fill_cloud,

@@ -95,6 +95,7 @@ def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
             *made: Make,
             frame: str = "map",
             definitions: Mapping[str, str] | None = None,
+            trusted: bool = True,
             **values: object,
         ) -> Opened:
             path = write_messages(
@@ -112,7 +113,8 @@ def messages(tmp_path: Path) -> Iterator[Callable[..., Opened]]:
             manager = {"Class": "", "Displays": [shown], "Global Options": options}
             config = tmp_path / "messages.rviz"
             config.write_text(yaml.safe_dump({"Visualization Manager": manager}))
-            viz = Visualizer(source=f"bag:{path}", config=config, port=0)
+            source = f"bag:{path}"
+            viz = Visualizer(source=source, config=config, port=0, trusted=trusted)
             return Opened(stack.enter_context(viz), kind)
 
         yield open_messages

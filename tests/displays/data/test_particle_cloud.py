@@ -9,13 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 from made_messages import Make
+from made_recording import OF_NAV2
 
 Open = Callable[..., Any]
 CLOUD, PARTICLE = "nav2_msgs/msg/ParticleCloud", "nav2_msgs/msg/Particle"
-DEFINITIONS = {
-    PARTICLE: "geometry_msgs/Pose pose\nfloat64 weight\n",
-    CLOUD: "std_msgs/Header header\nnav2_msgs/Particle[] particles\n",
-}
 KIND = "nav2_rviz_plugins/ParticleCloud"
 
 
@@ -38,7 +35,7 @@ def shown(messages: Open) -> Open:
 
     def open_clouds(*made: Make, **values: Any) -> Any:
         values = {"Class": KIND, **values}
-        return messages("ParticleCloud", *made, definitions=DEFINITIONS, **values)
+        return messages("ParticleCloud", *made, definitions=OF_NAV2, **values)
 
     return open_clouds
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Generator
 from contextlib import contextmanager
 
+import numpy as np
+
 from sambot_viz.errors import DecodeError
 
 MESSAGE = "Message"
@@ -33,6 +35,8 @@ def refusing(
 ) -> Generator[None]:
     """Refuse a message whatever is wrong with it.
 
+    Numpy does not warn of its numbers: whoever draws them looks at them.
+
     Args:
         key: of the status.
         verb: what is done with the message inside.
@@ -42,7 +46,8 @@ def refusing(
         MessageRefused: it cannot be decoded, or what was done with it has failed.
     """
     try:
-        yield
+        with np.errstate(all="ignore"):
+            yield
     except DecodeError as error:
         raise MessageRefused(f"It cannot be decoded: {error}", key) from error
     except (*_MALFORMED, *others) as error:

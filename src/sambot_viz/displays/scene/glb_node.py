@@ -122,7 +122,7 @@ def digest_of(content: Sequence[object]) -> bytes:
 
 def single(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
     """Return numbers with 32 bits, as browsers have them; what is too large is inf."""
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         return np.asarray(values).astype(np.float32)
 
 

@@ -241,7 +241,7 @@ class Arrow:
 
     def parts(self) -> tuple[Wxyz, Vector3, Vector3]:
         """Rotation of both parts, centre of the shaft, centre of the head."""
-        norm = math.sqrt(sum(c * c for c in self.direction))
+        norm = math.hypot(*self.direction)
         unit = tuple(c / norm for c in self.direction)
         shaft_at, head_at = self.shaft[0] / 2, self.shaft[0] + self.head[0] / 2
         x, y, z = self.start

@@ -285,7 +285,7 @@ def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
         None when the frames are too close for an arrow. A head that is longer than the
         way begins behind the frame, so that its tip is at the parent.
     """
-    distance = math.sqrt(sum(c * c for c in at))
+    distance = math.hypot(*at)
     if distance <= SHORTEST_ARROW:
         return None
     head = HEAD_LENGTH * scale

@@ -26,10 +26,16 @@ class DisplayTopics:
 
     Args:
         decode: returns a message as an object with its fields, or raises DecodeError.
+        report: tells an exception that no display should have raised.
     """
 
-    def __init__(self, decode: Callable[[Recorded], Any]) -> None:
+    def __init__(
+        self,
+        decode: Callable[[Recorded], Any],
+        report: Callable[[Exception], None],
+    ) -> None:
         self._decode = decode
+        self._report = report
         self._subscriptions: list[Subscription] = []
 
     def subscribe(
@@ -70,7 +76,11 @@ class DisplayTopics:
         """Let those draw for whom something has come, or who wait for a transform."""
         for one in list(self._subscriptions):
             if one.has_news:
-                one.came()
+                try:
+                    one.came()
+                except Exception as error:
+                    # The messages are taken, and the other displays draw theirs.
+                    self._report(error)
 
     def reset(self) -> None:
         """Forget all messages: the time has gone back."""
@@ -95,10 +105,16 @@ class RecordedDisplayTopics(DisplayTopics):
     Args:
         recorded: the recording.
         player: gives its messages.
+        report: as for `DisplayTopics`.
     """
 
-    def __init__(self, recorded: RecordedRobot, player: Player) -> None:
-        super().__init__(Decoding(recorded.decoding.types).decode)
+    def __init__(
+        self,
+        recorded: RecordedRobot,
+        player: Player,
+        report: Callable[[Exception], None],
+    ) -> None:
+        super().__init__(Decoding(recorded.decoding.types).decode, report)
         self._recorded = recorded
         self._player = player
         self._types: Mapping[str, str] = {}
@@ -152,10 +168,16 @@ class LiveDisplayTopics(DisplayTopics):
     Args:
         live: the robot.
         wake: called in the thread of the source when something has come.
+        report: as for `DisplayTopics`.
     """
 
-    def __init__(self, live: LiveRobot, wake: Callable[[], None]) -> None:
-        super().__init__(Decoding(live.decoding.types).decode)
+    def __init__(
+        self,
+        live: LiveRobot,
+        wake: Callable[[], None],
+        report: Callable[[Exception], None],
+    ) -> None:
+        super().__init__(Decoding(live.decoding.types).decode, report)
         self._live = live
         self._wake = wake
         self._receivers: dict[Subscription, Callable[[Recorded], object]] = {}

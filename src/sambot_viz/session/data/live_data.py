@@ -85,7 +85,7 @@ class LiveData(RobotData):
         live.on_topics.append(self._look)
         live.on_status.append(self._tell_status)
         self._closed = False
-        self.messages = LiveDisplayTopics(live, self._wake)
+        self.messages = LiveDisplayTopics(live, self._wake, worker.report)
         self._look()
         self._tick()
 

@@ -53,7 +53,7 @@ class RecordedData(RobotData):
             recorded.at_ns,
         )
         self._player = self.player
-        self.messages = RecordedDisplayTopics(recorded, self.player)
+        self.messages = RecordedDisplayTopics(recorded, self.player, worker.report)
         self.topics = RecordedTopics(recorded, frames.tree, self.player, change, worker)
         frames.ahead = lambda: transforms.to_come(self._player.time_ns)
 

@@ -80,7 +80,9 @@ def points_of_scan(message: Any) -> tuple[Floats, npt.NDArray[np.intp]]:
     points = np.stack(
         [r * np.cos(angles), r * np.sin(angles), np.zeros_like(r)], axis=1
     )
-    return points, kept
+    # Of angles that are no numbers come points that are none.
+    finite = np.isfinite(points).all(axis=1)
+    return points[finite], kept[finite]
 
 
 def moved_points(

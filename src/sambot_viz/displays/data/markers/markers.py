@@ -27,6 +27,8 @@ _NS = 1_000_000_000
 SHORTEST_LIFE_NS = 100_000
 """A lifetime that is not longer is none [ns]."""
 MOST_MARKERS = 20_000
+MOST_POINTS = 2_000_000
+"""Of all markers of a display together."""
 MOST_ROWS = 100
 """So many markers have a status of their own."""
 MARKERS = "Markers"
@@ -63,6 +65,7 @@ class Markers:
         self._places: dict[tuple[str, int | None], MarkerPose] = {}
         self._rows: set[str] = set()
         self._free: list[int] = []
+        self._points = 0
 
     # What messages ask for
 
@@ -93,9 +96,7 @@ class Markers:
             self._remove(key)
             self._say(key, check.level, check.text)
             return
-        if key not in self.shown and len(self.shown) >= MOST_MARKERS:
-            text = f"More than the {MOST_MARKERS} markers that are drawn"
-            self._status.set(MARKERS, "Error", text)
+        if not self._has_room(key, marker):
             return
         place, why = self._place(marker)
         if why:
@@ -108,6 +109,7 @@ class Markers:
             self._remove(key, says=True)
             return
         before = self.shown.get(key)
+        self._points += len(marker.points) - _points_of(before)
         self.shown[key] = Shown(
             marker,
             frame_and_stamp(marker)[0] if marker.frame_locked else None,
@@ -116,6 +118,19 @@ class Markers:
             self._slot() if before is None else before.slot,
         )
         self._changed[key] = None
+
+    def _has_room(self, key: Key, marker: Any) -> bool:
+        """Return whether one more marker can be drawn; say so if not."""
+        before = self.shown.get(key)
+        points = self._points + len(marker.points) - _points_of(before)
+        if before is None and len(self.shown) >= MOST_MARKERS:
+            text = f"More than the {MOST_MARKERS:,} markers that are drawn"
+        elif points > MOST_POINTS:
+            text = f"More than the {MOST_POINTS:,} points of markers that are drawn"
+        else:
+            return True
+        self._status.set(MARKERS, "Error", text)
+        return False
 
     def _place(self, marker: Any) -> tuple[MarkerPose | None, str]:
         """Return where the frame of a marker is, and why that is not known."""
@@ -138,6 +153,7 @@ class Markers:
             self._unsay(key)
         gone = self.shown.pop(key, None)
         if gone is not None:
+            self._points -= _points_of(gone)
             heapq.heappush(self._free, gone.slot)
             self._changed[key] = None
 
@@ -286,6 +302,10 @@ class Markers:
         if row in self._rows:
             self._rows.discard(row)
             self._status.remove(row)
+
+
+def _points_of(shown: Shown | None) -> int:
+    return 0 if shown is None else len(shown.marker.points)
 
 
 def _until(marker: Any, arrived_ns: int) -> int | None:

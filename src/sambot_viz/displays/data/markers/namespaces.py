@@ -11,7 +11,8 @@ from sambot_viz.rviz import DisplayConfig
 
 NAMESPACES = "Namespaces"
 _HELP = "Show the markers of it."
-MOST_NAMESPACES = 1000
+MOST_NAMESPACES, LONGEST_NAME = 1000, 400
+"""More namespaces have no box, nor do those with a longer name."""
 
 
 class Namespaces:
@@ -37,7 +38,7 @@ class Namespaces:
         found = self._items.get(name)
         if found is None:
             found = BoxItem(self._config, (NAMESPACES, name), _HELP)
-            if len(self._items) < MOST_NAMESPACES:
+            if len(self._items) < MOST_NAMESPACES and len(name) <= LONGEST_NAME:
                 self._items[name] = found
         return found
 
