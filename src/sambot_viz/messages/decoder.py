@@ -1,7 +1,7 @@
 """Decoders: from the bytes of a message to its fields.
 
-Code that reads a type is made for each of them; it is called with what it takes to be
-tolerant of trailing bytes, and never trusts a length.
+rosbags generates a function for each type; these are called with what it takes to be
+tolerant of trailing bytes and never to trust a length.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import TypeDefinition
 from sambot_viz.messages.functions import Functions
 from sambot_viz.messages.reason import Reason
-from sambot_viz.messages.rows import Read
 
 Payload = bytes | bytearray | memoryview
 _PADDING = 3
@@ -70,13 +69,27 @@ class JsonDecoder(Decoder):
         return cast("dict[str, Any]", message)
 
 
+class _Store:
+    """What a generated function asks rosbags' store for, for one message.
+
+    No sequence can have more elements than the message has bytes; rosbags would
+    count up to any number where elements take none.
+    """
+
+    __slots__ = ("get_msgdef", "max_sequence_length")
+
+    def __init__(self, get_msgdef: Callable[[str], Any], length: int) -> None:
+        self.get_msgdef = get_msgdef
+        self.max_sequence_length = length
+
+
 class _Layout:
     """One definition, made into functions when the first message comes."""
 
     def __init__(self, definition: TypeDefinition, encoding: str) -> None:
         self.definition = definition
         self._is_ros1 = encoding == "ros1"
-        self._functions: dict[str, Read] = {}
+        self._functions: Functions | None = None
 
     def read(self, payload: memoryview) -> tuple[Any, int]:
         """Return a message, and how many bytes are left over.
@@ -89,23 +102,27 @@ class _Layout:
         except DecodeError:
             raise
         except Exception as error:
-            # Generated code: struct.error, ValueError, IndexError, ….
-            raise DecodeError("it is cut off or of another type") from error
+            # Generated code: struct.error, ValueError, IndexError, SerdeError, ….
+            raise DecodeError(_cause(error)) from error
 
     def _read(self, payload: memoryview) -> tuple[Any, int]:
-        order = "<"
-        if not self._is_ros1:
+        if self._functions is None:
+            self._functions = Functions(self.definition.types)
+        get_msgdef = self._functions.get_msgdef
+        own = get_msgdef(self.definition.name)
+        store = _Store(get_msgdef, len(payload))
+        if self._is_ros1:
+            function = own.deserialize_ros1
+        else:
             head = bytes(payload[:2])
             if len(payload) < 4 or head not in (b"\0\0", b"\0\1"):
                 raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
-            order, payload = "<" if head[1] else ">", payload[4:]
+            function = own.deserialize_cdr_le if head[1] else own.deserialize_cdr_be
+            payload = payload[4:]
             if not payload and self.definition.is_empty:
                 # A writer that leaves out the byte that means nothing.
                 payload = memoryview(b"\0")
-        if (read := self._functions.get(order)) is None:
-            functions = Functions(self.definition.types, order, not self._is_ros1)
-            read = self._functions[order] = functions.reader(self.definition.name)
-        message, end = read(payload, 0)
+        message, end = function(payload, 0, own.cls, store)
         if end > len(payload):
             raise DecodeError("it is cut off")
         return message, len(payload) - end
@@ -183,3 +200,12 @@ def definition_wrong(fault: str, type_name: str) -> Reason:
         f"the definition that came with it {fault}, so the standard {type_name} is "
         "used; record with the same version of the package as the publisher",
     )
+
+
+def _cause(error: Exception) -> str:
+    text = str(error)
+    if "sequence length" in text:
+        return "an array longer than its message"
+    if "string length" in text:
+        return "a text longer than its message"
+    return "it is cut off or of another type"

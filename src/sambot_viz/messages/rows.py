@@ -111,7 +111,7 @@ class ArrayReader:
 
     Attributes:
         read: reads an element.
-        leaves: what it has in it; none for a type that cannot make rows.
+        leaves: what it has in it, at least one.
         order: of the bytes, "<" or ">".
         aligned: whether fields are aligned to their size.
     """
@@ -132,13 +132,13 @@ class ArrayReader:
         least = count * smallest(self.leaves)
         if least > len(data) - at or count > len(data):
             raise DecodeError("an array longer than its message")
-        if count >= _FEWEST and self.leaves:
+        if count >= _FEWEST:
             rows = self._rows(data, at, count)
             if rows is not None:
                 return rows
         found: list[Any] = []
         for _ in range(count):
-            one, at = self.read(data, at)
+            one, at = self.read(data, self._begin(at))
             found.append(one)
         return found, at
 
