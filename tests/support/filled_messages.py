@@ -49,11 +49,10 @@ def _scalar(name: str) -> Any:
 
 def on_topic(name: str, topic: str = "/a", frame: str = "map", **fields: Any) -> Make:
     """Return what the fixture `messages` opens: a message of a frame on a topic."""
-    head = {"header": {"frame_id": frame}} | fields
 
     def make(types: Any) -> tuple[str, str, object]:
         del types
-        return topic, name, filled(name, **head)
+        return topic, name, filled(name, header={"frame_id": frame}, **fields)
 
     return make
 

@@ -401,6 +401,11 @@ def test_rays_meet_what_is_always_visible(shown: Open) -> None:
     down = np.array((0.0, 0.0, -1.0))
     hit = snapshot.first_hit(np.array((3.0, 0.0, 9.0)), down, 0.001)
     assert hit.point == pytest.approx((3.0, 0.0, 0.5))
+    assert hit.item is not None
+    assert (hit.item.kind, hit.item.name) == ("marker", "a/0")
+    (facts,) = opened.display.selected(hit.item).facts(None)
+    assert (facts.title, dict(facts.facts)["Frame"]) == ("Marker a/0", "moving")
+    assert facts.position == pytest.approx((3.0, 0.0, 0.0))
     # A tool that clicks hides the other one.
     assert snapshot.first_hit(np.array((-3.0, 0.0, 9.0)), down, 0.001).point is None
 

@@ -271,7 +271,8 @@ def marker(kind: int, number: int = 7, **fields: Any) -> Make:
         "scale": xyz(1, 0.5, 0.4),
         "color": RED,
     }
-    return on_topic(MARKER, **given | fields)
+    frame = fields.pop("frame", "map")
+    return on_topic(MARKER, frame=frame, **given | fields)
 
 
 LINE = [xyz(-1), xyz(1)]
@@ -327,6 +328,23 @@ def test_each_marker_of_a_batch_is_one_item_and_goes_when_it_is_deleted(
     assert hit(shown, 2, 1).item is None
     assert shown.display.selected(first) is None
     assert shown.display.selected(second) is not None
+
+
+def test_a_marker_that_follows_its_frame_is_met_where_that_is(
+    messages: Open,
+) -> None:
+    moved = {
+        "header": {"frame_id": "map"},
+        "child_frame_id": "cart",
+        "transform": {"translation": xyz(3), "rotation": {"w": 1.0}},
+    }
+    frames = on_topic("tf2_msgs/msg/TFMessage", "/tf", transforms=[moved])
+    shown = messages("Marker", frames, marker(1, frame_locked=True, frame="cart"))
+    item = hit(shown, 5.4, 1.2).item
+    assert item is not None
+    (facts,) = shown.display.selected(item).facts(None)
+    assert dict(facts.facts)["Frame"] == "cart"
+    assert facts.position == pytest.approx((5, 1, 0))
 
 
 def test_a_triangle_is_met_from_behind_too(messages: Open) -> None:

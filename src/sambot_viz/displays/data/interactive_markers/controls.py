@@ -43,6 +43,21 @@ TITLES = Group(VIEW_FACING, True)
 
 
 @dataclass(frozen=True, slots=True)
+class ShowOptions:
+    """What the properties of the display say.
+
+    Attributes:
+        descriptions: whether descriptions are shown.
+        axes: whether axes are.
+        transparency: whether handles keep their alpha.
+    """
+
+    descriptions: bool = True
+    axes: bool = False
+    transparency: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class Control:
     """One control.
 

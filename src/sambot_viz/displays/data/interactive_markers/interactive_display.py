@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from sambot_viz.displays.data.interactive_markers.controls import ShowOptions
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
-    ShowOptions,
 )
 from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
 from sambot_viz.displays.display import DisplayContext, Status
 from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
 from sambot_viz.rviz import BoolProperty, DisplayConfig, StringProperty
@@ -187,6 +189,10 @@ class InteractiveMarkersDisplay(TopicDisplay):
     def placed(self) -> Iterator[Placed]:
         """Yield what tools that click can see: controls that are always visible."""
         yield from self._markers.placed()
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return a marker of a control while it is shown."""
+        return self._markers.selected(item)
 
     def redraw(self) -> None:
         """Draw what was taken again, with other properties or other frames."""

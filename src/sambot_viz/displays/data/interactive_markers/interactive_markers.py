@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
-from sambot_viz.displays.data.interactive_markers.controls import MOST_SHAPES, TITLES
+from sambot_viz.displays.data.interactive_markers.controls import (
+    MOST_SHAPES,
+    TITLES,
+    ShowOptions,
+)
 from sambot_viz.displays.data.interactive_markers.known_marker import (
     ControlPart,
     KnownMarker,
@@ -18,11 +22,14 @@ from sambot_viz.displays.data.interactive_markers.marker_nodes import (
 )
 from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.checks import check_of
+from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.meshes import MeshFinder
-from sambot_viz.displays.data.markers.nodes import Key, Shown
+from sambot_viz.displays.data.markers.nodes import Key
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.nodes import short_id
 from sambot_viz.frames import LookupRefused
 
@@ -31,21 +38,6 @@ MOST_MARKERS = 500
 MOST_SHOWN = MOST_SHAPES
 """So many markers of the controls of all of them are shown."""
 EMPTY = "Marker empty."
-
-
-@dataclass(frozen=True, slots=True)
-class ShowOptions:
-    """What the properties of the display say.
-
-    Attributes:
-        descriptions: whether descriptions are shown.
-        axes: whether axes are.
-        transparency: whether handles keep their alpha.
-    """
-
-    descriptions: bool = True
-    axes: bool = False
-    transparency: bool = True
 
 
 class InteractiveMarkers:
@@ -177,14 +169,26 @@ class InteractiveMarkers:
     # What is drawn
 
     def placed(self) -> Iterator[Placed]:
-        """Yield what is visible with every tool, for rays; nothing can be selected."""
-        self._nodes.poses = {
-            known.nodes.path(group): T_fixed_group
-            for known in self.known.values()
-            if known.drawn is not None
-            for group, T_fixed_group in known.visible_groups(self._context)
-        }
-        yield from self._nodes.placed(self._shown, lambda _: None)
+        """Yield what is visible with every tool, for rays."""
+        known = (one for one in self.known.values() if one.drawn is not None)
+        poses = (one.visible_poses(self._context) for one in known)
+        self._nodes.poses = dict(chain.from_iterable(one.items() for one in poses))
+        yield from self._nodes.placed(self._shown, self.item_of)
+
+    def item_of(self, key: Key) -> Selectable:
+        """Return a marker of a control as something that can be selected."""
+        return Selectable("marker", f"{key[0]}/{key[1]}", self._key)
+
+    def selected(self, item: Selectable) -> SelectedData | None:
+        """Return a marker of a control as its message has it; None when it is gone."""
+        name, _, number = item.name.rpartition("/")
+        if item.kind != "marker" or item.of != self._key:
+            return None
+        known, one = self.known.get(name), self._shown.get((name, int(number)))
+        if known is None or one is None:
+            return None
+        T = known.visible_poses(self._context).get(one.frame or "")
+        return None if T is None else selected_marker(item, known.frame, one, T)
 
     def draw(self, options: ShowOptions) -> None:
         """Draw what has changed, and what had no place."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -133,23 +133,29 @@ class KnownMarker:
 
     # Its controls
 
-    def visible_groups(self, context: DisplayContext) -> Iterator[tuple[Group, Matrix]]:
-        """Yield groups that any tool shows and the view does not turn, T_fixed_group.
+    def visible_poses(self, context: DisplayContext) -> Mapping[str, Matrix]:
+        """Return where groups are that any tool shows and the view does not turn.
 
         Args:
             context: has the frames.
+
+        Returns:
+            Name of the node of a group → T_fixed_group, (4, 4).
         """
         try:
             _, wxyz, position = self.place(context)
         except LookupRefused:
-            return
+            return {}
+        found: dict[str, Matrix] = {}
         T_fixed_above = context.pose(self.frame) if self.is_locked else np.eye(4)
         groups = dict.fromkeys(part.group for part in self._parts or ())
         for group in groups:
             if T_fixed_above is not None and group.is_always:
                 if group.turning != VIEW_FACING:
                     turn = wxyz if group.turning == INHERIT else IDENTITY
-                    yield group, T_fixed_above @ _matrix(turn, position)
+                    T_fixed_group = T_fixed_above @ _matrix(turn, position)
+                    found[self.nodes.path(group)] = T_fixed_group
+        return found
 
     def parts(
         self, context: DisplayContext, *, transparency: bool

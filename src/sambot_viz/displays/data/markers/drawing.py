@@ -21,9 +21,13 @@ from sambot_viz.displays.data.markers.fields import (
     rgb_of,
     rgba_of,
 )
+from sambot_viz.displays.data.selected_pose import SelectedPose
+from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.texts import TextNode
+from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 _SHAPES: Mapping[int, PointShape] = {
@@ -101,4 +105,27 @@ def draw_text(node: TextNode, one: Shown) -> None:
         alpha=alpha_of(marker.color),
         space=float(marker.scale.x) / 2 if marker.scale.x else None,
         position=position,
+    )
+
+
+def selected_marker(
+    item: Selectable, frame: str, one: Shown, T_fixed_above: Matrix
+) -> SelectedData:
+    """Return a marker as its message has it, for the Selection panel.
+
+    Args:
+        item: the marker.
+        frame: of its message.
+        one: the marker as it is shown.
+        T_fixed_above: (4, 4), of what it hangs below.
+    """
+    pose = one.marker.pose
+    here = T_fixed_above @ np.array([*one.place.of(pose)[1], 1.0])
+    p, q = pose.position, pose.orientation
+    return SelectedPose(
+        f"Marker {item.name}",
+        frame,
+        (float(q.w), float(q.x), float(q.y), float(q.z)),
+        (float(p.x), float(p.y), float(p.z)),
+        here[:3],
     )

@@ -6,15 +6,12 @@ import heapq
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import numpy as np
-
 from sambot_viz.displays.data.markers.checks import check_of
-from sambot_viz.displays.data.markers.drawing import Shown
+from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
-from sambot_viz.displays.data.selected_pose import SelectedPose
 from sambot_viz.displays.display import DisplayContext, StatusList
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
@@ -254,16 +251,7 @@ class Markers:
         T = None if one is None else self._context.pose(one.frame)
         if one is None or T is None:
             return None
-        pose = one.marker.pose
-        here = T[:3, :3] @ np.array(one.place.of(pose)[1]) + T[:3, 3]
-        p, q = pose.position, pose.orientation
-        return SelectedPose(
-            f"Marker {item.name}",
-            frame_and_stamp(one.marker)[0],
-            (float(q.w), float(q.x), float(q.y), float(q.z)),
-            (float(p.x), float(p.y), float(p.z)),
-            here,
-        )
+        return selected_marker(item, frame_and_stamp(one.marker)[0], one, T)
 
     def count_of(self, namespace: str) -> int:
         """Return how many markers of a namespace are shown."""
