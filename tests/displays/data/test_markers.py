@@ -15,6 +15,7 @@ from PIL import Image
 
 from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
 from sambot_viz.displays.data.markers.textures import has_texture
+from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL
 
 Make = Callable[[Any], tuple[str, str, object]]
@@ -252,3 +253,29 @@ def test_the_topic_has_another_key_in_files_of_ros_1(messages: Open, kind: str) 
 
 def test_a_marker_of_ros_1_has_no_texture() -> None:
     assert not has_texture(SimpleNamespace(points=[1, 2, 3]))
+
+
+def test_solids_that_look_the_same_are_not_drawn_again(
+    messages: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[BatchNode] = []
+    show = BatchNode.show
+
+    def noted(node: BatchNode, *values: Any, **more: Any) -> None:
+        drawn.append(node)
+        show(node, *values, **more)
+
+    shown = messages("MarkerArray", array(0, 1, 2))
+    markers = shown.display._markers  # pyright: ignore[reportPrivateUsage]
+    monkeypatch.setattr(BatchNode, "show", noted)
+    came = [one.marker for one in markers.shown.values()]
+    for one in came:
+        later = replace(one.header, stamp=replace(one.header.stamp, sec=7))
+        markers.apply(replace(one, header=later), 0)
+    markers.draw()
+    assert not drawn
+    # All that change are drawn at once.
+    for one in came[:2]:
+        markers.apply(replace(one, scale=replace(one.scale, x=2.0)), 0)
+    markers.draw()
+    assert len(drawn) == 1

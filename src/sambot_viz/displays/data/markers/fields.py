@@ -29,7 +29,8 @@ class MarkerPose:
         self._turn: list[list[float]] | None = None
         self._at: Vector3 = (0.0, 0.0, 0.0)
         self._wxyz: Wxyz = IDENTITY
-        if T_fixed_frame is not None:
+        # In the fixed frame itself there is nothing to compute.
+        if T_fixed_frame is not None and (T_fixed_frame.matrix != np.eye(4)).any():
             self._turn = T_fixed_frame.matrix[:3, :3].tolist()
             self._at = position_of(T_fixed_frame.matrix)
             x, y, z, w = T_fixed_frame.rotation_xyzw
@@ -53,10 +54,12 @@ class MarkerPose:
 
 def rgb_of(color: Any) -> Rgb:
     """Return the colour of a std_msgs/ColorRGBA, 0 to 255."""
-    red, green, blue = (
-        min(255, max(0, int(255.0 * c + 0.5))) for c in (color.r, color.g, color.b)
-    )
-    return (red, green, blue)
+    return (_byte_of(color.r), _byte_of(color.g), _byte_of(color.b))
+
+
+def _byte_of(channel: float) -> int:
+    value = int(255.0 * channel + 0.5)
+    return 0 if value < 0 else 255 if value > 255 else value
 
 
 def alpha_of(color: Any) -> float:

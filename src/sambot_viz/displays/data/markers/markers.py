@@ -286,7 +286,7 @@ class Markers:
             self._status.set(MARKERS, "Warn", more)
 
     def _unsay(self, key: Key) -> None:
-        row = f"{key[0]}/{key[1]}"
+        row = f"{key[0]}/{key[1]}" if self._rows else ""
         if row in self._rows:
             self._rows.discard(row)
             self._status.remove(row)

@@ -98,6 +98,7 @@ class MarkerNodes:
             finder: returns what knows the file of a mesh resource.
         """
         dirty: dict[Hashable, None] = {}
+        touched: dict[Hashable, None] = {}
         todo: list[tuple[Key, Shown, str]] = []
         for key in changed:
             one = shown.get(key)
@@ -106,14 +107,16 @@ class MarkerNodes:
                 self._forget(key, dirty)
             elif int(one.marker.type) in SOLIDS:
                 self._drop_single(key)
-                self._into_batch(key, one, above, dirty)
+                touched[self._into_batch(key, one, above, dirty)] = None
             else:
                 self._leave_batch(key, dirty)
                 kind = int(one.marker.type), above, one.slot
                 if key in self._single and self._single[key][0] != kind:
                     self._drop_single(key)
                 todo.append((key, one, above))
-        for group in dirty:
+        # What is the same is drawn again where it went with a node above it.
+        again = (group for group in touched if self._batches[group].node.is_gone)
+        for group in dirty | dict.fromkeys(again):
             self._draw_batch(group)
         # Names of nodes are free again when all that is gone has been removed.
         for key, one, above in todo:
@@ -175,9 +178,11 @@ class MarkerNodes:
 
     def _into_batch(
         self, key: Key, one: Shown, above: str, dirty: dict[Hashable, None]
-    ) -> None:
+    ) -> Hashable:
+        """Put a marker into its batch, which is returned."""
         solids = solids_of(one.marker, one.place)
-        blended = any(solid.alpha < OPAQUE_FROM for solid in solids)
+        # All parts of a marker have its alpha.
+        blended = bool(solids) and solids[0].alpha < OPAQUE_FROM
         number = one.slot // BATCH
         if blended and one.slot < ALONE:
             number = one.slot
@@ -190,9 +195,11 @@ class MarkerNodes:
             name = f"{above}/{self._key}{kind}{short_id(number)}"
             batch = _Batch(SolidsNode(self._context.scene, name), {})
             self._batches[group] = batch
-        batch.members[key] = solids
         self._batch_of[key] = group
-        dirty[group] = None
+        if batch.members.get(key) != solids:
+            batch.members[key] = solids
+            dirty[group] = None
+        return group
 
     def _leave_batch(self, key: Key, dirty: dict[Hashable, None]) -> None:
         group = self._batch_of.pop(key, None)
