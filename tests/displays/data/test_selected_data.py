@@ -30,6 +30,7 @@ class Page:
     def __init__(self, shown: Any, client: ProtocolClient) -> None:
         self.shown = shown
         self.session = session_of(shown.viz)
+        shown.viz.player.pause()
         self._client = client
         self.settle()
         (self.client,) = self.session.clients.all.values()
