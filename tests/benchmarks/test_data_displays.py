@@ -32,7 +32,7 @@ SECONDS = 6.0
 BROWSERS, MANY = 3, 30
 SOAK = float(os.environ.get("SAMBOT_VIZ_SOAK", "0"))
 """How long everything is shown at once [s]."""
-LIMITS = {"cloud": 6.0, "markers": 1.0, "path": 1.5, "image": 3.0}
+LIMITS = {"cloud": 6.0, "markers": 1.0, "path": 6.0, "image": 3.0}
 """Our computing divided by that of viser alone, at most."""
 
 
