@@ -230,6 +230,7 @@ def test_other_points_have_their_fields(
 
 def test_points_of_an_earlier_message_are_gone(messages: Open) -> None:
     shown = messages("PointCloud2", cloud2([(1, 0, 0)]), cloud2([(1, 0, 0)]))
+    shown.viz.player.pause()
     shown.viz.player.jump(0.0)
     before = hit(shown, 1.0, 0.0).item
     shown.viz.player.jump(shown.viz.player.duration)
@@ -319,6 +320,7 @@ def test_each_marker_of_a_batch_is_one_item_and_goes_when_it_is_deleted(
     one, other = marker(1, 1), marker(1, 2, pose=pose(5, 5))
     gone = marker(1, 1, action=2)
     shown = messages("Marker", one, other, gone)
+    shown.viz.player.pause()
     shown.viz.player.jump(0.1)
     first, second = hit(shown, 2, 1).item, hit(shown, 5, 5).item
     assert first is not None
