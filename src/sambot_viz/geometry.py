@@ -175,8 +175,11 @@ def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
 def unit_wxyzs(wxyzs: Matrix) -> Matrix:
     """Return quaternions (N, 4) as `unit_wxyz` does, each by itself."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        norms = np.sqrt((wxyzs * wxyzs).sum(axis=1, keepdims=True))
-        return np.where((norms > 0.0) & (norms < np.inf), wxyzs / norms, IDENTITY)
+        # `hypot`, since squares of the least and of the greatest numbers are none.
+        pairs = np.hypot(wxyzs[:, 0::2], wxyzs[:, 1::2])
+        norms = np.hypot(pairs[:, :1], pairs[:, 1:])
+        has_length = (norms > SHORTEST) & (norms < np.inf)
+        return np.where(has_length, wxyzs / norms, IDENTITY)
 
 
 def wxyz_product(a: Wxyz, b: Wxyz) -> Wxyz:

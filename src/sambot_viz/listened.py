@@ -13,12 +13,14 @@ from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.websocket.runner import LONGEST_SILENCE
 from sambot_viz.topics.live_files import fetch_files
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
-CONNECTED_WITHIN = 10.0
-"""A robot that has told no topics after this time is not there [s]."""
+CONNECTED_WITHIN = LONGEST_SILENCE + 2.0
+"""A robot that has told no topics after this time is not there; by then it is known
+whether what is there speaks another protocol [s]."""
 
 
 class Listened:

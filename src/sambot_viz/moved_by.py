@@ -28,7 +28,11 @@ def open_live(options: Options) -> LiveRobot | None:
     if not options.live_sources:
         return None
     if len(options.source) > 1:
-        raise UsageError("a live source is the only one: give one --source")
+        given = ", ".join(str(one) for one in options.source)
+        raise UsageError(
+            "a live robot is not shown together with recordings or another robot; "
+            f"name one of these alone: {given}"
+        )
     from sambot_viz.messages import MessageTypes
     from sambot_viz.sources.recorder import check_file, check_folder
     from sambot_viz.sources.registry import open_source

@@ -77,6 +77,7 @@ def test_a_topic_of_another_type_and_one_that_is_missing_say_so(
     edits = session_of(viz).display_edits
     edits.set_property(scan(viz), "Topic", "/tf")
     assert "this is tf2_msgs/msg/TFMessage" in said(viz, "Topic")
+    assert list(scan(viz).status.rows) == ["Topic"]
     edits.set_property(scan(viz), "Topic", "/scn")
     assert "there is no topic /scn" in said(viz, "Topic").lower()
     assert scan(viz).repairs()["Topic"].value == "/scan"

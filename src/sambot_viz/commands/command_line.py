@@ -107,6 +107,10 @@ class Parser(argparse.ArgumentParser):
         flags = [name for action in self._actions for name in action.option_strings]
         near = nearest(unknown[1], flags) if unknown else None
         meant = f"; did you mean {near}?" if near else ""
+        if re.match(r"unrecognized arguments: .*\.(mcap|db3|bag)\b", message):
+            meant = (
+                "; name each recording with --source bag:FILE, a model with --model."
+            )
         help_is = f"{' ' if meant else '; '}see {self.prog} --help"
         self.exit(2, f"{self.prog}: error: {message}{meant}{help_is}\n")
 

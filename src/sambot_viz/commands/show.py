@@ -130,8 +130,11 @@ def parser() -> Parser:
 def _report_recording(inputs: Inputs) -> None:
     """Write what a recording of the command line has, when it has ended."""
     live, path = inputs.live, inputs.options.record
-    status = None if live is None else live.recorder.status
-    if status is None or path is None or status.is_running:
+    if live is None or path is None:
+        return
+    # The first one: the button of the page may have made others since.
+    status = (*live.recorder.ended, live.recorder.status)[0]
+    if status is None or status.is_running:
         return
     lacks = status.trouble or status.missing
     sys.stderr.write(

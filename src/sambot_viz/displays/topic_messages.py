@@ -18,11 +18,13 @@ class TopicDoubt:
         level: of the status.
         sentence: the cause and the remedy.
         instead: a topic to use in place of this one; empty when none is meant.
+        is_other_type: its messages are of a type that the display does not draw.
     """
 
     level: Literal["Warn", "Error"]
     sentence: str
     instead: str = ""
+    is_other_type: bool = False
 
 
 def topics_of_types(types: Mapping[str, str], wanted: Collection[str]) -> Sequence[str]:

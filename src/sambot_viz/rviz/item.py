@@ -199,13 +199,18 @@ class ConfigItem(ItemMap):
             self._values[path] = value
 
     def is_shown(self, path: str) -> bool:
-        """Return whether a property has a row now: it may depend on another one."""
+        """Return whether a property has a row now.
+
+        It may depend on another one, and has none where that one has none.
+        """
         declared: Declared | None = self._declared.get(path)
         if declared is None:
             raise self._unknown(path)
         while declared is not None:
             condition = declared.property.hidden_unless
-            if condition is not None and not self._holds(*condition):
+            if condition is not None and not (
+                self._holds(*condition) and self.is_shown(condition[0])
+            ):
                 return False
             declared = declared.above
         return True

@@ -38,6 +38,7 @@ class SourceRecorder:
 
     Attributes:
         folder: as given.
+        ended: the recordings before the present or last one.
     """
 
     def __init__(
@@ -53,6 +54,7 @@ class SourceRecorder:
         self._on_trouble = on_trouble
         self._lock = threading.Lock()
         self._recording: RecordingThread | None = None
+        self.ended: list[RecordingStatus] = []
         self._is_closed = False
         self._then = source.on_topics
         source.on_topics = self._look
@@ -77,6 +79,8 @@ class SourceRecorder:
             if self._is_closed or (last is not None and last.status.is_running):
                 return
             path, stream = _created(path) if path else _named(self.folder)
+            if last is not None:
+                self.ended.append(last.status)
             made = RecordingThread(
                 self._source, path, stream, self._on_change, self._on_trouble
             )

@@ -261,7 +261,8 @@ def problems_of_transforms(
                 "clock-back",
                 f"time went back by {back:.1f} s in {name} (was a simulation reset?): "
                 "transforms from before were dropped",
-                "what comes after it is shown"
+                "nothing is to be done if it was reset; else set the clocks of the "
+                "robot's computers to the same time"
                 if is_live
                 else "record again after the reset, or jump behind it with the time "
                 "bar",

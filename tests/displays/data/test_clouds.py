@@ -108,3 +108,19 @@ def test_a_scanner_that_moves_measures_each_point_where_it_was() -> None:
     half = np.sqrt(0.5)
     wanted = [(1.0, 0.0, 0.0), (1.0 + half, half, 0.0), (2.0, 1.0, 0.0)]
     assert np.allclose(found, wanted)
+
+
+def test_rows_that_have_no_effect_are_hidden_with_those_they_depend_on(
+    opened: Open,
+) -> None:
+    config = display(opened("scan_points_rainbow")).config
+    config.set("Color Transformer", "Intensity")
+    assert config.is_shown("Invert Rainbow")
+    assert not config.is_shown("Min Color")
+    config.set("Use rainbow", False)
+    assert config.is_shown("Max Color")
+    assert not config.is_shown("Invert Rainbow")
+    config.set("Autocompute Intensity Bounds", False)
+    assert config.is_shown("Min Intensity")
+    config.set("Color Transformer", "FlatColor")
+    assert not any(map(config.is_shown, ("Max Color", "Min Intensity", "Use rainbow")))

@@ -159,8 +159,9 @@ class TopicDisplay(Display):
         super().property_changed(path)
 
     def time_passed(self) -> None:
-        """Say how many messages have come."""
+        """Say how many messages have come, and listen if that was of no use before."""
         if self.shown:
+            self._listen()
             self.report_topic()
 
     @property
@@ -182,6 +183,9 @@ class TopicDisplay(Display):
             self._stop()
             self.forget()
         if messages is None or not self.topic or self.subscription is not None:
+            return
+        doubt = self._doubt()
+        if doubt is not None and doubt.is_other_type:
             return
         self.subscription = messages.subscribe(
             topics,
@@ -223,6 +227,10 @@ class TopicDisplay(Display):
             return Status("Error", "Error subscribing: Empty topic name")
         doubt = self._doubt()
         if doubt is not None:
+            if doubt.is_other_type and self.subscription is not None:
+                # A live topic may come later, or again with another type.
+                self._stop()
+                self.forget()
             return Status(doubt.level, doubt.sentence)
         if self.refusal:
             return Status("Error", self.refusal)

@@ -260,7 +260,8 @@ function Back({ text, lost, other, before }) {
   const can = other && !same && other.own && other.folder === file.folder && hasDisk();
   return html`<p class=${lost.length || other ? "l-warn" : "l-ok"}>${text}
     ${lost.length > 0 && ` Lost: ${listed(lost)}.`}
-    ${other && !same && ` The config ${file.name || "without a file"} is open now; before, it was ${other.name}.`}
+    ${other && !same && file.name === other.name && ` Another ${file.name} is open now, in another folder.`}
+    ${other && !same && file.name !== other.name && ` The config ${file.name || "without a file"} is open now; before, it was ${other.name}.`}
     ${can && html`<button onClick=${() => openAgain(before)}>Open ${other.name}</button>`}
     ${(lost.length > 0 || other) && html`<button onClick=${() => said.set(null)}>OK</button>`}</p>`;
 }

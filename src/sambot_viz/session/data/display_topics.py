@@ -264,4 +264,5 @@ def not_there(
 def wrong_type(types: Collection[str], type_name: str) -> TopicDoubt:
     """Say that a topic has messages that the display does not draw."""
     wanted = " or ".join(sorted(types))
-    return TopicDoubt("Error", capitalized(reasons.wrong_type(wanted, type_name).text))
+    text = capitalized(reasons.wrong_type(wanted, type_name).text)
+    return TopicDoubt("Error", text, is_other_type=True)

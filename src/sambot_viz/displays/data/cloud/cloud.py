@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.picking.rays import Indices
+from sambot_viz.topics.decoding import numbers_of
 
 Points = npt.NDArray[np.float32]
 Values = npt.NDArray[Any]
@@ -118,8 +119,8 @@ def cloud_of_cloud(message: Any) -> Cloud:
     Raises:
         MessageRefused: a channel has not a value for each point.
     """
-    places = [(p.x, p.y, p.z) for p in message.points]
-    points = np.array(places, np.float32) if places else np.zeros((0, 3), np.float32)
+    with np.errstate(over="ignore"):
+        points = numbers_of(message.points, "x", "y", "z").astype(np.float32)
     fields: dict[str, Values] = {}
     for channel in message.channels:
         values = np.asarray(channel.values, np.float32)

@@ -99,19 +99,19 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         "Invert Rainbow",
         default=False,
         help="The rainbow runs from magenta, the least, to red.",
-        hidden_unless=_OF_INTENSITY,
+        hidden_unless=("Use rainbow", True),
     ),
     ColorProperty(
         "Min Color",
         default=(0, 0, 0),
         help="The colour of the least value.",
-        hidden_unless=_OF_INTENSITY,
+        hidden_unless=("Use rainbow", False),
     ),
     ColorProperty(
         "Max Color",
         default=(255, 255, 255),
         help="The colour of the greatest value.",
-        hidden_unless=_OF_INTENSITY,
+        hidden_unless=("Use rainbow", False),
     ),
     BoolProperty(
         "Autocompute Intensity Bounds",
@@ -123,13 +123,13 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         "Min Intensity",
         default=0.0,
         help="The value with the first colour.",
-        hidden_unless=_OF_INTENSITY,
+        hidden_unless=("Autocompute Intensity Bounds", False),
     ),
     FloatProperty(
         "Max Intensity",
         default=4096.0,
         help="The value with the last colour.",
-        hidden_unless=_OF_INTENSITY,
+        hidden_unless=("Autocompute Intensity Bounds", False),
     ),
     EnumProperty(
         "Axis",
