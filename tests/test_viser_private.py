@@ -111,6 +111,19 @@ def test_a_pose_is_set_as_by_visers_own_setters(server: viser.ViserServer) -> No
     assert (tuple(node.wxyz), tuple(node.position)) == ((0, 1, 0, 0), (1, 2, 3))
 
 
+def test_a_node_that_is_made_again_before_its_removal_went_out_tells_its_pose(
+    server: viser.ViserServer,
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    server.scene.add_frame("/a", position=(1.0, 0.0, 0.0)).remove()
+    before = buffer.message_counter
+    server.scene.add_frame("/a")
+    newer = [one for n, one in buffer.message_from_id.items() if n >= before]
+    told = {type(one).__name__: one for one in newer}
+    assert told["SetPositionMessage"].position == (0.0, 0.0, 0.0)
+    assert told["SetOrientationMessage"].wxyz == (1.0, 0.0, 0.0, 0.0)
+
+
 def test_what_is_drawn_can_be_recorded_without_a_server() -> None:
     recorder = viser_private.Recorder(720)
     heard: list[str] = []

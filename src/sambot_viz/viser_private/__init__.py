@@ -29,6 +29,7 @@ from sambot_viz.viser_private.scene import (
     remember_prop_types,
     set_pose,
     share_arrays,
+    tell_poses_of_remade_nodes,
 )
 from sambot_viz.viser_private.widgets import (
     awaits_picture,
@@ -63,5 +64,6 @@ __all__ = [
     "send_value",
     "set_pose",
     "share_arrays",
+    "tell_poses_of_remade_nodes",
     "without_banner",
 ]

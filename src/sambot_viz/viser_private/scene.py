@@ -76,6 +76,34 @@ def is_removed(handle: viser.SceneNodeHandle | viser.GuiInputHandle[Any]) -> boo
     return bool(cast(Any, handle)._impl.removed)
 
 
+def tell_poses_of_remade_nodes() -> None:
+    """Let viser tell the pose of a node that is made again before its removal went out.
+
+    The new node takes the place of the removal among the messages: a page never hears
+    of it and keeps the pose that the node had. viser tells a pose without a rotation
+    or a shift only of nodes that were not removed before.
+    """
+    kind: Any = viser.SceneNodeHandle
+    if hasattr(kind._make, "tells_poses"):
+        return
+    make = kind._make.__func__
+
+    def made(
+        of: type, api: Any, message: Any, name: str, *more: Any, **named: Any
+    ) -> Any:
+        removal = _messages.RemoveSceneNodeMessage(name).redundancy_key()
+        buffer: Any = api._websock_interface.get_message_buffer()
+        is_remade = removal in buffer.id_from_redundancy_key
+        handle = make(of, api, message, name, *more, **named)
+        if is_remade:
+            state = handle._impl
+            set_pose(handle, tuple(state.wxyz.tolist()), tuple(state.position.tolist()))
+        return handle
+
+    vars(made)["tells_poses"] = True
+    kind._make = classmethod(made)
+
+
 def remember_prop_types() -> None:
     """Let viser find out the types of a kind of node once, not for every node.
 

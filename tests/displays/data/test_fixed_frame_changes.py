@@ -1,0 +1,115 @@
+"""After a change of the fixed frame, all is where it is when drawn afresh there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from inside import session_of
+
+from sambot_viz import Visualizer
+from sambot_viz.geometry import matrix_from_wxyz
+
+MESSAGES = Path(__file__).parents[2] / "golden" / "messages"
+CASES = sorted(path.parent.name for path in MESSAGES.glob("*/messages.mcap"))
+Matrix = npt.NDArray[np.float64]
+Pose = tuple[tuple[float, ...], tuple[float, ...]]
+IDENTITY: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@contextmanager
+def opened(case: str, frame: str) -> Iterator[Visualizer]:
+    """Open the end of a recorded case in a fixed frame."""
+    folder = MESSAGES / case
+    source, config = f"bag:{folder / 'messages.mcap'}", folder / "config.rviz"
+    with Visualizer(source=source, config=config, port=0) as viz:
+        session_of(viz).document.set_option("Fixed Frame", frame)
+        viz.player.jump(viz.player.duration)
+        yield viz
+
+
+class OpenPage:
+    """What a page that was open all the time knows of the nodes' poses.
+
+    It has heard all that was sent when it is made, and then what `hear` reads: of each
+    kind and node the newest message, as they go out after a change. A page drops a pose
+    with the node alone, so a node that is only made again keeps the one it had.
+    """
+
+    def __init__(self, viz: Visualizer) -> None:
+        websocket: Any = viz.viser._websock_server  # pyright: ignore[reportPrivateUsage]
+        self._buffer = websocket._broadcast_buffer
+        self._next = self._buffer.message_counter
+        self.poses = poses_of(viz)
+
+    def hear(self) -> None:
+        """Take the messages that are new."""
+        for number, message in sorted(self._buffer.message_from_id.items()):
+            if number < self._next:
+                continue
+            match type(message).__name__:
+                case "RemoveSceneNodeMessage":
+                    self.poses.pop(message.name, None)
+                case "SetOrientationMessage":
+                    position = self.poses.get(message.name, IDENTITY)[1]
+                    self.poses[message.name] = (tuple(message.wxyz), position)
+                case "SetPositionMessage":
+                    wxyz = self.poses.get(message.name, IDENTITY)[0]
+                    self.poses[message.name] = (wxyz, tuple(message.position))
+                case _ if message.lifecycle_phase == "create" and message.entity_type:
+                    if message.entity_type == "scene":
+                        self.poses.setdefault(message.name, IDENTITY)
+                case _:
+                    pass
+        self._next = self._buffer.message_counter
+
+
+def handles_of(viz: Visualizer) -> dict[str, Any]:
+    return viz.viser.scene._handle_from_node_name  # pyright: ignore[reportPrivateUsage]
+
+
+def poses_of(viz: Visualizer) -> dict[str, Pose]:
+    """The pose of each node in the one above it."""
+    handles = handles_of(viz).items()
+    return {
+        name: (tuple(one.wxyz.tolist()), tuple(one.position.tolist()))
+        for name, one in handles
+    }
+
+
+def placed(name: str, poses: dict[str, Pose]) -> Matrix:
+    """Return T_fixed_node, (4, 4)."""
+    T, path = np.eye(4), ""
+    for part in name.split("/")[1:]:
+        path = f"{path}/{part}"
+        T = T @ matrix_from_wxyz(*poses.get(path, IDENTITY))
+    return T
+
+
+def drawn(viz: Visualizer, poses: dict[str, Pose]) -> list[tuple[str, list[float]]]:
+    """What each display shows and where: the nodes may have other names."""
+    found: list[tuple[str, list[float]]] = []
+    for display in session_of(viz).scene.displays:
+        for name, handle in handles_of(viz).items():
+            if f"/{display.key}" in name:
+                what = f"{display.kind} {type(handle).__name__}"
+                place = placed(name, poses).round(5) + 0.0
+                found.append((what, place.ravel().tolist()))
+    return sorted(found)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_all_is_where_it_is_when_it_is_drawn_afresh(case: str) -> None:
+    with opened(case, "map") as viz:
+        page = OpenPage(viz)
+        others = sorted({*session_of(viz).scene.context.tree.frames} - {"map"})
+        for frame in (*others[:2], "map"):
+            session_of(viz).document.set_option("Fixed Frame", frame)
+            page.hear()
+            with opened(case, frame) as afresh:
+                assert drawn(viz, page.poses) == drawn(afresh, poses_of(afresh)), frame
