@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from inside import session_of
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
@@ -52,6 +53,21 @@ def test_a_map_says_what_rviz_says(messages: Open) -> None:
         "Transform": ("Ok", "Transform OK"),
     }
     assert "2 × 2 cells of 0.5 m" in shown.display.notes()["Topic"]
+
+
+def test_the_topic_of_updates_follows_that_of_the_map(messages: Open) -> None:
+    shown = messages("Map", grid(2, 2, [0, 0, 0, 0]))
+    get, history = shown.display.config.get, session_of(shown.viz).history
+    shown.set("Update Topic", "/mine")
+    with history.acting(1):
+        shown.set("Topic", "/b")
+    assert (get("Topic"), get("Update Topic")) == ("/b", "/b_updates")
+    assert shown.display.update_topic == "/b_updates"
+    history.undo(1)
+    assert (get("Topic"), get("Update Topic")) == ("/a", "/mine")
+    shown.set("Topic", "")
+    assert get("Update Topic") == ""
+    assert "Empty topic name" in shown.statuses["Topic"][1]
 
 
 @pytest.mark.parametrize(

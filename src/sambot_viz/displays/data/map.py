@@ -12,11 +12,7 @@ import numpy.typing as npt
 from sambot_viz.displays.data.message_filter import TRANSFORM
 from sambot_viz.displays.data.message_numbers import point_of, require_finite, wxyz_of
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
-from sambot_viz.displays.data.topic_display import (
-    TOPIC,
-    TopicDisplay,
-    topic_property,
-)
+from sambot_viz.displays.data.topic_display import TOPIC, TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.scene.maps import SCHEMES, MapNode, palette
@@ -47,6 +43,11 @@ def unsigned(data: npt.NDArray[np.int8], rows: int, columns: int) -> Cells:
     """Return the values of cells as the bytes that palettes are for; a copy."""
     values = np.frombuffer(data.tobytes(), np.uint8)
     return np.array(np.reshape(values, (rows, columns)))
+
+
+def updates_of(topic: str) -> str:
+    """Return the topic that RViz takes for the updates of a map's; "" without one."""
+    return f"{topic}_updates" if topic else ""
 
 
 class MapDisplay(TopicDisplay):
@@ -113,8 +114,7 @@ class MapDisplay(TopicDisplay):
     @property
     def update_topic(self) -> str:
         """The topic of updates: the one that is set, or RViz's own choice."""
-        given = str(self.config.get(UPDATE_TOPIC))
-        return given or (f"{self.topic}_updates" if self.topic else "")
+        return str(self.config.get(UPDATE_TOPIC)) or updates_of(self.topic)
 
     def other_topics(self) -> tuple[str, ...]:
         """Return the topic of updates."""
@@ -179,6 +179,12 @@ class MapDisplay(TopicDisplay):
             wxyz=wxyz_from_matrix(T),
             position=position_of(T),
         )
+
+    def property_changed(self, path: str) -> None:
+        """A property has a new value; the topic of updates follows the map's."""
+        if path == TOPIC:
+            self.config.set(UPDATE_TOPIC, updates_of(self.topic))
+        super().property_changed(path)
 
     def report_topic(self) -> None:
         """Set the statuses of both topics."""
