@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { offers, preselected } from "../../src/sambot_viz/page/cells/combo.js";
+import { offers, preselected, taken as accepted } from "../../src/sambot_viz/page/cells/combo.js";
 
 const FRAMES = ["<Fixed Frame>", "base_link", "left_wheel", "right_wheel", "link"];
 /** What Enter takes after a text was typed. @param {string} typed */
@@ -52,4 +52,12 @@ test("each name is offered once", () => {
     offers(["a", "a", "b"], null).map(({ name }) => name),
     ["a", "b"],
   );
+});
+
+test("an emptied field is what it was, unless nothing is a value too", () => {
+  const all = offers(FRAMES, "");
+  assert.equal(accepted(all, preselected(all, ""), "", "link", false), "link");
+  assert.equal(accepted(all, preselected(all, ""), "", "link", true), "");
+  assert.equal(accepted(all, 1, "", "link", true), "base_link");
+  assert.equal(accepted(all, preselected(all, null), null, "link", true), "link");
 });

@@ -19,6 +19,7 @@ from sambot_viz.rviz import (
     KeptProperty,
     Property,
     TfFrameProperty,
+    TopicProperty,
     VectorProperty,
 )
 
@@ -138,4 +139,6 @@ def _options(prop: Property) -> tuple[str, ...]:
 
 
 def _extra(prop: Property) -> dict[str, Any] | None:
+    if isinstance(prop, TopicProperty):
+        return {"emptiable": True}
     return {"parts": list(prop.keys)} if isinstance(prop, VectorProperty) else None

@@ -119,7 +119,7 @@ function FrameCell({ row, tab }) {
 function ComboCell({ row, tab, options }) {
   return html`<${Combo} label=${row.name || ""} value=${String(row.value ?? "")} options=${options}
     tab=${tab} title=${refusals.get(row.id)} invalid=${refusals.has(row.id)}
-      off=${row.fixed || row.off}
+      off=${row.fixed || row.off} emptiable=${row.emptiable}
     accept=${(/** @type {string} */ chosen) => {
       refuse(row.id);
       send(row.id, chosen);

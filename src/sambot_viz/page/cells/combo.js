@@ -36,12 +36,34 @@ export function preselected(offered, typed) {
 }
 
 /**
+ * What Enter takes: the offer that is marked, or what an emptied field means.
+ * @param {{name: string, isNew: boolean}[]} offered @param {number} at of the marked one
+ * @param {string | null} typed @param {string} value as it was
+ * @param {boolean} [emptiable] whether nothing is a value too
+ */
+export function taken(offered, at, typed, value, emptiable) {
+  if (at < 0 && emptiable && typed !== null && !typed.trim()) return "";
+  return offered[at]?.name ?? value;
+}
+
+/**
  * @param {{label: string, value: string, options: string[], tab: number, title?: string,
- *   invalid?: boolean, off?: boolean, accept: (chosen: string) => void, leave?: (field:
+ *   invalid?: boolean, off?: boolean, emptiable?: boolean, accept: (chosen: string) => void, leave?: (field:
  *   HTMLElement) => void}} props
  *   leave: called after Enter
  */
-export function Combo({ label, value, options, tab, title, invalid, off, accept, leave }) {
+export function Combo({
+  label,
+  value,
+  options,
+  tab,
+  title,
+  invalid,
+  off,
+  emptiable,
+  accept,
+  leave,
+}) {
   /** @type {Ref<HTMLInputElement>} */
   const element = useRef(null);
   // What is being typed is in the element: keys come faster than the page is drawn.
@@ -66,10 +88,10 @@ export function Combo({ label, value, options, tab, title, invalid, off, accept,
   /** @param {string} name */
   const choose = (name) => {
     close();
-    if (name && name !== value) accept(name);
+    if ((name || emptiable) && name !== value) accept(name);
   };
   const choice = () => (marked.current >= 0 ? marked.current : preselected(offered(), typed()));
-  const meant = () => offered()[choice()]?.name ?? value;
+  const meant = () => taken(offered(), choice(), typed(), value, emptiable);
   /** @param {Key} event */
   const key = (event) => {
     if (event.key === "ArrowDown" || event.key === "ArrowUp") {

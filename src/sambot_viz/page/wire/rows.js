@@ -11,7 +11,7 @@
  *   id: string, in: string, kind: string, name?: string, value?: any, unit?: string,
  *   min?: number, max?: number, step?: number, options?: string[], editable?: boolean,
  *   help?: string, icon?: string, level?: string, off?: boolean, fixed?: boolean, local?: boolean,
- *   open?: boolean, bold?: boolean, lazy?: boolean, part?: number, [key: string]: any,
+ *   open?: boolean, bold?: boolean, lazy?: boolean, emptiable?: boolean, part?: number, [key: string]: any,
  * }} Row
  *   local: viewers may set it too
  * @typedef {{id: string, kind: "data" | "command", value?: any, local?: boolean}} Other
