@@ -22,6 +22,15 @@ POST = """<robot name="post">
   <link name="post"/>
   <joint name="stands" type="fixed"><parent link="foot"/><child link="post"/></joint>
 </robot>"""
+ROW = """<robot name="row">
+  <link name="a"/><link name="b"/><link name="c"/>
+  <joint name="ab" type="fixed">
+    <parent link="a"/><child link="b"/><origin xyz="0.0012345678 0 0"/>
+  </joint>
+  <joint name="bc" type="fixed">
+    <parent link="b"/><child link="c"/><origin xyz="0.0012345678 0 0"/>
+  </joint>
+</robot>"""
 LEFT = Selectable("link", "drivewhl_l_link")
 RIGHT = Selectable("link", "drivewhl_r_link")
 
@@ -108,6 +117,19 @@ def test_more_than_two_items_have_a_table_of_distances(
     assert panel.values()["apart/table"] == before
     client.tools.select({Selectable("frame", "nowhere")}, "shift")
     assert "?" in rows_of(panel)["apart/table"].value
+
+
+def test_the_columns_of_the_table_do_not_touch(
+    panel: SelectionPanel, client: Client, session: Session, tmp_path: Path
+) -> None:
+    model = tmp_path / "row.urdf"
+    model.write_text(ROW, "utf-8")
+    session.show_robot(load_robot(model))
+    client.tools.select({Selectable("link", name) for name in "abc"}, None)
+    lines = rows_of(panel)["apart/table"].value.split("\n")
+    assert len({len(line) for line in lines}) == 1
+    assert lines[1].split() == ["1", "a", "-", "0.001235", "0.002469"]
+    assert all("  -" in line for line in lines[1:])
 
 
 def test_a_long_selection_says_how_many_more_there_are(

@@ -170,7 +170,7 @@ function Wide({ row, twist, tab }) {
  * @param {{row: Row}} props
  */
 function Lines({ row }) {
-  if (!Array.isArray(row.value)) return html`<pre>${row.value}</pre>`;
+  if (!Array.isArray(row.value)) return html`<pre class="table">${row.value}</pre>`;
   return html`<pre>${row.value.map(([number, line]) => {
     const here = number === row.line;
     const text = here && row.column ? marked(line, row.column - 1) : line || " ";

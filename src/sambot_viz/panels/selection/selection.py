@@ -21,6 +21,8 @@ SHORT = 3
 """The rows of so many items, or more, come folded."""
 IN_TABLE = 10
 """At most this many items are in the table of distances; more points have none."""
+_GAP = 2
+"""Spaces between the columns of the table, at least."""
 _FRAME = TfFrameProperty(
     "Relative to",
     default=FIXED_FRAME,
@@ -133,12 +135,21 @@ class SelectionPanel(Panel):
     def _table(self, entries: Sequence[SelectedEntry]) -> str:
         """Return the distances of all pairs [m], the columns by number."""
         width = max(len(one.name) for one in entries)
-        heads = [f"{number:>8}" for number in range(1, len(entries) + 1)]
-        lines = [" " * (width + 3) + "".join(heads)]
-        for number, one in enumerate(entries, 1):
-            parts = [f"{self._entries.length(one, other):>8}" for other in entries]
-            lines.append(f"{number:>2} {one.name:<{width}}{''.join(parts)}")
-        return "\n".join(lines)
+        rows = [
+            [str(number) for number in range(1, len(entries) + 1)],
+            *(
+                [self._entries.length(one, other) for other in entries]
+                for one in entries
+            ),
+        ]
+        # Of small distances four digits are longer than those of others.
+        cell = _GAP + max(len(part) for row in rows for part in row)
+        heads, *parts = ["".join(f"{part:>{cell}}" for part in row) for row in rows]
+        names = [
+            f"{number:>2} {one.name:<{width}}" for number, one in enumerate(entries, 1)
+        ]
+        lines = [name + row for name, row in zip(names, parts, strict=True)]
+        return "\n".join([" " * (width + 3) + heads, *lines])
 
 
 def _fact_rows(prefix: str, parent: str, facts: Iterable[Fact]) -> Iterator[Row]:
