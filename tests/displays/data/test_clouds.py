@@ -110,6 +110,15 @@ def test_a_scanner_that_moves_measures_each_point_where_it_was() -> None:
     assert np.allclose(found, wanted)
 
 
+def test_points_without_the_channel_say_which_they_have(opened: Open) -> None:
+    shown = display(opened("scan_points_rainbow"))
+    shown.config.set("Color Transformer", "Intensity")
+    shown.config.set("Channel Name", "foo")
+    assert shown.notes()["Channel Name"] == (
+        "The points have no foo, so all are white; they have intensity, x, y and z"
+    )
+
+
 def test_rows_that_have_no_effect_are_hidden_with_those_they_depend_on(
     opened: Open,
 ) -> None:

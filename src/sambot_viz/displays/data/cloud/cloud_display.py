@@ -210,8 +210,9 @@ class CloudDisplay(MessageFilterDisplay):
             return {TRANSFORMER: f"{chosen}, by the fields of the points"}
         channel = str(self.config.get(CHANNEL))
         if chosen == "Intensity" and intensities_of(cloud, channel) is None:
-            known = ", ".join(sorted((*"xyz", *cloud.fields)))
-            return {CHANNEL: f"The points have no {channel}, so all are white: {known}"}
+            *others, last = sorted({*"xyz", *cloud.fields})
+            known = f"they have {', '.join(others)} and {last}"
+            return {CHANNEL: f"The points have no {channel}, so all are white; {known}"}
         return {}
 
     def style(self) -> PointStyle:
