@@ -103,6 +103,29 @@ def drawn(viz: Visualizer, poses: dict[str, Pose]) -> list[tuple[str, list[float
     return sorted(found)
 
 
+def test_in_a_frame_that_does_not_exist_what_waits_says_so_also_while_paused() -> None:
+    with opened("nav2_scene_orbit", "map") as viz:
+        assert not transform_problems(viz)
+        session_of(viz).document.set_option("Fixed Frame", "nowhere")
+        found = transform_problems(viz)
+        waiting = ("LaserScan", "Path", "Polygon", "PoseArray", "Pose")
+        assert set(waiting) <= set(found)
+        for kind in waiting:
+            assert found[kind].endswith("Fixed Frame [nowhere] does not exist")
+        session_of(viz).document.set_option("Fixed Frame", "map")
+        assert not transform_problems(viz)
+
+
+def transform_problems(viz: Visualizer) -> dict[str, str]:
+    """Display → what it says of a transform that is not known."""
+    return {
+        display.kind.split("/")[1]: row.text
+        for display in session_of(viz).scene.displays
+        for key, row in display.status.rows.items()
+        if key == "Transform" and row.level != "Ok"
+    }
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_all_is_where_it_is_when_it_is_drawn_afresh(case: str) -> None:
     with opened(case, "map") as viz:

@@ -257,5 +257,9 @@ class MessageFilterDisplay(TopicDisplay):
             return
         oldest = self._held[0]
         waited = messages.now_ns() - oldest.recorded.log_ns
-        if oldest.refused is not None and waited > LONGEST_WAIT_NS:
+        # That the fixed frame does not exist is no matter of a second, and while a
+        # recording is paused no time passes.
+        frames = self.context.tree.frames
+        is_nowhere = bool(frames) and self.context.fixed_frame not in frames
+        if oldest.refused is not None and (is_nowhere or waited > LONGEST_WAIT_NS):
             self.status.set(TRANSFORM, "Warn", oldest.refused.rviz_text)
