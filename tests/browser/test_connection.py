@@ -7,8 +7,10 @@ import socketserver
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+from inside import session_of
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled, viser_private
@@ -163,6 +165,47 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
         for page, camera in zip(pages, cameras, strict=True):
             page.user.until(lambda page=page: number(page) == "1")
             has_camera(page, camera)
+
+
+def test_a_view_comes_back_to_the_frame_that_it_follows_wherever_that_is_then(
+    open_viewer: Callable[..., ViewerPage], tmp_path: Path
+) -> None:
+    config = tmp_path / "following.rviz"
+    text, view = bundled.config_path().read_text("utf-8"), "Value: Orbit (rviz)"
+    assert view in text
+    more = "Target Frame: rover\n      Distance: 2"
+    config.write_text(text.replace(view, more), "utf-8")
+    with Visualizer(config=config, port=0, look="rviz") as first:
+        port = first.viser.get_port()
+        first.set_static_transform("base_link", "rover", [0.0, 2.0, 0.0])
+        viewer = open_viewer(first.url)
+        viewer.expects_errors = True
+        viewer.settle(first)
+        viewer.page.mouse.drag((600.0, 300.0), (640.0, 330.0))
+        viewer.settle(first)
+        values = values_of(first)
+        assert values["Target Frame"] == "rover"
+        yaw = f"{values['Yaw']:.3f}"
+        viewer.user.until(
+            lambda: viewer.user.row("Views", "Yaw").one("textbox").value[:5] == yaw[:5]
+        )
+    with Visualizer(config=config, port=port, look="rviz") as second:
+        viewer.user.reads("The connection is back.", 40.0)
+        viewer.settle(second)
+        viewer.user.until(lambda: values_of(second) == values)
+        second.set_static_transform("base_link", "rover", [0.0, -3.0, 0.0])
+        viewer.settle(second)
+        assert values_of(second) == values
+        (client,) = session_of(second).clients.all.values()
+        focal = values["Focal Point"]
+        wanted = [focal[0], focal[1] - 3.0, focal[2]]
+        assert client.view.camera.look_at.tolist() == pytest.approx(wanted, abs=1e-5)
+
+
+def values_of(viz: Visualizer) -> dict[str, Any]:
+    """The numbers of the view of the one page."""
+    (client,) = session_of(viz).clients.all.values()
+    return dict(client.view.values)
 
 
 def test_a_page_that_slept_shows_how_things_are_now(

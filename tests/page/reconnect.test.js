@@ -173,21 +173,31 @@ test("the view comes back with all its numbers, or with what the camera does not
     view(
       "Orbit",
       ["view/Yaw", "float", 2],
-      ["view/Target Frame", "frame", "base"],
+      ["view/Target Frame", "frame", "<Fixed Frame>"],
       ["view/Invert", "bool", true],
     ),
   );
   const before = remember();
+  const following = {
+    ...before,
+    view: { ...before.view, "view/Target Frame": "base" },
+  };
   start("2", view("FPS", ["view/Target Frame", "frame", "odom"]));
   received.length = 0;
-  showView(before);
-  showView(before, false);
-  const known = { "view/Target Frame": "base", "view/Invert": true };
+  for (const shown of [before, following]) {
+    showView(shown);
+    showView(shown, false);
+  }
+  const known = { "view/Target Frame": "<Fixed Frame>", "view/Invert": true };
+  // A frame that is followed may be elsewhere now: the numbers are from it.
+  const relative = { "view/Yaw": 2, ...known, "view/Target Frame": "base" };
   assert.deepEqual(
     received.map(([id, [type, values]]) => [id, type, JSON.parse(values)]),
     [
       ["views/restore", "Orbit", { "view/Yaw": 2, ...known }],
       ["views/restore", "Orbit", known],
+      ["views/restore", "Orbit", relative],
+      ["views/restore", "Orbit", relative],
     ],
   );
 });

@@ -14,6 +14,9 @@ import { folds } from "../state.js";
  *   joints: those that were moved, and where they were at first
  */
 
+/** The target frame of a view that follows none. */
+const FIXED = "<Fixed Frame>";
+
 /** How things are now. @returns {Memory} */
 export function remember() {
   const { name, own, folder, modified } = rows.data("file/state") || {};
@@ -127,8 +130,11 @@ function view() {
  * @param {Memory} before @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since */
 export function showView({ view: { "view/type": type, ...values } }, camera = true) {
   if (type === undefined) return;
+  // The frame that is followed is elsewhere now, or not there yet: the camera that the page
+  // has says where the frame was.
+  const all = camera || values["view/Target Frame"] !== FIXED;
   const kept = Object.entries(values).filter(
-    ([id, value]) => camera || typeof value === "boolean" || rows.get(id)?.kind === "frame",
+    ([id, value]) => all || typeof value === "boolean" || rows.get(id)?.kind === "frame",
   );
   act("views/restore", [type, JSON.stringify(Object.fromEntries(kept))]);
 }
