@@ -53,12 +53,7 @@ def statuses_in(world: World, folder: Path) -> Mapping[str, Rows]:
     """
     from sambot_viz import Visualizer
 
-    source = _write(world, folder / "messages.mcap")
-    shown = [_shown(one) for one in world.situations]
-    options = {"Fixed Frame": world.fixed_frame}
-    manager = {"Class": "", "Displays": shown, "Global Options": options}
-    config = folder / "displays.rviz"
-    config.write_text(yaml.safe_dump({"Visualization Manager": manager}))
+    source, config = files_of(world, folder)
     with Visualizer(source=f"bag:{source}", config=config, port=0) as viz:
         for _ in steps_to(viz, END_S, EVERY_S):
             pass
@@ -71,6 +66,22 @@ def statuses_in(world: World, folder: Path) -> Mapping[str, Rows]:
         }
         fixed = session.scene.global_status()
         return {**found, "": {"Fixed Frame": (fixed.level, fixed.text)}}
+
+
+def files_of(world: World, folder: Path) -> tuple[Path, Path]:
+    """Return a recording of some situations, and a config with their displays.
+
+    Args:
+        world: the situations.
+        folder: where the files are written.
+    """
+    source = _write(world, folder / "messages.mcap")
+    shown = [_shown(one) for one in world.situations]
+    options = {"Fixed Frame": world.fixed_frame}
+    manager = {"Class": "", "Displays": shown, "Global Options": options}
+    config = folder / "displays.rviz"
+    config.write_text(yaml.safe_dump({"Visualization Manager": manager}))
+    return source, config
 
 
 def _topic(situation: str) -> str:

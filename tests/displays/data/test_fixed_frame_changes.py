@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +12,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from inside import session_of
+from situations import TYPES
+from status_world import World, files_of
 
 from sambot_viz import Visualizer
 from sambot_viz.geometry import matrix_from_wxyz
@@ -23,14 +26,19 @@ IDENTITY: Pose = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @contextmanager
-def opened(case: str, frame: str) -> Iterator[Visualizer]:
-    """Open the end of a recorded case in a fixed frame."""
-    folder = MESSAGES / case
-    source, config = f"bag:{folder / 'messages.mcap'}", folder / "config.rviz"
-    with Visualizer(source=source, config=config, port=0) as viz:
+def shown(
+    source: Path, config: Path, frame: str, at_s: float = math.inf
+) -> Iterator[Visualizer]:
+    """Open a recording in a fixed frame, at a time [s] or at its end."""
+    with Visualizer(source=f"bag:{source}", config=config, port=0) as viz:
         session_of(viz).document.set_option("Fixed Frame", frame)
-        viz.player.jump(viz.player.duration)
+        viz.player.pause()
+        viz.player.jump(min(at_s, viz.player.duration))
         yield viz
+
+
+def files_of_case(case: str) -> tuple[Path, Path]:
+    return MESSAGES / case / "messages.mcap", MESSAGES / case / "config.rviz"
 
 
 class OpenPage:
@@ -104,7 +112,7 @@ def drawn(viz: Visualizer, poses: dict[str, Pose]) -> list[tuple[str, list[float
 
 
 def test_in_a_frame_that_does_not_exist_what_waits_says_so_also_while_paused() -> None:
-    with opened("nav2_scene_orbit", "map") as viz:
+    with shown(*files_of_case("nav2_scene_orbit"), "map") as viz:
         assert not transform_problems(viz)
         session_of(viz).document.set_option("Fixed Frame", "nowhere")
         found = transform_problems(viz)
@@ -128,11 +136,34 @@ def transform_problems(viz: Visualizer) -> dict[str, str]:
 
 @pytest.mark.parametrize("case", CASES)
 def test_all_is_where_it_is_when_it_is_drawn_afresh(case: str) -> None:
-    with opened(case, "map") as viz:
+    require_same_as_afresh(*files_of_case(case))
+
+
+def test_so_it_is_with_every_display_of_messages(tmp_path: Path) -> None:
+    situations = [f"ok.{kind}" for kind in TYPES]
+    source, config = files_of(World(situations), tmp_path)
+    kinds = require_same_as_afresh(source, config, at_s=1.0)
+    assert kinds == {*TYPES} - WITHOUT_NODES - ZEROS
+
+
+UNCONNECTED = {"island", "island_b"}
+WITHOUT_NODES = {"DepthCloud", "Effort", "Image", "InteractiveMarkers"}
+"""What shows pictures alone, or needs a robot or a second topic."""
+ZEROS = {"AccelStamped", "Path", "TwistStamped", "Wrench"}
+"""Vectors without a length and a path of one pose: the cases above have more."""
+
+
+def require_same_as_afresh(
+    source: Path, config: Path, at_s: float = math.inf
+) -> set[str]:
+    """Change the fixed frame, there and back; return the displays that show nodes."""
+    with shown(source, config, "map", at_s) as viz:
         page = OpenPage(viz)
-        others = sorted({*session_of(viz).scene.context.tree.frames} - {"map"})
+        tree = session_of(viz).scene.context.tree
+        others = sorted({*tree.frames} - {"map", *UNCONNECTED})
         for frame in (*others[:2], "map"):
             session_of(viz).document.set_option("Fixed Frame", frame)
             page.hear()
-            with opened(case, frame) as afresh:
+            with shown(source, config, frame, at_s) as afresh:
                 assert drawn(viz, page.poses) == drawn(afresh, poses_of(afresh)), frame
+        return {what.partition(" ")[0].partition("/")[2] for what, _ in drawn(viz, {})}
