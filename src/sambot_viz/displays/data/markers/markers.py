@@ -51,6 +51,8 @@ class Markers:
         files_found: Callable[[], None],
     ) -> None:
         self.shown: dict[Key, Shown] = {}
+        # Those without a place in the fixed frame: another one may have it.
+        self._apart: dict[Key, Shown] = {}
         self._context = context
         self._key = key
         self._status = status
@@ -102,25 +104,33 @@ class Markers:
             self._say(key, check.level, check.text)
         else:
             self._unsay(key)
-        if place is None:
-            self._remove(key, says=True)
-            return
         before = self.shown.get(key)
-        self._points += len(marker.points) - _points_of(before)
-        self.shown[key] = Shown(
+        taken = Shown(
             marker,
             frame_and_stamp(marker)[0] if marker.frame_locked else None,
-            place,
+            MarkerPose() if place is None else place,
             _until(marker, arrived_ns),
             self._slot() if before is None else before.slot,
         )
+        self._points += len(marker.points) - _points_of(before or self._apart.get(key))
+        self._apart.pop(key, None)
+        self.shown[key] = taken
+        self._changed[key] = None
+        if place is None:
+            self._set_apart(key)
+
+    def _set_apart(self, key: Key) -> None:
+        """Show a marker no longer, until another fixed frame has a place for it."""
+        one = self._apart[key] = self.shown.pop(key)
+        heapq.heappush(self._free, one.slot)
         self._changed[key] = None
 
     def _has_room(self, key: Key, marker: Any) -> bool:
         """Return whether one more marker can be drawn; say so if not."""
-        before = self.shown.get(key)
+        before = self.shown.get(key) or self._apart.get(key)
         points = self._points + len(marker.points) - _points_of(before)
-        if before is None and len(self.shown) >= MOST_MARKERS:
+        count = len(self.shown) + len(self._apart)
+        if before is None and count >= MOST_MARKERS:
             text = f"More than the {MOST_MARKERS:,} markers that are drawn"
         elif points > MOST_POINTS:
             text = f"More than the {MOST_POINTS:,} points of markers that are drawn"
@@ -145,19 +155,17 @@ class Markers:
         place = self._places[frame, stamp_ns] = MarkerPose(found)
         return place, ""
 
-    def _remove(self, key: Key, *, says: bool = False) -> None:
-        if not says:
-            self._unsay(key)
-        gone = self.shown.pop(key, None)
-        if gone is not None:
-            self._points -= _points_of(gone)
-            heapq.heappush(self._free, gone.slot)
-            self._changed[key] = None
+    def _remove(self, key: Key) -> None:
+        self._unsay(key)
+        if key in self.shown:
+            self._set_apart(key)
+        self._points -= _points_of(self._apart.pop(key, None))
 
     def remove_all(self, namespace: str | None = None) -> None:
         """Remove the markers of a namespace, or all of them."""
-        for key in [k for k in self.shown if namespace is None or k[0] == namespace]:
-            self._remove(key)
+        for key in (*self.shown, *self._apart):
+            if namespace is None or key[0] == namespace:
+                self._remove(key)
         if namespace is None:
             for row in tuple(self._rows):
                 self._status.remove(row)
@@ -178,7 +186,7 @@ class Markers:
         """Remove those whose time is over."""
         over = [
             key
-            for key, one in self.shown.items()
+            for key, one in (*self.shown.items(), *self._apart.items())
             if one.until_ns is not None and one.until_ns <= now_ns
         ]
         for key in over:
@@ -186,15 +194,19 @@ class Markers:
 
     def place_again(self) -> None:
         """Place all of them in another fixed frame."""
+        for key, one in self._apart.items():
+            one.slot = self._slot()
+            self.shown[key] = one
+        self._apart = {}
         for key, one in tuple(self.shown.items()):
             place, why = self._place(one.marker)
-            if why:
-                self._say(key, "Error", why)
+            check = check_of(one.marker)
+            self._say(key, "Error" if why else check.level, why or check.text)
+            self._changed[key] = None
             if place is None:
-                self._remove(key, says=True)
+                self._set_apart(key)
             else:
                 one.place = place
-                self._changed[key] = None
 
     def follow_frames(self) -> None:
         """Look at the nodes again of those that follow a frame."""
