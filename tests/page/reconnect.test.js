@@ -202,6 +202,28 @@ test("the view comes back with all its numbers, or with what the camera does not
   );
 });
 
+test("a page that only waited for a robot has no view to bring back, but the first one", () => {
+  const views = [
+    { id: "view/type", in: "", kind: "enum", value: "Orbit" },
+    { id: "view/Distance", in: "view", kind: "float", value: 10 },
+    data("view/waits", true),
+    { id: "views/restore", in: "", kind: "command" },
+    { id: "views/first", in: "", kind: "command" },
+  ];
+  start("1", { views });
+  const before = remember();
+  start("2", { views });
+  received.length = 0;
+  // A page that was loaded again begins with it.
+  showView(before);
+  assert.deepEqual(received, []);
+  showView(before, false);
+  assert.deepEqual(
+    received.map(([id]) => id),
+    ["views/first"],
+  );
+});
+
 test("another config than before is named", () => {
   start("1", {});
   const before = remember();

@@ -76,7 +76,7 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("topics/show", "topics/find", "topics/choose"),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         *("tools/press", "tools/right_click", "tools/zero"),
-        *("views/restore", "views/use"),
+        *("views/first", "views/restore", "views/use"),
     }
 
 

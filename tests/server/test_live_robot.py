@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from inside import session_of
 from live_peers import WAIT, FoxglovePeer, eventually
+from panel_rows import data_of, edit, panel_of
 from protocol_client import CAMERA, ProtocolClient
 from robot_peer import RobotPeer
 
 from sambot_viz import JointError, UsageError, Visualizer
 from sambot_viz.panels.source import SourcePanel
+from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.data.live_clock import ClockState
@@ -92,6 +94,28 @@ def test_a_page_that_waited_shows_the_robot_as_a_later_one_does(
         # their boxes, so that the two are not the same to the last digit.
         eventually(lambda: 0.5 < early.view.values["Distance"] < 2.0)
         eventually(lambda: looks(early) == pytest.approx(looks(late), abs=0.1))
+
+
+def test_a_page_that_only_waited_has_no_view_of_its_own_when_it_comes_back(
+    peer: RobotPeer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    peer.stop()
+    with Visualizer(source=peer.uri, port=0) as viz:
+        session = session_of(viz)
+        # It has kept the camera that it had before the program was started again.
+        protocol(viz.viser.get_port())
+        eventually(lambda: len(session.clients.all) == 1)
+        (client,) = session.clients.all.values()
+        panel = panel_of(ViewsPanel, session, client)
+        assert not data_of(panel)["view/waits"]
+        edit(panel, "views/first", [])
+        assert data_of(panel)["view/waits"]
+        peer.start()
+        eventually(lambda: "/tf" in peer.subscribed())
+        peer.play(1.0)
+        eventually(lambda: client.view.values["Target Frame"] == "base_link")
+        eventually(lambda: 0.5 < client.view.values["Distance"] < 2.0)
+        assert not data_of(panel)["view/waits"]
 
 
 def test_without_a_robot_the_joints_say_that_none_has_come(

@@ -85,8 +85,12 @@ class ViewsPanel(Panel):
         ]
 
     def data(self) -> Sequence[Data]:
-        """Return what the mouse does to the current view."""
-        return [Data("view/shown", mouse_facts(self._client.view.view))]
+        """Return what the mouse does to the view, and whether that is the first one."""
+        view = self._client.view
+        return [
+            Data("view/shown", mouse_facts(view.view)),
+            Data("view/waits", view.waits_for_robot),
+        ]
 
     def _type(self) -> Row:
         view = self._client.view.view
@@ -185,6 +189,11 @@ class ViewsPanel(Panel):
         values = _read(sent)
         kind = KINDS.get(label)
         self.look_as(kind, lambda row: values.get(row.id))
+
+    @command("views/first", client_local=True)
+    def _first(self) -> None:
+        """Show the config's view: the page had only waited for a robot."""
+        self._client.view.show()
 
     def look_as(self, kind: str | None, wanted: Callable[[Row], Json]) -> None:
         """Show the view of another page, or of another time; no edit to undo.

@@ -112,8 +112,10 @@ export function foldsNow(before, of) {
   );
 }
 
-/** The values of this page's view. @returns {Record<string, any>} */
+/** The values of this page's view; none of one that only waits for a robot.
+ * @returns {Record<string, any>} */
 function view() {
+  if (rows.data("view/waits")) return {};
   const set = ids("views")
     .map((id) => rows.get(id))
     .filter(
@@ -129,7 +131,11 @@ function view() {
 /** Show the view that this page had.
  * @param {Memory} before @param {boolean} [camera] false: the page still has its camera, which a hand may have moved since */
 export function showView({ view: { "view/type": type, ...values } }, camera = true) {
-  if (type === undefined) return;
+  if (type === undefined) {
+    // A page that was loaded again shows the first view by itself.
+    if (!camera && rows.knows("views/first")) act("views/first");
+    return;
+  }
   // The frame that is followed is elsewhere now, or not there yet: the camera that the page
   // has says where the frame was.
   const all = camera || values["view/Target Frame"] !== FIXED;

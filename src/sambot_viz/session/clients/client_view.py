@@ -162,6 +162,11 @@ class ClientView:
         """The camera as it is now, in the fixed frame."""
         return self._camera.camera
 
+    @property
+    def waits_for_robot(self) -> bool:
+        """Whether it is not the user's: it shows the robot when there is one."""
+        return self._framing.waiting
+
     # Changing it
 
     def set(self, path: str, value: Any) -> None:

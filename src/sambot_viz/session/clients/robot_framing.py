@@ -58,6 +58,11 @@ class RobotFraming:
         """Whether the robot is to be shown whole: nobody has taken another view."""
         return self._wanted
 
+    @property
+    def waiting(self) -> bool:
+        """Whether no robot was there yet to show, and nobody has taken another view."""
+        return self._wanted and self._window is None
+
     def begin(self, view: View) -> None:
         """A view of the document is shown."""
         self._wanted = not view.gives_nearness
