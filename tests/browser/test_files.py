@@ -180,7 +180,6 @@ def test_a_new_display_is_selected_unfolded_and_named(desk: Desk) -> None:
     user.click("button", "Add", ("region", "Displays"))
     dialog = user.find("dialog", "Add Display")
     assert "LaserScan" in dialog.text
-    assert dialog.one("option", re.compile("^InteractiveMarkers")).state("disabled")
     user.keys("a", "x", "Tab")
     user.type("Wheel axes, main")
     user.keys("Enter")
