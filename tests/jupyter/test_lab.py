@@ -31,7 +31,7 @@ ARM = """<robot name="arm">
 TILE = "document.querySelector('.jp-LauncherCard[title=\\'Robot viewer\\']')"
 VIEWER = "document.querySelector('.jp-ServerProxy iframe').contentWindow"
 TRIANGLES = (
-    f"{VIEWER}.__viserMutable.nodeRefFromName['/0/1/~2v0']"
+    f"{VIEWER}.__viserMutable.nodeRefFromName['/0/1/~2_v0']"
     "?.getObjectByProperty('isMesh', true).geometry.index.count / 3"
 )
 

@@ -19,6 +19,10 @@ from typing import Any
 _FOLDER = Path(__file__).parent
 _PREFIX = "sambot/"
 """What the names of the modules begin with in the import map."""
+_COMMENT = re.compile(
+    r"^[ \t]*(?://[^\n]*|/\*(?:(?!\*/).)*\*/[ \t]*)\n", re.MULTILINE | re.DOTALL
+)
+"""Lines that are nothing but a comment."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
@@ -150,5 +154,7 @@ def _address(name: str) -> str:
         return f'{found[1]}"{_PREFIX}{_imported(name, found[3])}"'
 
     source = _IMPORT.sub(absolute, _FOLDER.joinpath(name).read_text("utf-8"))
+    # The lines keep their numbers.
+    source = _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), source)
     packed = base64.b64encode(f"{source}\n//# sourceURL={_PREFIX}{name}\n".encode())
     return "data:text/javascript;charset=utf-8;base64," + packed.decode()

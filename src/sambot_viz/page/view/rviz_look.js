@@ -14,9 +14,9 @@
  * transform).
  */
 
+import { others } from "./cameras.js";
 import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
-import { drawSceneCameras, isSceneCamera } from "./scene_camera.js";
 import { keepSharp } from "./sharp.js";
 import { eye, farFirst, lookFrom, sortBatch } from "./sorting.js";
 import { reportWindow } from "./window_size.js";
@@ -235,7 +235,7 @@ const hook = () => {
     /** @type {any} */ camera,
   ) => {
     renderer.toneMapping = 0;
-    drawSceneCameras(renderer, scene, camera, [background], tags?.parent);
+    others.draw(renderer, scene, camera, [background], tags?.parent);
     followZoom(camera);
     lookFrom(camera.matrixWorld);
     renderer.setTransparentSort(farFirst);
@@ -243,7 +243,7 @@ const hook = () => {
     const studio = currentLook() === "studio";
     beginStudio(studio);
     visit(scene, studio, true);
-    if (isSceneCamera(camera)) {
+    if (others.has(camera)) {
       look.cameras += 1;
       return;
     }

@@ -4,6 +4,7 @@
  * view, in the corner of its canvas, and copied from there before the view itself is drawn: so it
  * costs one more drawing of the scene, and only when something has changed. */
 
+import { others } from "./cameras.js";
 import { followMessages } from "./messages.js";
 
 /**
@@ -170,7 +171,7 @@ function fitted(image, width, height) {
 let eye = null;
 
 /** Whether a camera of three.js is that of a picture here. @param {any} camera */
-export const isSceneCamera = (camera) => camera === eye;
+others.has = (camera) => camera === eye;
 
 /**
  * Draw the pictures that are due; called at the beginning of each picture of the view.
@@ -178,7 +179,7 @@ export const isSceneCamera = (camera) => camera === eye;
  * @param {any[]} helpers objects that belong to the view alone
  * @param {any} names all names
  */
-export function drawSceneCameras(renderer, scene, main, helpers, names) {
+function drawSceneCameras(renderer, scene, main, helpers, names) {
   if (!open.size || main !== window.__viserMutable?.camera) return;
   const now = performance.now();
   for (const camera of open) {
@@ -199,6 +200,8 @@ export function drawSceneCameras(renderer, scene, main, helpers, names) {
     });
   }
 }
+
+others.draw = drawSceneCameras;
 
 /**
  * Hide what is not in the picture of a camera; returns what was visible of it.
