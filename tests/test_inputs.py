@@ -179,3 +179,12 @@ def test_the_config_that_ships_with_the_bundled_robot_is_no_config_of_the_users(
     assert Inputs(Options()).config is None
     with pytest.raises(UsageError, match="must be 'rviz' or 'studio'"):
         Options(look="nice")  # type: ignore[arg-type]
+
+
+def test_a_folder_of_recordings_names_some_of_them(tmp_path: Path) -> None:
+    for name in ("c", "a", "b"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "run.mcap").write_bytes(b"")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UsageError, match="its folders 'a' and 'b', and 1 more"):
+        Inputs(Options(tmp_path))

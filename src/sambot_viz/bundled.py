@@ -17,7 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from sambot_viz.errors import UsageError, did_you_mean
-from sambot_viz.files import RECORDING_ENDINGS
+from sambot_viz.files import RECORDING_ENDINGS, is_recording
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
     choose_model,
@@ -30,6 +30,8 @@ DEFAULT_MODEL = "sam_bot.urdf.xacro"
 DEFAULT_CONFIG = "urdf_config.rviz"
 """The config that is used when none is given."""
 
+_NAMED = 2
+"""So many recordings are named as examples."""
 _CONFIG_ENDING = ".rviz"
 _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
 
@@ -156,15 +158,25 @@ def _model_in(folder: Path) -> Path:
         return chosen
     if not models:
         endings = ", ".join(f"*{ending}" for ending in MODEL_ENDINGS)
+        meant = _recordings_below(folder) or "give the model file itself"
         raise UsageError(
-            f"no model in the folder '{folder}': no {endings} in it has a link; give "
-            "the model file itself"
+            f"no model in the folder '{folder}': no {endings} in it has a link; {meant}"
         )
     names = ", ".join(str(path.relative_to(folder)) for path in models[:8])
     more = f" and {len(models) - 8} more" if len(models) > 8 else ""
     raise UsageError(
         f"several models in the folder '{folder}' ({names}{more}); give the one to show"
     )
+
+
+def _recordings_below(folder: Path) -> str:
+    """Name subfolders that are recordings; empty when there are none."""
+    found = sorted(p.name for p in folder.iterdir() if p.is_dir() and is_recording(p))
+    if not found:
+        return ""
+    names = " and ".join(f"'{name}'" for name in found[:_NAMED])
+    more = f", and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
+    return f"there are recordings in its folders {names}{more}; give one of them"
 
 
 def _config_in(folder: Path) -> Path | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from sambot_viz.errors import UsageError
@@ -67,6 +69,15 @@ def test_what_is_shown_has_no_secret() -> None:
 def test_an_address_that_makes_no_sense_is_refused(uri: str, words: str) -> None:
     with pytest.raises(UsageError, match=words):
         open_source(uri)
+
+
+def test_a_recording_without_the_kind_of_source_is_named_with_it(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"\x89MCAP0\r\n")
+    with pytest.raises(UsageError, match=f"for a recording write bag:{path}"):
+        open_source(str(path))
 
 
 def test_a_name_that_nobody_knows_costs_one_sentence() -> None:

@@ -169,6 +169,15 @@ def test_a_frame_that_was_told_once_long_ago_is_there_after_a_jump(
     assert history.latest("odom") is not None
 
 
+@pytest.mark.parametrize("name", ["magic_only.mcap", "no_messages.mcap"])
+def test_a_recording_without_messages_is_not_said_to_need_a_model(
+    shared: Path, name: str
+) -> None:
+    with Inputs(Options(shared / "data" / "bags" / "made" / name)) as inputs:
+        codes = [p.code for p in inputs.problems()]
+        assert codes and "no-description" not in codes
+
+
 def test_a_recording_without_a_description_shows_its_frames_and_says_so(
     shared: Path,
 ) -> None:

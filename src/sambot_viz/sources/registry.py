@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.errors import UsageError
+from sambot_viz.files import is_recording
 from sambot_viz.sources.source import Source
 from sambot_viz.sources.websocket.address import Address, parse_address
 from sambot_viz.text import text
@@ -32,7 +33,10 @@ def live_address(uri: str) -> Address:
     if scheme in _LATER:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
-        raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
+        meant = f"known: {KNOWN}"
+        if uri and is_recording(uri):
+            meant = f"for a recording write bag:{text(uri)}"
+        raise UsageError(f"{text(uri)}: unknown kind of source; {meant}")
     return parse_address(uri)
 
 

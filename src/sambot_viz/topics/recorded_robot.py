@@ -105,7 +105,9 @@ class RecordedRobot:
         """What is wrong with the recording, and what it says of no robot."""
         of_frames = problems_of_transforms(self._told, self.name)
         found = (*self.recording.problems, *of_frames, *self._problems_of_time())
-        if self.description is not None:
+        empty = self.recording.start_ns is None
+        # A recording without messages says so itself, and no model would help.
+        if self.description is not None or (empty and found):
             return found
         topics = sorted(self.recording.topics)
         more = ", …" if len(topics) > _NAMED else ""

@@ -377,6 +377,20 @@ def test_a_file_that_is_far_too_large_is_not_read(tmp_path: Path):
         Document.load(path)
 
 
+@pytest.mark.parametrize("size", [64, 2**30])
+def test_a_recording_is_said_to_be_one(tmp_path: Path, size: int):
+    path = tmp_path / "run.mcap"
+    with path.open("wb") as file:
+        file.write(b"\x89MCAP0\r\n")
+        file.truncate(size)
+    with pytest.raises(ConfigError) as caught:
+        Document.load(path)
+    assert str(caught.value) == (
+        f"{path}: error[config-not-rviz]: this is a recording, not a display config; "
+        f"show it with --source bag:{path}, and give an .rviz file as the config"
+    )
+
+
 def test_a_file_that_is_no_utf_8_is_an_error_with_the_line(tmp_path: Path):
     path = tmp_path / "old.rviz"
     path.write_bytes(b"Panels: []\nVisualization Manager:\n  Name: \xe9t\xe9\n")

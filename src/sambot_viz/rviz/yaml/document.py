@@ -8,7 +8,7 @@ from pathlib import Path
 import yaml
 
 from sambot_viz.errors import ConfigError, Findings, Problem
-from sambot_viz.files import read_limited, write_atomically
+from sambot_viz.files import is_recording, read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
 from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
@@ -76,6 +76,7 @@ class Document:
         try:
             data = read_limited(Path(path), LARGEST, pipe=True)
         except (OSError, ValueError) as error:
+            _refuse_recording(name)
             why = getattr(error, "strerror", None) or str(error)
             hint = "check the path"
             raise _error(
@@ -84,6 +85,7 @@ class Document:
         try:
             return cls(data.decode("utf-8"), name)
         except UnicodeDecodeError as error:
+            _refuse_recording(name)
             line = data[: error.start].count(b"\n") + 1
             raise _error(
                 "config-encoding",
@@ -178,6 +180,14 @@ def _reads_as(text: str, root: Node) -> bool:
     except (yaml.YAMLError, ParseFault):
         return False
     return same(root, read if read is not None else Map())
+
+
+def _refuse_recording(name: str) -> None:
+    """Raise ConfigError for a file that cannot be read because it is a recording."""
+    if is_recording(name):
+        hint = f"show it with --source bag:{name}, and give an .rviz file as the config"
+        message = "this is a recording, not a display config"
+        raise _error("config-not-rviz", message, hint, name) from None
 
 
 def _not_rviz(file: str | None) -> ConfigError:
