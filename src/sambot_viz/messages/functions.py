@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from threading import Lock
@@ -42,13 +42,13 @@ class Functions:
         store = Typestore()
         with _register_lock:
             store.register({name: ([], fields) for name, fields in types.items()})
-        flat = {name for name in types if leaves_of(name, types)}
+        found = {name: leaves_of(name, types) for name in types}
+        flat = {name: leaves for name, leaves in found.items() if leaves}
         self._types: dict[str, _TypeFunctions | _ArrayFunctions] = {
             name: _TypeFunctions(store.types[name], _with_arrays(fields, flat), self)
             for name, (_, fields) in store.fielddefs.items()
         }
-        for name in flat:
-            leaves = leaves_of(name, types)
+        for name, leaves in flat.items():
             self._types[name + _ARRAY] = _ArrayFunctions(name, leaves, self)
 
     def get_msgdef(self, name: str) -> Any:
@@ -56,7 +56,7 @@ class Functions:
         return self._types[name]
 
 
-def _with_arrays(fields: Fielddefs, flat: set[str]) -> Fielddefs:
+def _with_arrays(fields: Fielddefs, flat: Collection[str]) -> Fielddefs:
     """Return fields in which arrays of flat types are read by us."""
 
     def changed(desc: FieldDesc) -> FieldDesc:
