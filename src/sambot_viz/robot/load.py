@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -21,7 +22,6 @@ from sambot_viz.robot.model_source import (
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.parts import Joint, Link
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
@@ -136,7 +136,7 @@ class _Loader:
     def _robot(
         self, root: Element, expanded: ExpandedModel | None, problems: list[Problem]
     ) -> LoadedModel:
-        source, findings = self.opened.source, UrdfFindings()
+        source, findings = self.opened.source, ModelFindings()
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
         urdf = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None

@@ -7,9 +7,9 @@ from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 from sambot_viz.files import is_below
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 
 _DOUBTS = {
@@ -56,7 +56,7 @@ class FileFinder:
         self,
         folder: Path | None,
         package_path: Sequence[Path | str],
-        findings: UrdfFindings,
+        findings: ModelFindings,
         trusted: bool = True,
     ) -> None:
         """Prepare.

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz.geometry import Vector3
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Origin
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
@@ -116,7 +116,7 @@ def _value_of(part: str) -> str:
 
 
 Report = Callable[[str, str, str, Element, "str | None"], None]
-"""`UrdfFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
+"""`ModelFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
 LARGEST = 1e18
 """Numbers beyond this leave the range in which pictures and poses can be computed:
@@ -143,7 +143,7 @@ class AttributeReader:
         loss: what ROS does about it, for messages.
     """
 
-    findings: UrdfFindings
+    findings: ModelFindings
     report: Report
     owner: str
     loss: str

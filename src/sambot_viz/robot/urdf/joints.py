@@ -8,9 +8,9 @@ from typing import get_args
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Vector3
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.limits import LimitReader
 from sambot_viz.robot.xml.element import Element
 
@@ -18,7 +18,7 @@ JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _REFUSED = "ROS refuses the model"
 
 
-def read_joint(element: Element, findings: UrdfFindings) -> Joint | None:
+def read_joint(element: Element, findings: ModelFindings) -> Joint | None:
     """Read one <joint> and report every error in it.
 
     Returns:
@@ -43,7 +43,7 @@ def read_joint(element: Element, findings: UrdfFindings) -> Joint | None:
     return _JointReader(element, name, kind, findings).read(parent, child)
 
 
-def _type(element: Element, name: str, findings: UrdfFindings) -> JointType | None:
+def _type(element: Element, name: str, findings: ModelFindings) -> JointType | None:
     text = element.get("type")
     if text is None:
         findings.reject(
@@ -73,7 +73,7 @@ def _type(element: Element, name: str, findings: UrdfFindings) -> JointType | No
     return None
 
 
-def _end(element: Element, tag: str, name: str, findings: UrdfFindings) -> str | None:
+def _end(element: Element, tag: str, name: str, findings: ModelFindings) -> str | None:
     end = element.find(tag)
     if end is None:
         findings.reject(
@@ -99,7 +99,7 @@ def _end(element: Element, tag: str, name: str, findings: UrdfFindings) -> str |
 
 class _JointReader:
     def __init__(
-        self, element: Element, name: str, kind: JointType, findings: UrdfFindings
+        self, element: Element, name: str, kind: JointType, findings: ModelFindings
     ) -> None:
         self._element = element
         self._name = name
@@ -196,7 +196,9 @@ class _JointReader:
 
 
 def check_mimics(
-    joints: Mapping[str, Joint], elements: Mapping[str, Element], findings: UrdfFindings
+    joints: Mapping[str, Joint],
+    elements: Mapping[str, Element],
+    findings: ModelFindings,
 ) -> None:
     """Report unknown, immovable and circular mimic joints, which urdfdom accepts."""
     reported: set[str] = set()
@@ -230,7 +232,7 @@ def check_mimics(
 
 
 def _report_ring(
-    joint: Joint, joints: Mapping[str, Joint], element: Element, findings: UrdfFindings
+    joint: Joint, joints: Mapping[str, Joint], element: Element, findings: ModelFindings
 ) -> set[str]:
     """Report the ring that a joint's mimic chain runs into, if the joint is in it."""
     ring = mimic_chain(joint, joints).ring

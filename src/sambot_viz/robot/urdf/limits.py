@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 
 _REFUSED = "ROS refuses the model"
@@ -23,7 +23,7 @@ class LimitReader:
         name: str,
         kind: JointType,
         reader: AttributeReader,
-        findings: UrdfFindings,
+        findings: ModelFindings,
     ) -> None:
         self._element = element
         self._name = name

@@ -10,12 +10,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.joint_graph import (
+    children_of,
+    links_below,
+    report_depth,
+    rings_of,
+)
 from sambot_viz.robot.parts import Joint, Link
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.robot_parts import RobotParts
-
-DEEPEST = 350
-"""Longest chain drawn: Chromium draws 350 joints in a row, but not 500."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +30,7 @@ class Tree:
     joints: dict[str, Joint]
 
 
-def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
+def build_tree(parts: RobotParts, findings: ModelFindings) -> Tree | None:
     """Check the structure and return the tree that ROS would show.
 
     ROS refuses a file that is only part of a robot (an include file). Here its missing
@@ -42,7 +45,7 @@ def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
     parts = _check_ends(parts, findings)
     _check_self_joints(parts, findings)
     holder = _parent_joints(parts, findings)
-    rings = _rings(parts, holder)
+    rings = rings_of(parts.links, holder)
     roots = [name for name in parts.links if name not in holder]
     if not roots:
         _report_rings(parts, findings, rings, None)
@@ -52,11 +55,13 @@ def build_tree(parts: RobotParts, findings: UrdfFindings) -> Tree | None:
     root = _largest(parts, roots)
     _report_rings(parts, findings, rings, root)
     tree = _reached(parts, holder, root)
-    _report_depth(parts, findings, tree)
+    report_depth(
+        tree.root, tree.joints.values(), parts.link_elements, parts.robot, findings
+    )
     return tree
 
 
-def _with_missing_links(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
+def _with_missing_links(parts: RobotParts, findings: ModelFindings) -> RobotParts:
     added: dict[str, Link] = {}
     for joint in parts.joints.values():
         for end, link in (("parent", joint.parent), ("child", joint.child)):
@@ -76,7 +81,7 @@ def _with_missing_links(parts: RobotParts, findings: UrdfFindings) -> RobotParts
     return replace(parts, links={**added, **parts.links})
 
 
-def _check_ends(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
+def _check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
     """Report parent and child links that do not exist; excuses links that need one."""
     unknown = [
         (joint, tag, link)
@@ -110,7 +115,7 @@ def _check_ends(parts: RobotParts, findings: UrdfFindings) -> RobotParts:
     return parts
 
 
-def _check_self_joints(parts: RobotParts, findings: UrdfFindings) -> None:
+def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
     for name, joint in parts.joints.items():
         if joint.parent == joint.child:
             element = parts.joint_elements[name]
@@ -123,7 +128,7 @@ def _check_self_joints(parts: RobotParts, findings: UrdfFindings) -> None:
             )
 
 
-def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint]:
+def _parent_joints(parts: RobotParts, findings: ModelFindings) -> dict[str, Joint]:
     """Link → the joint whose child it is; of several, the last by alphabet."""
     holders: dict[str, list[Joint]] = {}
     for joint in parts.joints.values():
@@ -138,7 +143,11 @@ def _parent_joints(parts: RobotParts, findings: UrdfFindings) -> dict[str, Joint
 
 
 def _report_two_parents(
-    parts: RobotParts, findings: UrdfFindings, link: str, joints: list[Joint], kept: str
+    parts: RobotParts,
+    findings: ModelFindings,
+    link: str,
+    joints: list[Joint],
+    kept: str,
 ) -> None:
     listed = " and ".join(
         f"{j.name} (line {parts.joint_elements[j.name].place.line})" for j in joints
@@ -155,7 +164,7 @@ def _report_two_parents(
 
 
 def _report_roots(
-    parts: RobotParts, findings: UrdfFindings, roots: list[str], fragment: bool
+    parts: RobotParts, findings: ModelFindings, roots: list[str], fragment: bool
 ) -> None:
     main = _largest(parts, roots)
     report = findings.warn if fragment else findings.reject
@@ -171,27 +180,9 @@ def _report_roots(
         )
 
 
-def _rings(parts: RobotParts, holder: Mapping[str, Joint]) -> list[list[Joint]]:
-    """The rings of links, each as the joints that lead back to its first link."""
-    rings: list[list[Joint]] = []
-    done: set[str] = set()
-    for start in parts.links:
-        path: list[str] = []
-        link = start
-        while link in holder and link not in done:
-            done.add(link)
-            path.append(link)
-            link = holder[link].parent
-        if link in path:
-            ring = path[path.index(link) :]
-            if len(ring) > 1:
-                rings.append([holder[name] for name in reversed(ring)])
-    return rings
-
-
 def _report_rings(
     parts: RobotParts,
-    findings: UrdfFindings,
+    findings: ModelFindings,
     rings: Iterable[list[Joint]],
     root: str | None,
 ) -> None:
@@ -218,50 +209,12 @@ def _report_rings(
 
 def _largest(parts: RobotParts, roots: list[str]) -> str:
     """The root with the most links below it; the other roots are unconnected parts."""
-    children = _children(parts.joints.values())
-    return max(roots, key=lambda root: len(_below(root, children)))
-
-
-def _children(joints: Iterable[Joint]) -> dict[str, list[str]]:
-    """Link → its child links."""
-    children: dict[str, list[str]] = {}
-    for joint in joints:
-        children.setdefault(joint.parent, []).append(joint.child)
-    return children
-
-
-def _below(root: str, children: Mapping[str, list[str]]) -> set[str]:
-    """A link and all links below it."""
-    reached: set[str] = set()
-    stack = [root]
-    while stack:
-        link = stack.pop()
-        if link not in reached:
-            reached.add(link)
-            stack.extend(children.get(link, ()))
-    return reached
-
-
-def _report_depth(parts: RobotParts, findings: UrdfFindings, tree: Tree) -> None:
-    """Warn of a chain that is too long for a browser, which nests one call per link."""
-    children = _children(tree.joints.values())
-    level, depth = [tree.root], 0
-    while level and depth <= DEEPEST:
-        depth += 1
-        level = [child for link in level for child in children.get(link, ())]
-    if level:
-        findings.warn(
-            "chain-too-long",
-            f"a chain of joints has more than {DEEPEST} links (the first one beyond is "
-            f"{level[0]}): a browser cannot draw so long a chain, and the view stays "
-            "empty",
-            "connect links to one that is nearer to the root",
-            parts.link_elements.get(level[0], parts.robot),
-        )
+    children = children_of(parts.joints.values())
+    return max(roots, key=lambda root: len(links_below(root, children)))
 
 
 def _reached(parts: RobotParts, holder: Mapping[str, Joint], root: str) -> Tree:
-    reached = _below(root, _children(holder.values()))
+    reached = links_below(root, children_of(holder.values()))
     links = {name: link for name, link in parts.links.items() if name in reached}
     joints = {
         name: joint

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Vector3
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import (
     Box,
     Capsule,
@@ -25,7 +26,6 @@ from sambot_viz.robot.parts import (
     Sphere,
 )
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.material_table import MaterialTable
 from sambot_viz.robot.xml.element import Element
 
@@ -39,7 +39,7 @@ class LinkReader:
     """Reads <link> elements one after the other, sharing the material table."""
 
     def __init__(
-        self, findings: UrdfFindings, materials: MaterialTable, find_mesh: FindMesh
+        self, findings: ModelFindings, materials: MaterialTable, find_mesh: FindMesh
     ) -> None:
         self._findings = findings
         self._materials = materials

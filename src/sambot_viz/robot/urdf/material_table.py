@@ -8,9 +8,9 @@ from pathlib import Path
 
 from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Rgba
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Material
 from sambot_viz.robot.urdf.attributes import BadNumber, read_numbers
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
@@ -40,7 +40,7 @@ class MaterialTable:
     the first definition of a name wins for the whole robot.
     """
 
-    def __init__(self, findings: UrdfFindings, find_texture: FindTexture) -> None:
+    def __init__(self, findings: ModelFindings, find_texture: FindTexture) -> None:
         self._findings = findings
         self._undefined: set[str] = set()
         self._find_texture = find_texture

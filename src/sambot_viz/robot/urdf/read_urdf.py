@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sambot_viz.robot.findings import ModelFindings, tag_text
 from sambot_viz.robot.parts import Joint, Link
-from sambot_viz.robot.urdf.findings import UrdfFindings, tag_text
 from sambot_viz.robot.urdf.joints import check_mimics
 from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
@@ -41,7 +41,7 @@ class UrdfRobot(NamedTuple):
 
 def read_urdf(
     document: Element,
-    findings: UrdfFindings,
+    findings: ModelFindings,
     find_mesh: FindMesh,
     find_texture: FindTexture,
     expanded: bool,
@@ -77,7 +77,7 @@ def read_urdf(
     return UrdfRobot(name, tree.root, tree.links, tree.joints)
 
 
-def _robot_element(document: Element, findings: UrdfFindings) -> Element | None:
+def _robot_element(document: Element, findings: ModelFindings) -> Element | None:
     if document.tag == "robot":
         return document
     inner = document.find("robot")
@@ -105,7 +105,7 @@ def _robot_element(document: Element, findings: UrdfFindings) -> Element | None:
     return None
 
 
-def _check_version(robot: Element, findings: UrdfFindings) -> None:
+def _check_version(robot: Element, findings: ModelFindings) -> None:
     version = robot.get("version")
     if version is None or version in ("1.0", "1.00"):
         return
@@ -119,7 +119,7 @@ def _check_version(robot: Element, findings: UrdfFindings) -> None:
     )
 
 
-def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> str:
+def _robot_name(parts: RobotParts, findings: ModelFindings, expanded: bool) -> str:
     robot = parts.robot
     name = robot.get("name")
     if name:
@@ -146,7 +146,7 @@ def _robot_name(parts: RobotParts, findings: UrdfFindings, expanded: bool) -> st
     return "robot"
 
 
-def _report_no_links(robot: Element, findings: UrdfFindings) -> None:
+def _report_no_links(robot: Element, findings: ModelFindings) -> None:
     inside = next(
         (e for e in robot.iter() if e.tag == "link" and e.parent is not robot), None
     )

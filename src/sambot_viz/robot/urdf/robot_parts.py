@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, Link
-from sambot_viz.robot.urdf.findings import UrdfFindings
 from sambot_viz.robot.urdf.joints import read_joint
 from sambot_viz.robot.urdf.links import LinkReader
 from sambot_viz.robot.xml.element import Element
@@ -54,7 +54,7 @@ class RobotParts:
 
 
 def read_parts(
-    robot: Element, reader: LinkReader, findings: UrdfFindings
+    robot: Element, reader: LinkReader, findings: ModelFindings
 ) -> RobotParts:
     """Read the links, then the joints; each name that is used twice counts once.
 
@@ -69,7 +69,7 @@ def read_parts(
     return parts
 
 
-def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -> None:
+def _read_links(parts: RobotParts, reader: LinkReader, findings: ModelFindings) -> None:
     for element in parts.robot.find_all("link"):
         name = element.get("name")
         if not name:
@@ -93,7 +93,7 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: UrdfFindings) -
     _check_twins(parts.link_elements, findings)
 
 
-def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -> None:
+def _report_nameless(robot: Element, element: Element, findings: ModelFindings) -> None:
     named = {link.get("name") for link in robot.find_all("link")}
     wanted: list[str] = []
     for joint in robot.find_all("joint"):
@@ -111,7 +111,7 @@ def _report_nameless(robot: Element, element: Element, findings: UrdfFindings) -
     )
 
 
-def _check_leading_slash(name: str, element: Element, findings: UrdfFindings) -> None:
+def _check_leading_slash(name: str, element: Element, findings: ModelFindings) -> None:
     """Report a link name that tf2 does not accept as the name of a frame."""
     if name.startswith("//") or name == "/":
         findings.reject(
@@ -131,7 +131,7 @@ def _check_leading_slash(name: str, element: Element, findings: UrdfFindings) ->
         )
 
 
-def _check_twins(elements: dict[str, Element], findings: UrdfFindings) -> None:
+def _check_twins(elements: dict[str, Element], findings: ModelFindings) -> None:
     """Reject links that are the same frame for tf2, which strips one slash."""
     for name, element in elements.items():
         twin = elements.get(name[1:]) if name.startswith("/") else None
@@ -145,7 +145,7 @@ def _check_twins(elements: dict[str, Element], findings: UrdfFindings) -> None:
             )
 
 
-def _read_joints(parts: RobotParts, findings: UrdfFindings) -> None:
+def _read_joints(parts: RobotParts, findings: ModelFindings) -> None:
     elements = parts.joint_elements
     for element in parts.robot.find_all("joint"):
         joint = read_joint(element, findings)

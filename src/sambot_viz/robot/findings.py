@@ -1,4 +1,4 @@
-"""Problems of a URDF, collected while it is read to the end."""
+"""Problems of a model, collected while it is read to the end."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from sambot_viz.robot.xml.element import Element
 
 # The return type is left to the type checker: `Callable` knows no keywords.
 def _reporter(severity: Severity, rejects: bool = False):
-    """Return a method of `UrdfFindings` that reports a problem at an element."""
+    """Return a method of `ModelFindings` that reports a problem at an element."""
 
     def report(
-        self: UrdfFindings,
+        self: ModelFindings,
         code: str,
         message: str,
         hint: str,
@@ -33,11 +33,11 @@ def _reporter(severity: Severity, rejects: bool = False):
     return report
 
 
-class UrdfFindings(Findings):
+class ModelFindings(Findings):
     """Problems at elements, and whether ROS would refuse the model.
 
     Attributes:
-        rejected: whether urdfdom refuses the whole model.
+        rejected: whether ROS refuses the whole model.
         reject: reports an error for which ROS refuses the whole model.
         error: reports one that ROS does not, or that affects only part of the robot.
         warn: reports a doubtful part of the model, which is drawn anyway.

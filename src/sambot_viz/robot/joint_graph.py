@@ -1,0 +1,87 @@
+"""Chains and rings of links, whatever the model is written in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.xml.element import Element
+
+DEEPEST = 350
+"""Longest chain drawn: Chromium draws 350 joints in a row, but not 500."""
+
+
+def children_of(joints: Iterable[Joint]) -> dict[str, list[str]]:
+    """Return link → its child links."""
+    children: dict[str, list[str]] = {}
+    for joint in joints:
+        children.setdefault(joint.parent, []).append(joint.child)
+    return children
+
+
+def links_below(root: str, children: Mapping[str, list[str]]) -> set[str]:
+    """Return a link and all links below it."""
+    reached: set[str] = set()
+    stack = [root]
+    while stack:
+        link = stack.pop()
+        if link not in reached:
+            reached.add(link)
+            stack.extend(children.get(link, ()))
+    return reached
+
+
+def rings_of(links: Iterable[str], holder: Mapping[str, Joint]) -> list[list[Joint]]:
+    """Return the rings of links, each as the joints that lead back to its first link.
+
+    Args:
+        links: names of all links.
+        holder: link → the joint whose child it is.
+    """
+    rings: list[list[Joint]] = []
+    done: set[str] = set()
+    for start in links:
+        path: list[str] = []
+        link = start
+        while link in holder and link not in done:
+            done.add(link)
+            path.append(link)
+            link = holder[link].parent
+        if link in path:
+            ring = path[path.index(link) :]
+            if len(ring) > 1:
+                rings.append([holder[name] for name in reversed(ring)])
+    return rings
+
+
+def report_depth(
+    root: str,
+    joints: Iterable[Joint],
+    elements: Mapping[str, Element],
+    document: Element,
+    findings: ModelFindings,
+) -> None:
+    """Warn of a chain that is too long for a browser, which nests one call per link.
+
+    Args:
+        root: the root link.
+        joints: the joints of one tree.
+        elements: link → its element.
+        document: stands for a link without an element.
+        findings: where the warning goes.
+    """
+    children = children_of(joints)
+    level, depth = [root], 0
+    while level and depth <= DEEPEST:
+        depth += 1
+        level = [child for link in level for child in children.get(link, ())]
+    if level:
+        findings.warn(
+            "chain-too-long",
+            f"a chain of joints has more than {DEEPEST} links (the first one beyond is "
+            f"{level[0]}): a browser cannot draw so long a chain, and the view stays "
+            "empty",
+            "connect links to one that is nearer to the root",
+            elements.get(level[0], document),
+        )
