@@ -24,7 +24,7 @@ from sambot_viz.panels.displays.add_by_topic import (
 from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"

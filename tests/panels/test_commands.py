@@ -20,7 +20,7 @@ from sambot_viz.panels.command import (
     declared_commands,
 )
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Row
+from sambot_viz.panels.rows.row import Data, Row
 
 # The window imports every panel.
 assert window

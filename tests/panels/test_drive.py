@@ -15,7 +15,7 @@ from sambot_viz import Visualizer
 from sambot_viz.errors import FrameError, UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.panels.drive import DrivePanel
-from sambot_viz.panels.row import Answer
+from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.robot.drive import Drive

@@ -13,7 +13,7 @@ from sambot_viz.frames import Transform
 from sambot_viz.frames.static_transform import StaticTransformError
 from sambot_viz.panels.frames import frames
 from sambot_viz.panels.frames.frames import FramesPanel, pasted_arguments
-from sambot_viz.panels.row import Level
+from sambot_viz.panels.rows.row import Level
 from sambot_viz.session import Session
 
 LEFT = "drivewhl_l_link"

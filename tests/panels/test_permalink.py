@@ -15,8 +15,8 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
-from sambot_viz.panels.player import PlayerPanel
-from sambot_viz.panels.row import Answer
+from sambot_viz.panels.rows.row import Answer
+from sambot_viz.panels.sources.player import PlayerPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client

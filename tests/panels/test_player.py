@@ -10,7 +10,7 @@ import pytest
 from inside import session_of
 
 from sambot_viz import Visualizer
-from sambot_viz.panels.player import PlayerPanel
+from sambot_viz.panels.sources.player import PlayerPanel
 from sambot_viz.session.data.player import Player
 
 

@@ -15,7 +15,7 @@ from sambot_viz import Visualizer
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.panels.joints.poses import MOVE_TIME, GhostPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer
+from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.limits import MOST_POSES

@@ -10,8 +10,8 @@ from panel_rows import data_of, edit, rows_of
 
 from sambot_viz import Problem
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems import MOST_SHOWN, ProblemsPanel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.problems.problems import MOST_SHOWN, ProblemsPanel
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 
 INFO = Problem("info", "i", "worth knowing")

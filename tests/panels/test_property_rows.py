@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from sambot_viz.displays.registry import DISPLAYS
-from sambot_viz.panels.property_rows import kind_of, property_rows
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.property_rows import kind_of, property_rows
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,

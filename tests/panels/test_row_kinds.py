@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 from typing import get_args
 
-from sambot_viz.panels.row import Kind
+from sambot_viz.panels.rows.row import Kind
 
 WITHOUT_CELL = {"group", "note", "lines"}
 """Rows that are a name, or a text over the whole width."""

@@ -13,8 +13,8 @@ from page_rows import decode
 
 from sambot_viz.panels import row_sync
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
 from sambot_viz.panels.row_sync import RowSync
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
 

@@ -15,7 +15,7 @@ from robot_peer import BusyPeer, square_peer
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.topics import MOST_SHOWN, TopicsPanel
+from sambot_viz.panels.sources.topics import MOST_SHOWN, TopicsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.data import live_topics
 from sambot_viz.session.signals import connect

@@ -22,7 +22,7 @@ from sambot_viz.panels.command import (
     Argument,
     Command,
 )
-from sambot_viz.panels.row import Data, Kind, Row
+from sambot_viz.panels.rows.row import Data, Kind, Row
 
 SIGNS = string.printable + "äß→\ud800\udfff\u202e\x00\x7f\u2028\ufeff\U0001f600"
 NUMBERS = (0, 1, -1, 3, 2**31, 2**53 + 1, -(2**63), 10**400, 1e-300, 0.5, 1e13, -1e300)

@@ -11,7 +11,7 @@ from panel_rows import data_of, edit, panel_of, row_named, rows_of
 
 from sambot_viz import bundled, load_config
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client

@@ -15,7 +15,7 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.panels.window import Window
 from sambot_viz.session import Session
 from sambot_viz.session.worker import Worker

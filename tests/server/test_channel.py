@@ -24,7 +24,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin, Subprotocol
 
 from sambot_viz import Visualizer, viser_private
-from sambot_viz.panels.row_store import ClientRows, RowStore
+from sambot_viz.panels.rows.row_store import ClientRows, RowStore
 from sambot_viz.server import tickets
 from sambot_viz.server.channel import PING, PONG, SUBPROTOCOL, Channel
 from sambot_viz.server.connections import connection, rate_limit
@@ -440,6 +440,6 @@ def test_a_long_text_for_the_clipboard_comes_in_one_piece(
 
 
 def channel_answer(text: str) -> Any:
-    from sambot_viz.panels.row import Answer
+    from sambot_viz.panels.rows.row import Answer
 
     return Answer("a text", text)

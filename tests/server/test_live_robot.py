@@ -14,7 +14,7 @@ from protocol_client import CAMERA, ProtocolClient
 from robot_peer import RobotPeer
 
 from sambot_viz import JointError, UsageError, Visualizer
-from sambot_viz.panels.source import SourcePanel
+from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.clients.client import Client

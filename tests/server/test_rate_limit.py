@@ -8,7 +8,7 @@ import pytest
 from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz.options import Options
-from sambot_viz.panels.row_store import ClientRows, RowStore
+from sambot_viz.panels.rows.row_store import ClientRows, RowStore
 from sambot_viz.server.connections.rate_limit import WINDOW
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.protection.inbound_filter import NoSessions

@@ -13,7 +13,7 @@ from made_recording import described, write_recording
 from sambot_viz import Visualizer
 from sambot_viz.displays.display import Status
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
-from sambot_viz.panels.status_rows import status_rows
+from sambot_viz.panels.problems.status_rows import status_rows
 from sambot_viz.session import Session
 
 MAIN, OTHER = "/robot_description", "/other/robot_description"

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from sambot_viz.panels.row_store import COMPRESSED
+from sambot_viz.panels.rows.row_store import COMPRESSED
 
 Row = dict[str, Any]
 """As the page gets it, what differs from the defaults by name; and its "panel"."""

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from sambot_viz.panels import validation
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.scene.joint_arrow import JointArrow

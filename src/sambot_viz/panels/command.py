@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from sambot_viz.panels.row import Json
+from sambot_viz.panels.rows.row import Json
 
 P = ParamSpec("P")
 Owner = TypeVar("Owner")

@@ -15,7 +15,7 @@ from sambot_viz.drive.differential import WheelPair
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Kind, Row
+from sambot_viz.panels.rows.row import Answer, Kind, Row
 from sambot_viz.session.clients.follow_view import FollowView
 from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.motion import HOLD

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.panels.command import FLAG, LIST, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json, Level
+from sambot_viz.panels.rows.row import Data, Json, Level
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any, ClassVar, TypeAlias
 
 from sambot_viz.panels.command import Command, declared_commands
-from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.signals import Signal
 
 Item: TypeAlias = Row | Data | Command

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, replace
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Json, Level, Row
+from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.session.people.roles import Participant, Roles
 
 

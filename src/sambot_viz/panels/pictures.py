@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Level
+from sambot_viz.panels.rows.row import Level
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.picture import (
     LONGEST_SIDE,

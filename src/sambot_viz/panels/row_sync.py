@@ -7,8 +7,8 @@ from functools import partial
 from itertools import chain
 
 from sambot_viz.panels.panel import Item, Panel
-from sambot_viz.panels.row import Row, safe
-from sambot_viz.panels.row_store import RowStore, Scope
+from sambot_viz.panels.rows.row import Row, safe
+from sambot_viz.panels.rows.row_store import RowStore, Scope
 from sambot_viz.session.signals import Listening, connect
 from sambot_viz.session.worker import Throttle, Worker
 

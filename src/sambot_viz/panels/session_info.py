@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from sambot_viz._version import __version__
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data
+from sambot_viz.panels.rows.row import Data
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.scene import Scene
 

@@ -10,8 +10,8 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
 from sambot_viz.panels.joints.joint_rows import joint_id
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Answer, Data, Json, Row
+from sambot_viz.panels.rows.property_rows import property_rows
+from sambot_viz.panels.rows.row import Answer, Data, Json, Row
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument

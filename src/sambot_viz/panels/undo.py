@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Json
+from sambot_viz.panels.rows.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.people.roles import Roles

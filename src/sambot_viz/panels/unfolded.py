@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 
 from sambot_viz.panels.command import TEXT, Command
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.rviz import RvizConfig
 
 _SHOWN = {"Global Status": "Status"}

@@ -18,7 +18,7 @@ from typing import Any, cast
 from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
 from sambot_viz.panels.command import LARGEST, Argument, Command
-from sambot_viz.panels.row import Data, Json, Row
+from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 

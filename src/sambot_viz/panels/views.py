@@ -8,11 +8,11 @@ from typing import Any, cast
 
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import TEXT, command
-from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.property_rows import property_rows
-from sambot_viz.panels.row import Answer, Data, Json, Level, Row
-from sambot_viz.panels.status_rows import use_other_frame
+from sambot_viz.panels.problems.status_rows import use_other_frame
+from sambot_viz.panels.rows.ids import Ids
+from sambot_viz.panels.rows.property_rows import property_rows
+from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import row_text

@@ -16,13 +16,13 @@ from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
 from sambot_viz.panels.pictures import AskPage
-from sambot_viz.panels.player import PlayerPanel
-from sambot_viz.panels.problems import ProblemsPanel
-from sambot_viz.panels.row import Answer, Row
-from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.problems.problems import ProblemsPanel
 from sambot_viz.panels.row_sync import RowSync
+from sambot_viz.panels.rows.row import Answer, Row
+from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
-from sambot_viz.panels.source import SourcePanel
+from sambot_viz.panels.sources.player import PlayerPanel
+from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.data.live_data import LiveData

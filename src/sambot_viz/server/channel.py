@@ -25,7 +25,7 @@ import msgspec
 from websockets.protocol import State
 
 from sambot_viz.panels import validation
-from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
 from sambot_viz.server.protection.inbound_filter import ClientHandler, report

@@ -14,7 +14,7 @@ from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
-from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.window import Window
 from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.links import invite

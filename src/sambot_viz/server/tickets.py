@@ -17,7 +17,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Response
 from websockets.protocol import State
 
-from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.channel import Channel
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.page_files import plain_page

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Row
+from sambot_viz.panels.rows.row import Data, Row
 from sambot_viz.session.data.live_topics import LiveTopics
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.scene.scene import Scene

@@ -11,7 +11,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, Argument, command
 from sambot_viz.panels.displays.displays import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json
+from sambot_viz.panels.rows.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.document.display_edits import DisplayEdits

@@ -10,12 +10,16 @@ from typing import Any
 from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
-from sambot_viz.panels.ids import Ids
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems import without_folders
-from sambot_viz.panels.property_rows import is_listed, property_row, property_rows
-from sambot_viz.panels.row import Json, Row
-from sambot_viz.panels.status_rows import LEVELS, global_status_rows, status_rows
+from sambot_viz.panels.problems.problems import without_folders
+from sambot_viz.panels.problems.status_rows import (
+    LEVELS,
+    global_status_rows,
+    status_rows,
+)
+from sambot_viz.panels.rows.ids import Ids
+from sambot_viz.panels.rows.property_rows import is_listed, property_row, property_rows
+from sambot_viz.panels.rows.row import Json, Row
 from sambot_viz.panels.unfolded import (
     LazyRows,
     keep_expanded,

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from sambot_viz.displays.by_topic import displays_of_topic
 from sambot_viz.displays.display import Display
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.rviz.declarations import short_name
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from sambot_viz.frames import Transform
 from sambot_viz.frames.robot_frames import Explanation
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 
 DIGITS = 6
 """Decimals: a micrometre is more than a hand can use."""

@@ -15,7 +15,7 @@ from sambot_viz.frames.static_transform import StaticTransform, parse_static_tra
 from sambot_viz.panels.command import FLAG, NUMBER, TEXT, Command, command
 from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.robot.frames import Frames

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.joints import JointState
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.robot.parts import Joint
 
 STEP_ANGLE, STEP_LENGTH = 0.01, 0.001

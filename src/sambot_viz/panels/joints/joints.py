@@ -19,7 +19,7 @@ from sambot_viz.joints.values import (
 from sambot_viz.panels.command import LIST, TEXT, command
 from sambot_viz.panels.joints.joint_rows import ID_PREFIX, joint_id, joint_rows
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Json, Row
+from sambot_viz.panels.rows.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.data.robot_data import RobotData

@@ -13,7 +13,7 @@ from sambot_viz.geometry import wxyz_from_matrix
 from sambot_viz.joints.presets import Presets
 from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Answer, Data, Json
+from sambot_viz.panels.rows.row import Answer, Data, Json
 from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.robot.motion import Motion

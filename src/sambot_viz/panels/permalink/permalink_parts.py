@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.row import Answer, Json, Row
+from sambot_viz.panels.rows.row import Answer, Json, Row
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from sambot_viz.displays.picking.selected import Fact
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Json, Row
+from sambot_viz.panels.rows.row import Json, Row
 from sambot_viz.panels.selection.entries import SelectedEntries, SelectedEntry
 from sambot_viz.rviz import FIXED_FRAME, TfFrameProperty
 from sambot_viz.session.clients.client import Client

@@ -28,7 +28,7 @@ import viser
 from websockets.protocol import State
 
 from sambot_viz import viser_private
-from sambot_viz.panels.row_store import ClientRows
+from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
 from sambot_viz.server.protection.client_messages import (

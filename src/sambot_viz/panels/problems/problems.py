@@ -14,7 +14,7 @@ from typing import cast
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
 from sambot_viz.session.problems import Problems

@@ -8,7 +8,7 @@ from typing import Any
 from sambot_viz.errors import Severity
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json, Level, Row
+from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.session.data.live_topics import LiveTopics
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.scene.scene import Scene

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from sambot_viz.panels.row import Kind, Row
+from sambot_viz.panels.rows.row import Kind, Row
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,

@@ -7,7 +7,7 @@ from typing import Any
 
 from sambot_viz.panels.command import FLAG, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Row
+from sambot_viz.panels.rows.row import Data, Row
 from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
 from sambot_viz.session.signals import Signal
 

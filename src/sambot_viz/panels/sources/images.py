@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sambot_viz.displays.pictures import ClientPictures
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Row
+from sambot_viz.panels.rows.row import Row
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.scene import Scene
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from sambot_viz.panels.command import command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.row import Data, Json
+from sambot_viz.panels.rows.row import Data, Json
 from sambot_viz.session.data.live_data import LiveData
 from sambot_viz.session.signals import Signal
 from sambot_viz.topics.live_reasons import lagging

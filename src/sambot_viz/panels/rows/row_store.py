@@ -14,7 +14,7 @@ from typing import Literal, Protocol
 
 import msgspec
 
-from sambot_viz.panels.row import Json
+from sambot_viz.panels.rows.row import Json
 
 LONG = 4096
 """A longer patch is sent compressed, in a binary frame [bytes]."""

@@ -1,0 +1,1 @@
+"""Rows: what panels send to the page, kept, numbered and compared."""

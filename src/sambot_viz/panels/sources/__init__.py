@@ -1,0 +1,1 @@
+"""What comes from a recording or a robot: topics, its state, player, pictures."""
