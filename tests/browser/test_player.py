@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from ax_tree import Thing
 from inside import session_of
 from recorded_page import open_page
 from user import User
@@ -89,3 +90,53 @@ def test_on_a_phone_the_time_bar_is_as_wide_as_the_screen_and_its_times_cover_no
     for role, name in (("slider", "Time"), ("tab", "Joints"), ("tab", "Topics")):
         assert user.can_see(user.find(role, name))
     page.close()
+
+
+def test_a_tap_on_a_line_that_is_cut_off_shows_all_of_it(
+    make_viz: Callable[..., Visualizer], chromium: Chromium
+) -> None:
+    # Nobody listens there.
+    viz = make_viz(source="rosbridge://127.0.0.1:1")
+    page = open_page(chromium, 390, 844, touch=True)
+    page.goto(viz.url)
+    user = User(page, finger=True)
+
+    def line() -> Thing:
+        return max(user.see().all("status"), key=lambda one: len(one.text))
+
+    user.until(lambda: user.is_cut_off(line()))
+    user.click_on(line())
+    whole = user.find("tooltip")
+    assert whole.text == line().text and user.can_see(whole)
+    assert not user.is_cut_off(whole)
+    user.click("button", "Select")
+    user.gone("tooltip")
+    page.close()
+
+
+def test_the_keys_of_the_player_go_on_after_a_click_of_the_mouse(
+    viz: Visualizer, viewer: ViewerPage
+) -> None:
+    user, data = viewer.user, session_of(viz).data
+    assert data is not None and data.player is not None
+    player = data.player
+    user.click("button", "Pause")
+    user.until(lambda: not player.playback.value.playing)
+    user.click("button", "Loop")
+    user.until(lambda: player.playback.value.loop)
+    user.keys(" ")
+    user.find("button", "Pause")
+    user.keys(" ")
+    user.find("button", "Play")
+    assert player.playback.value.loop
+
+    user.menu("View", "Look: RViz")
+    user.keys("End")
+    user.until(lambda: player.time_ns == player.end_ns)
+    user.click("button", "Select")
+    user.keys("ArrowLeft")
+    user.until(lambda: player.time_ns == player.end_ns - 10**9)
+    # Who came by the keyboard stays there.
+    user.keys("Tab")
+    user.keys("ArrowRight", "ArrowRight")
+    assert player.time_ns == player.end_ns - 10**9

@@ -171,6 +171,8 @@ function bar(player) {
     player.play(false);
     player.go(Number(slider.value));
   };
+  // The space bar would press what a mouse has clicked on.
+  loop.addEventListener("click", (event) => event.detail && loop.blur());
   addEventListener("keydown", (event) => {
     if (event.key !== " " || event.repeat || event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.target instanceof HTMLButtonElement) return;

@@ -43,6 +43,7 @@ const PATHS = {
   pause: "M4 3h3v10H4zM9 3h3v10H9z",
   stepBack: "M3.5 3v10M12.5 3l-7 5 7 5z",
   stepOn: "M12.5 3v10M3.5 3l7 5-7 5z",
+  loop: "M12 2l2.5 2.5L12 7M14.5 4.5H4a2.5 2.5 0 0 0-2.5 2.5M4 14l-2.5-2.5L4 9M1.5 11.5H12a2.5 2.5 0 0 0 2.5-2.5",
   stop: "M4 4h8v8H4z",
   close: "M4 4l8 8M12 4l-8 8",
   trash: "M2.5 4.5h11M6 4.5V2.5h4v2M4 4.5l.8 9.5h6.4l.8-9.5M6.7 7v4.5M9.3 7v4.5",

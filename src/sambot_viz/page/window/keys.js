@@ -76,8 +76,29 @@ const DRIVE = ".drive, [data-tab=drive]";
 /** Where arrow keys have no other use: nothing there is moved or scrolled by them. */
 const NO_ARROWS = "body, canvas, .player-bar button";
 
+/** Where a mouse clicks without meaning to leave the keyboard there. */
+const PASSING = ".top button, .player-bar button, .statusbar button";
+
 /** What keeps the keys of the window for itself. */
 const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
+
+/**
+ * Let go of the focus that a mouse has set on the way: the keys of the player would stop.
+ * @param {() => boolean} plays
+ */
+function letGo(plays) {
+  let byMouse = false;
+  addEventListener("pointerdown", () => (byMouse = true), true);
+  addEventListener("keydown", () => (byMouse = false), true);
+  /** @param {string} passing */
+  const leave = (passing) => {
+    const has = document.activeElement;
+    if (plays() && has instanceof HTMLElement && has.matches(passing)) has.blur();
+  };
+  // A key that presses a button is no click of a mouse.
+  addEventListener("click", (event) => event.detail && leave(PASSING));
+  addEventListener("change", () => byMouse && leave(".player-bar select"));
+}
 
 /**
  * Follow the keyboard.
@@ -86,6 +107,7 @@ const OPEN = "dialog[open], [role=dialog], [role=alertdialog], [role=menu]";
  *   plays: () => boolean, play: () => void, seek: (key: string) => void}} window
  */
 export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play, seek }) {
+  letGo(plays);
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
     // The text of the whole page is never meant.

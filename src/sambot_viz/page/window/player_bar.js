@@ -5,6 +5,7 @@
 import { html, useEffect, useReducer, useRef } from "../vendor/preact.js";
 import { useCommand, useData, useRow } from "../state.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
+import { CutText } from "./cut_text.js";
 import { Icon } from "./icons.js";
 import { Popup } from "./popup.js";
 
@@ -85,8 +86,8 @@ function Source({ name, connected, sentence, recording }) {
   return html`<section class="player-bar" aria-label="Source">
     <span class=${`source l-${connected ? "ok" : "warn"}`}><${Icon} name=${connected ? "ok" : "warn"} />
       ${connected ? "Live" : "Waiting"}</span>
-    <span class="uri" title=${name}>${name}</span>
-    <span class="sentence" role="status" title=${sentence}>${sentence}</span>
+    <${CutText} is="uri" text=${name} />
+    <${CutText} is="sentence" role="status" text=${sentence} />
     <${LiveTime} />
     <${Recording} recording=${recording} />
   </section>`;
@@ -128,10 +129,10 @@ function Recording({ recording }) {
   return html`
     ${
       recording &&
-      html`<span class=${`recording ${running ? "running" : ""}`} title=${name}>
-      ${`${running ? "Recording" : "Recorded"} ${name}, ${length}, ${sizeText(size)}`}</span>`
+      html`<${CutText} is=${`recording ${running ? "running" : ""}`}
+      text=${`${running ? "Recording" : "Recorded"} ${name}, ${length}, ${sizeText(size)}`} />`
     }
-    ${trouble && html`<span class="l-warn trouble" role="status" title=${trouble}>${trouble}</span>`}
+    ${trouble && html`<${CutText} is="l-warn trouble" role="status" text=${trouble} />`}
     ${
       record &&
       html`<button title="Record all topics to a new file on the server"
@@ -199,8 +200,8 @@ function Controls({ time }) {
         .sort((a, b) => a - b)
         .map((one) => html`<option value=${String(one)} selected=${one === rate}>${one}×</option>`)}
     </select></label>
-    <button class="flat needs-control" aria-pressed=${String(loop)} title="Begin again at the end"
-      onClick=${() => send("player/loop", !loop)}>Loop</button>`;
+    <button class="loop needs-control" aria-pressed=${String(loop)} title="Begin again at the end"
+      onClick=${() => send("player/loop", !loop)}><${Icon} name="loop" />Loop</button>`;
 }
 
 /** When the page was opened [s since 1970]. */

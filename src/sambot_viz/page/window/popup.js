@@ -80,7 +80,7 @@ export function Popup({ label, name, role, title, opened, children }) {
 
 /** Below the button, inside the window. What is in the bar below the view opens above all of it:
  * on a phone the tabs are next below it. @param {HTMLElement} button @param {HTMLElement} panel */
-function place(button, panel) {
+export function place(button, panel) {
   const bar = button.closest(".player-bar");
   const at = button.getBoundingClientRect();
   const size = panel.getBoundingClientRect();

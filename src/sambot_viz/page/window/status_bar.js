@@ -4,6 +4,7 @@
 
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
+import { CutText } from "./cut_text.js";
 import { notice } from "./notices.js";
 import { ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
@@ -23,7 +24,7 @@ export function StatusBar({ problems }) {
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
     <${Selected} />
-    <span class="hint" role="status" title=${hint}>${hint}</span>
+    <${CutText} is="hint" role="status" text=${hint} />
     <${Said} />
     <${Driving} />
     <${Progress} />
@@ -37,7 +38,7 @@ function Selected() {
   const names = useData("tools/selected") || [];
   if (!names.length) return null;
   const words = names.length === 1 ? `Selected: ${names[0]}` : `${names.length} items selected`;
-  return html`<span class="selected" role="status" title=${words}>${words}</span>`;
+  return html`<${CutText} is="selected" role="status" text=${words} />`;
 }
 
 /** What was said last. */
@@ -48,8 +49,8 @@ function Said() {
     const timer = setTimeout(() => notice.set(null), said.level === "error" ? REFUSED : SAID);
     return () => clearTimeout(timer);
   }, [said]);
-  return html`<span class=${`notice l-${said?.level || "none"}`} role="alert"
-    title=${said?.text || ""}>${said?.text || ""}</span>`;
+  return html`<${CutText} is=${`notice l-${said?.level || "none"}`} role="alert"
+    text=${said?.text || ""} />`;
 }
 
 function Progress() {
