@@ -236,7 +236,6 @@ def test_quantized_positions_are_read(write: Write) -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"buffers": [{"uri": "gone.bin"}]}, "'gone.bin': there is no such file"),
         ({"nodes": []}, r"trimesh cannot read it \(IndexError"),
         ({"nodes": [{"mesh": 7}]}, r"does not have or .* meshes \[7\]"),
         ({"nodes": [{"mesh": 0, "children": [0]}]}, "below itself"),
@@ -258,6 +257,14 @@ def test_a_file_that_contradicts_itself_is_refused(
 ) -> None:
     with pytest.raises(MeshError, match=f"the glTF file is broken: .*{sentence}"):
         read_mesh(write("a.glb", glb(document(**changes))))
+
+
+def test_a_missing_buffer_is_named_with_the_place_for_it(write: Write) -> None:
+    path = write("a.gltf", json.dumps(document(buffers=[{"uri": "gone.bin"}])))
+    with pytest.raises(MeshError, match=r"needs the file 'gone\.bin'") as caught:
+        read_mesh(path)
+    assert caught.value.problem.code == "mesh-buffer-missing"
+    assert caught.value.problem.hint.startswith("put it beside the mesh")
 
 
 @pytest.mark.parametrize("twice", ["bufferViews", "accessors"])

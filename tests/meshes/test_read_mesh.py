@@ -29,7 +29,7 @@ POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:abc\nsize 12\n
         ("a.dae", "", "mesh-empty", "the file is empty"),
         ("a.mesh", "x", "mesh-format-unknown", r"kind '.mesh' .* one of .stl, .dae"),
         ("noending", "x", "mesh-format-unknown", "kind 'noending'"),
-        ("a.dae", "<robot/>", "mesh-broken", "no <COLLADA> element .* <robot>"),
+        ("a.dae", "<part/>", "mesh-broken", "no <COLLADA> element .* <part>"),
         ("a.dae", "nothing like it", "mesh-broken", "not well-formed XML"),
         ("a.obj", "# nothing\n", "mesh-empty", "no triangles"),
         ("a.glb", b"glTF\2\0", "mesh-broken", "only 6 bytes"),

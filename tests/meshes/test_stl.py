@@ -110,7 +110,8 @@ def test_a_binary_stl_of_the_wrong_size_is_refused(
     [
         ("solid empty\nendsolid empty\n", "contains no triangles"),
         (ASCII.replace("VERTEX 1e0 0 0", ""), "2 vertices in 1 complete facets"),
-        (ASCII.replace("1e0 0 0", "1,0 0 0"), "not three numbers"),
+        (ASCII.replace("1e0 0 0", "1 0"), "not three numbers"),
+        (ASCII.replace("1e0 0 0", "-1,5 0 0"), r"decimal commas \(-1,5\)"),
         (ASCII[: ASCII.index("endfacet")], "3 vertices in 0 complete facets"),
     ],
 )

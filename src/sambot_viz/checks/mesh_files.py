@@ -15,12 +15,16 @@ from sambot_viz.geometry import Vector3
 from sambot_viz.robot.parts import Link, MeshFile, Shape
 
 if TYPE_CHECKING:
-    from sambot_viz.meshes.mesh import Mesh
+    from sambot_viz.meshes.mesh import Mesh, MeshPart
 
 _LONGEST = 10.0
 _LARGEST_FILE = 60_000_000
+_AT_ONCE = 1000
+"""The first thousand triangles nearly always have one that can be seen."""
 _WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
 _TOO_LARGE = 15.0
+_NONSENSE = 1e6
+"""Nothing that was drawn in a smaller unit is so large [m]."""
 _TOO_SMALL = 0.0005
 _FLAT = 0.002
 """A mesh that is thinner than this share of its size is a floor or a wall."""
@@ -90,6 +94,8 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
         if found is None:
             skipped.append(path)
             continue
+        if not isinstance(found, Problem) and not any(map(_has_area, found.parts)):
+            yield _invisible(link, shape, path)
         problems = (found,) if isinstance(found, Problem) else found.problems
         for problem in problems:
             yield Problem.at(
@@ -102,6 +108,28 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
             )
     if skipped:
         yield _not_read(skipped)
+
+
+def _has_area(part: MeshPart) -> bool:
+    """Tell whether one of its triangles is more than a point or a line."""
+    for start in range(0, len(part.faces), _AT_ONCE):
+        corners = part.vertices[part.faces[start : start + _AT_ONCE]]
+        corners = corners.astype(np.float64)
+        first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        if np.any(np.cross(first, second)):
+            return True
+    return False
+
+
+def _invisible(link: Link, shape: Shape, path: Path) -> Problem:
+    return Problem.at(
+        shape.geometry_place or shape.place,
+        "warning",
+        "mesh-invisible",
+        f"link {link.name}: the mesh {path.name}: all its triangles are points or "
+        "lines, so nothing of it can be seen",
+        "export it again and check that the part was selected",
+    )
 
 
 def _severity(problem: Problem) -> Severity:
@@ -119,7 +147,7 @@ def _not_read(paths: Sequence[Path]) -> Problem:
         "info",
         "mesh-not-checked",
         f"{some} not checked, because reading takes too long: "
-        f"{listed(path.name for path in paths)}",
+        f"{listed(dict.fromkeys(path.name for path in paths))}",
         "open the robot with sambot-viz; the Problems panel lists what cannot be drawn",
     )
 
@@ -170,6 +198,11 @@ def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
 
 def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
     """Say what is probably wrong, and what to do about it."""
+    if size > _NONSENSE:
+        return (
+            "has coordinates that make no sense",
+            "export the mesh again, or copy the file again",
+        )
     if size > _TOO_LARGE:
         factors = " ".join(number(factor / 1000) for factor in scale)
         return (

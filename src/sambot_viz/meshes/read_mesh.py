@@ -17,7 +17,8 @@ from sambot_viz.files import (
     reason_of,
 )
 from sambot_viz.meshes.assembly.assemble import Submesh, assemble
-from sambot_viz.meshes.mesh import Mesh, mesh_error
+from sambot_viz.meshes.content import other_content
+from sambot_viz.meshes.mesh import Mesh, MeshError, mesh_error
 from sambot_viz.meshes.source import MeshSource
 from sambot_viz.meshes.textures import TextureStore
 
@@ -35,6 +36,8 @@ _FORMATS = {
     ".ply": "ply",
 }
 """Ending → module of `formats`, which has a function ``read_…`` of that name."""
+_MAY_BE_OTHER = ("mesh-broken", "mesh-empty")
+"""What readers say of a file that is of another format."""
 
 
 def read_mesh(
@@ -81,6 +84,11 @@ def read_mesh(
         raise mesh_error(
             path, "mesh-too-large", "the mesh is too large or too deep to be read"
         ) from error
+    except MeshError as error:
+        other = other_content(path, data)
+        if other is None or error.problem.code not in _MAY_BE_OTHER:
+            raise
+        raise mesh_error(path, "mesh-other-content", *other) from error
 
 
 def _read_bytes(path: Path, largest: int) -> bytes:

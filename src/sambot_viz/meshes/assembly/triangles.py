@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TypeVar
 
 import mapbox_earcut
@@ -15,6 +16,10 @@ _Number = TypeVar("_Number", bound=np.generic)
 _BLANK = b" \t\r\n\f\v"
 _WHOLE = b"0123456789+-" + _BLANK
 _DECIMAL = _WHOLE + b".eE"
+DECIMAL_COMMA = re.compile(rb"[+-]?\d+,\d+")
+"""A number as programs write it in the language of many countries."""
+WITH_POINTS = "export the mesh again with points in its numbers (0.5), not commas (0,5)"
+"""The hint for a file with decimal commas."""
 
 
 def parse_floats(text: bytes) -> npt.NDArray[np.float32] | None:

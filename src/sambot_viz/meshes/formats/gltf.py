@@ -23,8 +23,8 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.gltf_file import GltfFile, GltfMaterials, Json
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
-from sambot_viz.meshes.mesh import mesh_error
-from sambot_viz.meshes.named_files import NamedFileError
+from sambot_viz.meshes.mesh import MeshError, mesh_error
+from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
 from sambot_viz.meshes.source import MeshSource
 
 _TRIANGLES, _FAN = 4, 6
@@ -61,13 +61,27 @@ def read_gltf(source: MeshSource) -> list[Submesh]:
             "the glTF file is broken: it names something that it does not have or that "
             f"is of another kind ({type(error).__name__}: {error})"
         ) from error
-    except (ValueError, NamedFileError) as error:
+    except ValueError as error:
         raise source.broken(f"the glTF file is broken: {error}") from error
+    except NamedFileError as error:
+        raise _without_buffer(source, error) from error
     raise mesh_error(
         source.path,
         "mesh-compressed",
         f"the glTF file {unread}, which this program does not read",
         "export it again as plain triangles without mesh compression",
+    )
+
+
+def _without_buffer(source: MeshSource, error: NamedFileError) -> MeshError:
+    """Return the error for a glTF file whose numbers are in a file that is not here."""
+    return mesh_error(
+        source.path,
+        "mesh-buffer-missing",
+        f"the glTF file needs the file {error}",
+        "run 'git lfs pull' in its repository"
+        if isinstance(error, LfsPointerError)
+        else "put it beside the mesh, or export the mesh as one file (.glb)",
     )
 
 

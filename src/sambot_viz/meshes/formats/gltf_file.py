@@ -102,7 +102,7 @@ class GltfFile:
         except ValueError as error:
             raise ValueError("a data URI is not valid base64") from error
         except NamedFileError as error:
-            raise NamedFileError(f"'{uri[:80]}': {error}") from error
+            raise type(error)(f"'{uri[:80]}': {error}") from error
 
     def _chunks(self) -> tuple[bytes, bytes]:
         """Return the JSON and the binary part of a GLB."""
@@ -175,17 +175,20 @@ class GltfMaterials:
         return look, f"TEXCOORD_{info.get('texCoord', 0)}"
 
     def _texture(self, number: Any) -> Texture | None:
+        hint = "export the mesh again with its textures"
         try:
             return self._file.source.images.from_bytes(self._image(number))
         except (LookupError, TypeError, AttributeError) as error:
             reason = f"the file has no such image ({type(error).__name__}: {error})"
-        except (ValueError, NamedFileError, TextureError) as error:
+        except (ValueError, TextureError) as error:
             reason = str(error)
+        except NamedFileError as error:
+            reason, hint = str(error), "put the image beside the mesh"
         self._file.source.warn(
             "mesh-texture-broken",
             f"texture {number} of the glTF file cannot be used: {reason}; the surface "
             "is shown without it",
-            "export the mesh again with its textures",
+            hint,
         )
         return None
 

@@ -18,18 +18,18 @@ import numpy.typing as npt
 
 from sambot_viz.meshes.assembly.assemble import Floats, Submesh
 from sambot_viz.meshes.assembly.triangles import (
+    DECIMAL_COMMA,
+    WITH_POINTS,
     parse_floats,
     parse_ints,
     table_of,
     triangulate,
 )
-from sambot_viz.meshes.mesh import GREY, Texture
-from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
-from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
+from sambot_viz.meshes.formats.obj_material import read_libraries
+from sambot_viz.meshes.mesh import GREY
+from sambot_viz.meshes.source import MeshMaterial, MeshSource
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
-_LARGEST_LIBRARY = 64 * 2**20
-"""Material files above this size [bytes] are refused."""
 _MISSING = np.iinfo(np.int64).min
 
 
@@ -56,7 +56,7 @@ class _Lines:
 def read_obj(source: MeshSource) -> list[Submesh]:
     """Return the triangles of an OBJ file."""
     lines = _sort(source.data)
-    looks = _read_libraries(lines.libraries, source)
+    looks = read_libraries(lines.libraries, source)
     tables = (
         _table(lines.positions, 3, source),
         _table(lines.uvs, 2, source),
@@ -136,11 +136,16 @@ def _table(lines: list[bytes], width: int, source: MeshSource) -> Floats:
     if width == 2:
         return np.nan_to_num(table)
     if np.any(np.isnan(table)):
+        commas = DECIMAL_COMMA.search(b" ".join(lines))
         source.warn(
             "mesh-geometry-broken",
-            "some lines of the OBJ file are not three numbers; what uses them is left "
-            "out",
-            "export the mesh again",
+            (
+                f"the OBJ file has decimal commas ({commas[0].decode()})"
+                if commas
+                else "some lines of the OBJ file are not three numbers"
+            )
+            + "; what uses them is left out",
+            WITH_POINTS if commas else "export the mesh again",
         )
     return table
 
@@ -169,6 +174,9 @@ def _pieces(
     points, there = _fill(positions, index[:, 0])
     points[~there] = np.nan
     faces = triangulate(counts, points, source.budget)
+    faces = _with_all_corners(faces, there, source)
+    # Lines that are not three numbers have been reported.
+    faces = faces[~np.any(np.isnan(points)[faces], axis=(1, 2))]
     # As in Assimp a corner without uv takes the image at (0, 0).
     uv, has_uv = _fill(uvs, index[:, 1])
     normal, has_normal = _fill(normals, index[:, 2])
@@ -179,6 +187,21 @@ def _pieces(
         Submesh(points, faces[~smooth], uv=uv),
     ]
     return [piece for piece in pieces if len(piece.faces)]
+
+
+def _with_all_corners(
+    faces: npt.NDArray[np.int64], there: npt.NDArray[np.bool_], source: MeshSource
+) -> npt.NDArray[np.int64]:
+    """Drop the triangles of corners that the file does not have."""
+    whole = np.all(there[faces], axis=1)
+    if not np.all(whole):
+        source.warn(
+            "mesh-index-out-of-range",
+            f"{np.count_nonzero(~whole)} triangles use vertices that the file does "
+            "not have; they are left out",
+            "export the mesh again",
+        )
+    return faces[whole]
 
 
 def _fill(
@@ -213,87 +236,3 @@ def _corners(text: bytes, count: int) -> npt.NDArray[np.int64] | None:
             table[row, : len(values)] = values
     table[table == 0] = _MISSING
     return table
-
-
-def _read_libraries(names: list[str], source: MeshSource) -> dict[str, MeshMaterial]:
-    looks: dict[str, MeshMaterial] = {}
-    for name in dict.fromkeys(names):
-        try:
-            data = source.files.read(name, _LARGEST_LIBRARY)
-        except NamedFileError as error:
-            pointer = isinstance(error, LfsPointerError)
-            source.warn(
-                "mesh-lfs-pointer" if pointer else "mesh-material-missing",
-                f"the material file '{name}' cannot be used: {error}; grey is shown",
-                "put it beside the mesh",
-            )
-            continue
-        looks.update(_read_library(data, source))
-    return looks
-
-
-@dataclass(slots=True)
-class _Material:
-    """A material of an .mtl file while its lines are read."""
-
-    diffuse: list[float] = field(default_factory=lambda: list(GREY[:3]))
-    emission: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
-    alpha: float = 1.0
-    texture: Texture | None = None
-
-    @property
-    def look(self) -> MeshMaterial:
-        """Colour and texture as shown: RViz adds emission to the diffuse colour."""
-        red, green, blue = (
-            min(1.0, own + light)
-            for own, light in zip(self.diffuse, self.emission, strict=True)
-        )
-        return MeshMaterial((red, green, blue, self.alpha), self.texture)
-
-
-def _read_library(data: bytes, source: MeshSource) -> dict[str, MeshMaterial]:
-    materials: dict[str, _Material] = {}
-    material: _Material | None = None
-    for line in data.decode("utf-8", "replace").splitlines():
-        keyword, _, rest = line.strip().replace("\t", " ").partition(" ")
-        rest = rest.strip()
-        if keyword == "newmtl":
-            material = materials[rest] = _Material()
-        elif material is not None and keyword == "map_Kd":
-            material.texture = load_texture(_map_name(rest), source)
-        elif material is not None and keyword in ("Kd", "Ke", "d", "Tr"):
-            _set_numbers(material, keyword, rest)
-    return {name: material.look for name, material in materials.items()}
-
-
-def _set_numbers(material: _Material, keyword: str, rest: str) -> None:
-    """Take one line of numbers; what is not made of numbers is ignored."""
-    try:
-        numbers = [min(1.0, max(0.0, float(word))) for word in rest.split()]
-    except ValueError:
-        return
-    if not numbers:
-        return
-    # A single number is used for all three.
-    colour = (numbers * 3)[:3]
-    if keyword == "Kd":
-        material.diffuse = colour
-    elif keyword == "Ke":
-        material.emission = colour
-    else:
-        alpha = numbers[0] if keyword == "d" else 1 - numbers[0]
-        # Exporters write "d 0" for a part that is simply there.
-        material.alpha = alpha or 1.0
-
-
-def _map_name(rest: str) -> str:
-    """Return the file name behind options such as "-s 1 1 1 -bm 0.5"."""
-    words = rest.split(" ")
-    while len(words) > 1 and words[0].startswith("-"):
-        option = words.pop(0)
-        if option in ("-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-type"):
-            words.pop(0)
-            continue
-        while len(words) > 1 and re.fullmatch(r"[-+.\deE]*", words[0]):
-            words.pop(0)
-    return " ".join(words).strip()

@@ -11,7 +11,13 @@ import re
 import numpy as np
 
 from sambot_viz.meshes.assembly.assemble import Submesh
-from sambot_viz.meshes.assembly.triangles import parse_floats, table_of, triples
+from sambot_viz.meshes.assembly.triangles import (
+    DECIMAL_COMMA,
+    WITH_POINTS,
+    parse_floats,
+    table_of,
+    triples,
+)
 from sambot_viz.meshes.mesh import mesh_error
 from sambot_viz.meshes.source import MeshSource
 
@@ -65,7 +71,13 @@ def _ascii(source: MeshSource) -> Submesh:
             f"the ASCII STL file has {corners} vertices in {facets} complete facets; "
             "a facet has three"
         )
-    numbers = parse_floats(b" ".join(_VERTEX.findall(text)))
+    vertices = b" ".join(_VERTEX.findall(text))
+    numbers = parse_floats(vertices)
     if numbers is None or len(numbers) != 3 * corners:
+        if comma := DECIMAL_COMMA.search(vertices):
+            raise source.broken(
+                f"the ASCII STL file has decimal commas ({comma[0].decode()})",
+                WITH_POINTS,
+            )
         raise source.broken("the ASCII STL file has a vertex that is not three numbers")
     return Submesh(table_of(numbers, 3), triples(facets))

@@ -42,6 +42,8 @@ _DOUBTS = {
         "write package://PACKAGE/…, with two slashes and the name of the package",
     ),
 }
+_MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
+"""Endings of the mesh files that are read."""
 _OUTSIDE = "it is outside the model's folder and packages, and the model is not trusted"
 
 
@@ -143,6 +145,9 @@ class FileFinder:
             hint = "correct the path, or put the file there"
             if filename.startswith("http"):
                 hint = "download it and name it by package:// or a relative path"
+            folder = Path(found.searched[0]) if found.searched else None
+            if folder is not None and folder.is_absolute() and folder.is_dir():
+                reason, hint = "it is a folder", _file_in(folder, filename)
         stand_in = "; a placeholder is drawn" if kind == "mesh" else ""
         text = f"the {kind} {filename} was not found: {reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, filename, element)
@@ -152,6 +157,13 @@ class FileFinder:
     ) -> None:
         cause = _home_of(filename)
         self._findings.warn(code, text, hint, element, "filename", cause=cause)
+
+
+def _file_in(folder: Path, filename: str) -> str:
+    """Advise which file to name instead of a folder."""
+    inside = sorted(p.name for p in folder.iterdir() if p.suffix.lower() in _MESHES)
+    example = f", such as {filename.rstrip('/')}/{inside[0]}" if inside else ""
+    return f"write the name of a mesh file{example}"
 
 
 def _home_of(filename: str) -> str:
