@@ -56,7 +56,9 @@ class Listened:
             if self._listen(live, path):
                 types = live.decoding.types
                 recording = open_recording(path)
-                self.recorded = RecordedRobot(recording, types, live.name, at)
+                self.recorded = RecordedRobot(
+                    recording, types, live.name, at, is_heard=True
+                )
                 text = self.recorded.description or ""
                 self.missing = fetch_files(live.source, text, self.packages)
         except BaseException:

@@ -397,6 +397,11 @@ class Options:
         return tuple(uri for uri in self.source if not uri.startswith("bag:"))
 
     @property
+    def waits_for_robot(self) -> bool:
+        """Whether the robot is the one that a live source will describe."""
+        return self.model is None and bool(self.live_sources)
+
+    @property
     def start_pose(self) -> StartPose:
         """The pose that `zeros`, `joint_state` and `joint_positions` ask for."""
         from sambot_viz.joints.presets import StartPose

@@ -65,7 +65,7 @@ def alerts(user: User) -> str:
 def test_a_press_on_a_slider_that_a_recording_moves_says_what_moves_it(
     viewer: ViewerPage,
 ) -> None:
-    user, said = viewer.user, "square.mcap moves this joint. Untick Follow"
+    user, said = viewer.user, "This joint is moved by square.mcap. Untick"
     left, top, width, height = user.box(user.find("slider", "drivewhl_l_joint"))
     user.page.mouse.click(round(left + 0.8 * width), round(top + height / 2))
     user.until(lambda: said in alerts(user))

@@ -168,6 +168,14 @@ def test_a_live_robot_has_no_time_to_look_at(words: list[str], capsys: Capture) 
     assert "--at is a time of a recording" in capsys.readouterr().err
 
 
+def test_a_time_that_was_not_listened_to_says_how_to_listen_longer(
+    busy: BusyPeer, capsys: Capture
+) -> None:
+    source = ["--source", busy.uri, *FOR, "--at", "900"]
+    assert main(["echo", *source, "odom", "base_link"]) == 0
+    assert "or listen longer with --for" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("words", [["topics"], ["frames"]])
 def test_a_robot_that_leaves_while_it_is_listened_to_is_said(
     words: list[str], busy: BusyPeer, capsys: Capture
@@ -185,6 +193,18 @@ def test_a_robot_that_leaves_while_it_is_listened_to_is_said(
     assert "the connection was lost after" in err
     # It may have left before anything of it was written.
     assert status == 1 or "base_link" in out or "/scan" in out
+
+
+def test_joints_do_not_end_a_program_that_waits_for_its_robot(
+    peer: FoxglovePeer, tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    words = ("--source", peer.uri, "--joint", "lead=1", "--port", "0")
+    with running(*words, cwd=tmp_path) as process:
+        page = protocol(int(address(process).rsplit(":", 1)[1]))
+        page.wait_until(lambda: "joints/none" in page.rows)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=patience(20))
+    assert (process.returncode, err) == (0, "")
 
 
 def test_a_recording_of_the_command_line_says_what_it_has(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from shutil import copy
 
 import pytest
 
@@ -84,6 +85,33 @@ def test_a_file_that_is_no_recording_is_one_line(
     for name in ("empty.mcap", "no_messages.mcap", "garbage.mcap"):
         assert main(["topics", str(made / name)]) == 1
         assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_files_that_are_counted_together_are_named(
+    square: str, tmp_path: Path, capsys: Capture
+) -> None:
+    folder = tmp_path / "lab"
+    folder.mkdir()
+    for name in ("first.mcap", "second.mcap"):
+        copy(square, folder / name)
+    for words in ([str(folder)], ["--source", f"bag:{folder}"]):
+        assert main(["topics", *words]) == 0
+        out, err = capsys.readouterr()
+        assert "2000" in out
+        assert "2 files are counted as one recording: first.mcap, second.mcap" in err
+    # The parts of one that rosbag2 has split are one.
+    (folder / "metadata.yaml").write_text("", "utf-8")
+    assert main(["topics", str(folder)]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_sentence_about_several_recordings_is_about_several(
+    made: Path, capsys: Capture
+) -> None:
+    one = made / "no_description.mcap"
+    words = ["--source", f"bag:{one}", "--source", f"bag:{one}"]
+    assert main(["topics", *words]) == 0
+    assert "no /robot_description in 2 recordings" in capsys.readouterr().err
 
 
 def test_thousands_of_topics_are_listed(made: Path, capsys: Capture) -> None:

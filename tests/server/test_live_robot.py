@@ -127,6 +127,19 @@ def test_without_a_robot_the_joints_say_that_none_has_come(
         assert "No robot has come yet" in page.row("joints/none")["value"]
 
 
+def test_joints_of_the_command_line_wait_for_the_robot(peer: RobotPeer) -> None:
+    peer.stop()
+    start = {LEFT: 0.5, "tail": 1.0}
+    with Visualizer(source=peer.uri, joint_positions=start, port=0) as viz:
+        session = session_of(viz)
+        assert viz.joint_positions == {}
+        peer.start()
+        eventually(lambda: viz.joint_positions.get(LEFT) == 0.5)
+        listed = [problem.message for problem in session.problems.shown.value.listed]
+        (said,) = (message for message in listed if "tail" in message)
+        assert said.startswith("the robot cannot start as the command line says")
+
+
 def test_the_fixed_frame_is_ok_only_when_a_robot_has_it(
     peer: RobotPeer, protocol: Callable[..., ProtocolClient]
 ) -> None:

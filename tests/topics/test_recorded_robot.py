@@ -233,5 +233,5 @@ def test_a_recording_without_a_robot_names_what_it_has(shared: Path) -> None:
     bag = shared / "data" / "bags" / "real" / "out.bag"
     with Inputs(Options(source=f"bag:{bag}")) as inputs:
         (problem,) = inputs.problems()
-    assert "(it has rosout)" in problem.message
+    assert "(topics: rosout)" in problem.message
     assert "no transforms either" in problem.message

@@ -161,6 +161,8 @@ def _refuse_early(inputs: Inputs) -> None:
             tree.set_static(added.parent, added.child, added.transform)
     if inputs.poses is not None and os.path.exists(inputs.poses):
         inputs.presets()
+    if options.waits_for_robot:
+        return
     if not options.watch or options.joint_positions or options.zeros:
         if inputs.refusal() is None:
             options.start_pose.state(inputs.robot())
@@ -172,7 +174,7 @@ def _report_start(inputs: Inputs, report: _Reports) -> None:
 
     options = inputs.options
     report.write(inputs.problems())
-    if inputs.refusal() is None:
+    if inputs.refusal() is None and not options.waits_for_robot:
         start_state(inputs.robot(), options)
     if inputs.refusal() is not None or inputs.broken_config is not None:
         sys.stderr.write(_WAITING)

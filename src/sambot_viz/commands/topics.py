@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os.path
+import sys
 from collections.abc import Iterable, Sequence
 from contextlib import closing
 from operator import attrgetter
+from pathlib import Path
 from typing import Any
 
 from sambot_viz.commands.command_line import Parser, parse
@@ -56,7 +58,21 @@ def _looked_at(
     if recorded is None:
         raise UsageError(_no_recording(options))
     with recorded.recording:
+        _say_together(recorded.recording.paths)
         return _of_recording(recorded, recorded.at_ns)
+
+
+def _say_together(paths: Sequence[Path]) -> None:
+    """Say which files are one recording, if rosbag2 does not say it."""
+    if len(paths) < 2 or all(
+        (path.parent / "metadata.yaml").is_file() for path in paths
+    ):
+        return
+    names = ", ".join(text(path.name, _WIDEST) for path in paths)
+    sys.stderr.write(
+        f"sambot-viz: note: {len(paths)} files are counted as one recording: {names}; "
+        "give one of them to list it alone\n"
+    )
 
 
 def _no_recording(options: Options) -> str:

@@ -160,6 +160,13 @@ class StartPose:
         state.compare_followers(recorded | following)
         return state
 
+    def known_in(self, robot: Robot) -> StartPose:
+        """Return the part of it that a robot has joints for."""
+        maps = (self.zeros, self.recorded, self.positions)
+        return StartPose(
+            *({n: q for n, q in one.items() if n in robot.joints} for one in maps)
+        )
+
     def passed_over(self, state: JointState) -> tuple[str, ...]:
         """Return the names of the recorded message that the robot does not know."""
         known = {*state.joints, *state.skipped}

@@ -6,12 +6,13 @@ from functools import partial
 from pathlib import Path
 
 from sambot_viz.displays.robot_display import Description
-from sambot_viz.errors import Problem, RobotError
+from sambot_viz.errors import JointError, Problem, RobotError
 from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import open_text
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.live_model import LiveModel
@@ -136,7 +137,7 @@ class ShownInputs:
         sessions = self.server.sessions
         live = self._inputs.live
         topics = RobotTopics() if live is None else live.topics
-        sessions.set_reload_problems("model", missing)
+        sessions.set_reload_problems("model", (*missing, *self._start_problems(robot)))
         if self._stand_in is self.configs.current:
             for session in sessions.all():
                 with session.change(session.document.options, session.document.views):
@@ -149,6 +150,14 @@ class ShownInputs:
         for session in sessions.all():
             with session.change():
                 session.clients.show_first_view()
+
+    def _start_problems(self, robot: Robot) -> tuple[Problem, ...]:
+        """Say which joints of the command line a live robot does not have."""
+        try:
+            self._inputs.options.start_pose.state(robot)
+        except JointError as error:
+            return (reload_problems.start_pose(error),)
+        return ()
 
     def _refuse_live(self, error: RobotError) -> None:
         self.server.sessions.set_reload_problems("model", error.problems)

@@ -198,7 +198,11 @@ class Session:
         with self.change():
             if self.own_model and not own:
                 return
-            refused = self.robot.take(robot, self.options.start_pose)
+            start = self.options.start_pose
+            if self.options.waits_for_robot:
+                # The server says what is wrong once it has come.
+                start = start.known_in(robot)
+            refused = self.robot.take(robot, start)
             self.own_model = own
             self.drive.take(robot)
             self.scene.take_options(self.document.config.global_options)

@@ -50,6 +50,7 @@ class RecordedRobot:
         types: decodes them.
         name: what it is called.
         at: where to begin [s from the first message]; None plays from there.
+        is_heard: whether it is what a live robot has said within some seconds.
 
     Attributes:
         recording: as given.
@@ -67,9 +68,12 @@ class RecordedRobot:
         types: MessageTypes,
         name: str,
         at: float | None = None,
+        *,
+        is_heard: bool = False,
     ) -> None:
         self.recording = recording
         self.name = name
+        self._is_heard = is_heard
         self.refusal = ""
         self.at_ns: int | None = None
         if at is not None and recording.start_ns is not None:
@@ -111,14 +115,14 @@ class RecordedRobot:
             return found
         topics = sorted(self.recording.topics)
         more = ", …" if len(topics) > _NAMED else ""
-        told = f"{', '.join(topics[:_NAMED])}{more}" or "no topic"
+        told = f"topics: {', '.join(topics[:_NAMED])}{more}" if topics else "no topic"
         frames = any(True for _ in self._told.pairs())
         shown = "its frames are shown" if frames else "it has no transforms either"
         missing = Problem(
             "warning",
             "no-description",
-            f"{self.name} has no /robot_description (it has {told}), so there is no "
-            f"robot to draw; {shown}",
+            f"there is no /robot_description in {self.name} ({told}), so there is "
+            f"no robot to draw; {shown}",
             "give the robot beside it: --model ROBOT.urdf.xacro",
         )
         return (*found, missing)
@@ -131,12 +135,15 @@ class RecordedRobot:
             return
         length, asked = (end - start) * 1e-9, (at_ns - start) * 1e-9
         nearest = "its end" if asked > 0 else "its begin"
+        hint = f"give a time from 0 to {length:.3f} with --at"
+        if self._is_heard:
+            hint = f"{hint}, or listen longer with --for"
         yield Problem(
             "warning",
             "at-outside",
-            f"{self.name} is {length:.3f} s long, so there is nothing at {asked:g} s; "
-            f"{nearest} is shown",
-            f"give a time from 0 to {length:.3f} with --at",
+            f"there is nothing at {asked:g} s of {self.name}, only from 0 to "
+            f"{length:.3f} s; {nearest} is shown",
+            hint,
         )
 
     @property

@@ -15,7 +15,7 @@ const CHANGES = new Set(["ArrowUp", "ArrowDown", "Backspace", "Delete"]);
  * @param {Row | undefined} follow the row that gives the joints to messages, or to the sliders */
 export const followedText = (follow) =>
   follow?.value
-    ? `${String(follow.name).replace(/^Follow /, "")} moves this joint. Untick Follow to move it here.`
+    ? `This joint is moved by ${String(follow.name).replace(/^Follow /, "")}. Untick Follow to move it here.`
     : "";
 
 /** The same, in a component. */

@@ -236,8 +236,8 @@ def not_there(
 
 def _missing_in(name: str, topic: str) -> str:
     return (
-        f"{name} has no robot; give it beside it: --model ROBOT.urdf.xacro, or record "
-        f"{topic} too"
+        f"no robot is in {name}; give it beside it: --model ROBOT.urdf.xacro, or "
+        f"record {topic} too"
     )
 
 

@@ -83,11 +83,15 @@ class RobotState:
     def take(self, model: Robot, start: StartPose) -> tuple[Problem, ...]:
         """Take a robot, or the same after an edit: joints keep their values.
 
+        Args:
+            model: the robot.
+            start: where the joints of the first one with joints are.
+
         Returns:
             Why some of the added frames could not be set.
         """
         self.model = model
-        if self.joints is None:
+        if self.joints is None or not self.joints.joints:
             self.joints = start.state(model)
         else:
             self.joints.reload(model)
