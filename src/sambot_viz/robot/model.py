@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,8 @@ from sambot_viz.robot.parts import Joint, Link, MeshFile, Shape
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
+    from sambot_viz.meshes.mesh import Mesh
+    from sambot_viz.robot.balance import Balance
     from sambot_viz.robot.model_source import OpenedModel, PathLike
 
 
@@ -108,6 +111,37 @@ class Robot:
         none: Mapping[str, float] = {}
         named = none if positions is None else self.named_positions(positions)
         return Kinematics(self).forward(named)
+
+    def balance(self, positions: Positions | None = None) -> Balance | None:
+        """Weigh the robot, and find what it stands on; its mesh files are read.
+
+        The ground is level in the root link, at the lowest point of the robot.
+
+        Args:
+            positions: as for `forward_kinematics`.
+
+        Returns:
+            Mass, centre of mass in the root link, and support polygon; `tipping` of it
+            says how far the ground may be tilted. None where no link has a mass.
+
+        Raises:
+            JointError: as for `forward_kinematics`.
+        """
+        from sambot_viz.meshes.mesh import MeshError
+        from sambot_viz.meshes.read_mesh import read_mesh
+        from sambot_viz.robot.balance import balance
+
+        @cache
+        def read(path: Path) -> Mesh | None:
+            try:
+                return read_mesh(path, roots=self.file_roots)
+            except MeshError:
+                return None
+
+        def mesh_of(shape: MeshFile) -> Mesh | None:
+            return None if shape.path is None else read(shape.path)
+
+        return balance(self, self.forward_kinematics(positions), mesh_of)
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
         """Return the same robot as a `yourdfpy.URDF`, meshes not loaded."""
