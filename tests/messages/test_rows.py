@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import random
-import sys
-from collections.abc import Callable
 from dataclasses import replace
 from operator import attrgetter
 from typing import Any
 
-import numpy as np
 import pytest
+from decoded import calls_of, decoder_of, values_of
 from random_messages import random_message
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.messages import Decoder, MessageTypes, Rows, Schema
+from sambot_viz.messages import Rows
 
 PATH, STAMPED = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseStamped"
 POSE = [f"pose.position.{axis}" for axis in "xyz"]
@@ -40,39 +38,6 @@ def store() -> Any:
         behind = f"string before\n{name}[] rows\nfloat64 behind"
         made.register(get_types_from_msg(behind, f"made/msg/{name}_list"))
     return made
-
-
-def decoder_of(store: Any, name: str, encoding: str = "cdr") -> Decoder:
-    ros = 1 if encoding == "ros1" else 2
-    text, _ = store.generate_msgdef(name, ros_version=ros)
-    return MessageTypes().decoder(Schema(name, f"ros{ros}msg", text), encoding)
-
-
-def values_of(message: Any) -> Any:
-    """The fields of a message as lists and numbers."""
-    if hasattr(message, "__dataclass_fields__"):
-        names = [name for name in message.__dataclass_fields__ if name.islower()]
-        plain = [name for name in names if not name.startswith("__")]
-        return {name: values_of(getattr(message, name)) for name in plain}
-    if isinstance(message, list | Rows):
-        return [values_of(one) for one in message]
-    return message.tolist() if isinstance(message, np.ndarray) else message
-
-
-def calls_of(action: Callable[[], object]) -> int:
-    """How many functions of Python are called."""
-    count = 0
-
-    def note(frame: object, event: str, argument: object) -> None:
-        nonlocal count
-        count += event == "call"
-
-    sys.setprofile(note)
-    try:
-        action()
-    finally:
-        sys.setprofile(None)
-    return count
 
 
 def path_of(store: Any, count: int, frames: tuple[str, ...] = ("map",)) -> Any:

@@ -2,6 +2,7 @@
 
 from sambot_viz.messages.decoder import Decoder
 from sambot_viz.messages.joint_states import JointStateTemplate
+from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.rows import Rows
 from sambot_viz.messages.schema import Schema
@@ -11,6 +12,7 @@ from sambot_viz.messages.types import MessageTypes
 __all__ = [
     "Decoder",
     "JointStateTemplate",
+    "KeptElements",
     "MessageTypes",
     "Reason",
     "Rows",

@@ -13,6 +13,7 @@ from typing import Any, cast
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import TypeDefinition
 from sambot_viz.messages.functions import Functions
+from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.reason import Reason
 
 Payload = bytes | bytearray | memoryview
@@ -42,8 +43,13 @@ class Decoder:
         self.reason = reason
         self.note: Reason | None = None
 
-    def decode(self, payload: Payload) -> Any:
+    def decode(self, payload: Payload, kept: KeptElements | None = None) -> Any:
         """Return a message.
+
+        Args:
+            payload: its bytes.
+            kept: the elements of the message before of its topic: those of the same
+                bytes are the same objects.
 
         Returns:
             An object with the fields as attributes; arrays of numbers are read-only
@@ -58,7 +64,9 @@ class Decoder:
 class JsonDecoder(Decoder):
     """Reads messages that are JSON objects."""
 
-    def decode(self, payload: Payload) -> dict[str, Any]:
+    def decode(
+        self, payload: Payload, kept: KeptElements | None = None
+    ) -> dict[str, Any]:
         """Return a message as a dict."""
         try:
             message: object = json.loads(bytes(payload))
@@ -76,11 +84,14 @@ class _Store:
     count up to any number where elements take none.
     """
 
-    __slots__ = ("get_msgdef", "max_sequence_length")
+    __slots__ = ("get_msgdef", "kept", "max_sequence_length")
 
-    def __init__(self, get_msgdef: Callable[[str], Any], length: int) -> None:
+    def __init__(
+        self, get_msgdef: Callable[[str], Any], length: int, kept: KeptElements | None
+    ) -> None:
         self.get_msgdef = get_msgdef
         self.max_sequence_length = length
+        self.kept = kept
 
 
 class _Layout:
@@ -91,26 +102,26 @@ class _Layout:
         self._is_ros1 = encoding == "ros1"
         self._functions: Functions | None = None
 
-    def read(self, payload: memoryview) -> tuple[Any, int]:
+    def read(self, payload: memoryview, kept: KeptElements | None) -> tuple[Any, int]:
         """Return a message, and how many bytes are left over.
 
         Raises:
             DecodeError: the bytes are no such message.
         """
         try:
-            return self._read(payload)
+            return self._read(payload, kept)
         except DecodeError:
             raise
         except Exception as error:
             # Generated code: struct.error, ValueError, IndexError, SerdeError, ….
             raise DecodeError(_cause(error)) from error
 
-    def _read(self, payload: memoryview) -> tuple[Any, int]:
+    def _read(self, payload: memoryview, kept: KeptElements | None) -> tuple[Any, int]:
         if self._functions is None:
-            self._functions = Functions(self.definition.types)
+            self._functions = Functions(self.definition.types, self.definition.name)
         get_msgdef = self._functions.get_msgdef
         own = get_msgdef(self.definition.name)
-        store = _Store(get_msgdef, len(payload))
+        store = _Store(get_msgdef, len(payload), kept)
         if self._is_ros1:
             function = own.deserialize_ros1
         else:
@@ -153,13 +164,13 @@ class FieldDecoder(Decoder):
         self._others = others
         self._own = definitions[0] if others is not None else None
 
-    def decode(self, payload: Payload) -> Any:
+    def decode(self, payload: Payload, kept: KeptElements | None = None) -> Any:
         """Return a message."""
         view = memoryview(payload).toreadonly().cast("B")
         # Replaced as a whole and never changed: several players read at a time.
         layouts = self._layouts
         try:
-            message, left = layouts[0].read(view)
+            message, left = layouts[0].read(view, kept)
         except DecodeError:
             if (better := self._fitting(layouts, view)) is None:
                 raise
@@ -179,7 +190,7 @@ class FieldDecoder(Decoder):
             self._layouts, self._others = layouts, None
         for layout in layouts[1:]:
             try:
-                message, left = layout.read(view)
+                message, left = layout.read(view, None)
             except DecodeError:
                 continue
             if left <= _PADDING:

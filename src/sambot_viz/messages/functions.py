@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from sambot_viz.messages.definition import NAME, SEQUENCE
 from sambot_viz.messages.flat_types import leaves_of
+from sambot_viz.messages.kept_elements import ElementReader, KeptElements
 from sambot_viz.messages.rows import ArrayReader
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 # rosbags' generated module lies in sys.modules while its dataclasses are made.
 _register_lock = Lock()
+_POSE = "geometry_msgs/msg/Pose"
 _ARRAY = "[]"
 """Behind the name of a type: arrays of it, as a type that rosbags' code asks us for."""
 
@@ -29,14 +31,21 @@ class Functions:
 
     rosbags' own store makes fourteen for each type, of which reading needs one.
 
+    Args:
+        types: the fields of all of them.
+        root: the one whose messages come one after the other; the elements of its own
+            arrays are kept for the next message, if its reader wants that.
+
     Attributes:
         max_sequence_length: no array may have more elements; one that reads a whole
             message says how many.
+        kept: elements of the message before; one that reads a whole message has them.
     """
 
     max_sequence_length = 0
+    kept: KeptElements | None = None
 
-    def __init__(self, types: Types) -> None:
+    def __init__(self, types: Types, root: str) -> None:
         from rosbags.typesys.store import Typestore
 
         store = Typestore()
@@ -44,28 +53,38 @@ class Functions:
             store.register({name: ([], fields) for name, fields in types.items()})
         found = {name: leaves_of(name, types) for name in types}
         flat = {name: leaves for name, leaves in found.items() if leaves}
-        self._types: dict[str, _TypeFunctions | _ArrayFunctions] = {
-            name: _TypeFunctions(store.types[name], _with_arrays(fields, flat), self)
-            for name, (_, fields) in store.fielddefs.items()
-        }
+        all_kept = {_element(desc) for _, desc in types[root]} - {"", *flat}
+        self._types: dict[str, _TypeFunctions | _ArrayFunctions] = {}
+        for name, (_, fields) in store.fielddefs.items():
+            ours = flat.keys() | all_kept if name == root else flat
+            changed = _with_arrays(fields, ours)
+            self._types[name] = _TypeFunctions(store.types[name], changed, self)
         for name, leaves in flat.items():
-            self._types[name + _ARRAY] = _ArrayFunctions(name, leaves, self)
+            self._types[name + _ARRAY] = _FlatArrayFunctions(name, self, leaves)
+        for name in all_kept:
+            self._types[name + _ARRAY] = _KeptArrayFunctions(name, self)
 
     def get_msgdef(self, name: str) -> Any:
         """Return those of a type; rosbags' generated code asks with this name."""
         return self._types[name]
 
 
-def _with_arrays(fields: Fielddefs, flat: Collection[str]) -> Fielddefs:
-    """Return fields in which arrays of flat types are read by us."""
+def _with_arrays(fields: Fielddefs, ours: Collection[str]) -> Fielddefs:
+    """Return fields in which arrays of some types are read by us."""
 
     def changed(desc: FieldDesc) -> FieldDesc:
-        kind, what = cast("tuple[int, Any]", desc)
-        if kind == SEQUENCE and what[0][0] == NAME and what[0][1] in flat:
-            return cast("FieldDesc", (desc[0].__class__(NAME), what[0][1] + _ARRAY))
+        name = _element(desc)
+        if name in ours:
+            return cast("FieldDesc", (desc[0].__class__(NAME), name + _ARRAY))
         return desc
 
     return [(name, changed(desc)) for name, desc in fields]
+
+
+def _element(desc: FieldDesc) -> str:
+    """Return the type of the elements of an array; "" for what is none, or numbers."""
+    kind, what = cast("tuple[int, Any]", desc)
+    return str(what[0][1]) if kind == SEQUENCE and what[0][0] == NAME else ""
 
 
 @dataclass
@@ -97,12 +116,11 @@ class _TypeFunctions:
 
 @dataclass
 class _ArrayFunctions:
-    """The same for arrays of a flat type, whose length the message says."""
+    """The same for arrays of a type, whose length the message says."""
 
     name: str
-    leaves: Sequence[tuple[str, str]]
     _all: Functions = field(repr=False)
-    cls: type = list
+    cls: type = field(default=list, init=False)
 
     @property
     def fields(self) -> Fielddefs:
@@ -125,6 +143,16 @@ class _ArrayFunctions:
         return self._reader("deserialize_ros1", "<", is_aligned=False)
 
     def _reader(self, function: str, order: str, *, is_aligned: bool) -> Any:
+        raise NotImplementedError
+
+
+@dataclass
+class _FlatArrayFunctions(_ArrayFunctions):
+    """Those of a type that is nothing but numbers and texts."""
+
+    leaves: Sequence[tuple[str, str]]
+
+    def _reader(self, function: str, order: str, *, is_aligned: bool) -> Any:
         element = self._all.get_msgdef(self.name)
         read_one: Callable[..., tuple[Any, int]] = getattr(element, function)
         length = struct.Struct(f"{order}I").unpack_from
@@ -138,3 +166,37 @@ class _ArrayFunctions:
             return rows(data, at + 4, *length(data, at))
 
         return read
+
+
+class _KeptArrayFunctions(_ArrayFunctions):
+    """Those of the arrays of a message of which the next one may have most again."""
+
+    def _reader(self, function: str, order: str, *, is_aligned: bool) -> Any:
+        from rosbags.serde.utils import align
+
+        element = self._all.get_msgdef(self.name)
+        length = struct.Struct(f"{order}I").unpack_from
+        parts: list[tuple[int, Callable[..., Any]]] = []
+        for fields in _parts_of(element.fields):
+            alignment = align(fields[0][1], cast("Any", self._all)) if is_aligned else 1
+            functions = _TypeFunctions(tuple, fields, self._all)
+            parts.append((alignment, getattr(functions, function)))
+        elements = ElementReader(element.cls, getattr(element, function), parts)
+
+        def read(data: memoryview, at: int, _: object, all_: Any) -> tuple[Any, int]:
+            return elements(data, at + 4, length(data, at)[0], all_)
+
+        return read
+
+
+def _parts_of(fields: Fielddefs) -> list[Fielddefs]:
+    """Return the fields of a type in parts: a pose is one, as it is what changes."""
+    parts: list[Fielddefs] = [[]]
+    for one in fields:
+        is_pose = one[1][1] == _POSE
+        if is_pose and parts[-1]:
+            parts.append([])
+        parts[-1].append(one)
+        if is_pose:
+            parts.append([])
+    return [part for part in parts if part]

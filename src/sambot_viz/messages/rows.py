@@ -7,7 +7,7 @@ are equally far from each other. An element becomes an object when it is asked f
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, overload
 
 import numpy as np
@@ -105,7 +105,7 @@ class Rows(Sequence[Any]):
         )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class ArrayReader:
     """Reads arrays of one type.
 
@@ -120,6 +120,13 @@ class ArrayReader:
     leaves: Sequence[Leaf]
     order: str
     aligned: bool
+    _least: int = field(init=False)
+    _largest: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Compute once what each array needs."""
+        self._least = smallest(self.leaves)
+        self._largest = max(size_of(kind) for _, kind in self.leaves)
 
     def __call__(
         self, data: memoryview, at: int, count: int
@@ -129,8 +136,9 @@ class ArrayReader:
         Raises:
             DecodeError: there are fewer than `count`.
         """
-        least = count * smallest(self.leaves)
-        if least > len(data) - at or count > len(data):
+        if not count:
+            return [], at
+        if count * self._least > len(data) - at or count > len(data):
             raise DecodeError("an array longer than its message")
         if count >= _FEWEST:
             rows = self._rows(data, at, count)
@@ -154,9 +162,8 @@ class ArrayReader:
         ]:
             return None
         stride = self._begin(second.end) - second.begin
-        largest = max(size_of(kind) for _, kind in self.leaves)
         end = second.end + (count - 2) * stride
-        if (self.aligned and stride % largest) or end > len(data):
+        if (self.aligned and stride % self._largest) or end > len(data):
             return None
         rows = Rows(data, first, second, stride, count, self.read)
         return (rows, end) if rows.are_uniform() else None

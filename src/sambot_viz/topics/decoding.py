@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from operator import attrgetter
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy.typing as npt
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.messages import MessageTypes, Rows, TransformDecoder
+from sambot_viz.messages import KeptElements, MessageTypes, Rows, TransformDecoder
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.transforms import Transforms
 
@@ -29,8 +30,12 @@ class Decoding:
         self.types = types
         self._transforms: dict[str, TransformDecoder] = {}
 
-    def decode(self, message: Recorded) -> Any:
+    def decode(self, message: Recorded, kept: KeptElements | None = None) -> Any:
         """Return a message as an object with its fields.
+
+        Args:
+            message: its bytes.
+            kept: of the message before; equal elements of arrays are the same objects.
 
         Raises:
             DecodeError: its bytes are not what its type says, or nobody reads them.
@@ -39,7 +44,11 @@ class Decoding:
         decoder = self.types.decoder(channel.schema, channel.message_encoding)
         if decoder.reason is not None:
             raise DecodeError(decoder.reason.text)
-        return decoder.decode(message.payload)
+        return decoder.decode(message.payload, kept)
+
+    def in_turn(self) -> Callable[[Recorded], Any]:
+        """Return what decodes messages that come one after the other, as `decode`."""
+        return partial(self.decode, kept=KeptElements())
 
     def text(self, message: Recorded) -> str:
         """Return the text of a std_msgs/String; empty when it cannot be read."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
@@ -25,16 +25,16 @@ class DisplayTopics:
     """Keeps what displays have subscribed to; the two kinds of sources derive from it.
 
     Args:
-        decode: returns a message as an object with its fields, or raises DecodeError.
+        decoding: of their messages.
         report: tells an exception that no display should have raised.
     """
 
     def __init__(
         self,
-        decode: Callable[[Recorded], Any],
+        decoding: Decoding,
         report: Callable[[Exception], None],
     ) -> None:
-        self._decode = decode
+        self._decoding = decoding
         self._report = report
         self._subscriptions: list[Subscription] = []
 
@@ -51,7 +51,7 @@ class DisplayTopics:
         """Ask for the messages of some topics."""
         made = Subscription(
             topics,
-            self._decode,
+            self._decoding.in_turn(),
             came,
             depth_s=depth_s,
             size=size,
@@ -114,7 +114,7 @@ class RecordedDisplayTopics(DisplayTopics):
         player: Player,
         report: Callable[[Exception], None],
     ) -> None:
-        super().__init__(Decoding(recorded.decoding.types).decode, report)
+        super().__init__(Decoding(recorded.decoding.types), report)
         self._recorded = recorded
         self._player = player
         self._types: Mapping[str, str] = {}
@@ -177,7 +177,7 @@ class LiveDisplayTopics(DisplayTopics):
         wake: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:
-        super().__init__(Decoding(live.decoding.types).decode, report)
+        super().__init__(Decoding(live.decoding.types), report)
         self._live = live
         self._wake = wake
         self._receivers: dict[Subscription, Callable[[Recorded], object]] = {}
