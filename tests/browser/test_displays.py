@@ -241,6 +241,24 @@ def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
     user.until(lambda: not user.there("treegrid", "Problems"))
 
 
+def test_displays_with_errors_are_counted_and_one_click_leads_to_the_first(
+    user: User, session: Session
+) -> None:
+    user.find("button", "No problems")
+    grid = session.scene.displays[1]
+    session.worker.post(
+        lambda: session.display_edits.set_property(grid, "Reference Frame", "nowhere")
+    )
+    user.find("button", "No other problems")
+    user.menu("Panels", "Displays")
+    user.gone("treegrid", "Displays")
+    user.click("button", "1 display in Error")
+    user.until(lambda: user.row("Displays", "Grid").state("focused"))
+    user.row("Displays", "Grid", "Status", "Transform")
+    user.click("button", "Use <Fixed Frame>")
+    user.find("button", "No problems")
+
+
 def test_a_mere_remark_takes_no_room(own: Own) -> None:
     user, session = own
     remark = Problem("info", "i", "worth knowing", "do that")

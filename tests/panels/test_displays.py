@@ -254,6 +254,21 @@ def test_a_frame_that_is_missing_is_repaired_by_the_nearest_name(
         assert displays.named(*path, "Status").value == "Ok"
 
 
+def test_the_page_hears_which_statuses_are_errors(displays: Displays) -> None:
+    def errors() -> list[str]:
+        return data_of(displays.panel)["displays/errors"]
+
+    assert errors() == []
+    floor = displays.named("Ground", "Floor").id
+    displays.change("Ground", "Floor", "Reference Frame", to="nowhere")
+    assert errors() == [floor]
+    # A display that is off has no status.
+    displays.change("Ground", "Floor", to=False)
+    assert errors() == []
+    displays.change("Global Options", "Fixed Frame", to="map")
+    assert errors()[0] == displays.named("Global Status").id
+
+
 def test_bad_rows_of_a_status_come_first(displays: Displays) -> None:
     displays.change("Global Options", "Fixed Frame", to="map")
     levels = [

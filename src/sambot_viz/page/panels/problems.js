@@ -3,7 +3,7 @@
 
 import { html, useEffect } from "../vendor/preact.js";
 import { Icon } from "../window/icons.js";
-import { useData } from "../state.js";
+import { useData, wantedRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
 
 const KINDS = /** @type {const} */ ([
@@ -22,15 +22,29 @@ export function ProblemsPanel() {
 }
 
 /**
- * How many problems there are. Errors open the list, and close it again when they go.
+ * How many problems there are, and displays with errors. Errors among the problems open the list, and close it again when they go.
  * @param {Shown} props
  */
 export function ProblemCount({ shown, show, byItself }) {
   const count = useData("problems/count");
   useOpening(count, { shown, show, byItself });
-  return html`<button class="problem-count" aria-expanded=${String(shown)}
+  /** @type {string[]} the rows of Global Status and of displays, in this order */
+  const inError = useData("displays/errors") || [];
+  return html`${
+    inError.length > 0 &&
+    html`<button class="problem-count" title="Show it in Displays"
+      onClick=${() => wantedRow.set({ panel: "displays", id: inError[0] })}>
+      <span class="l-error"><${Icon} name="error" /> ${inWords(inError)}</span></button>`
+  }<button class="problem-count" aria-expanded=${String(shown)}
     title=${`${shown ? "Hide" : "Show"} the problems`}
-      onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} /></button>`;
+      onClick=${() => show(!shown)}><${Numbers} of=${counted(count)}
+        none=${inError.length ? "No other problems" : "No problems"} /></button>`;
+}
+
+/** @param {string[]} inError */
+function inWords(inError) {
+  if (inError[0] === "status") return "Global Status: Error";
+  return inError.length === 1 ? "1 display in Error" : `${inError.length} displays in Error`;
 }
 
 /**
@@ -51,8 +65,8 @@ function counted(count) {
   );
 }
 
-/** @param {{of: ReturnType<typeof counted>}} props */
-function Numbers({ of }) {
+/** @param {{of: ReturnType<typeof counted>, none?: string}} props */
+function Numbers({ of, none }) {
   const words = of
     .map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`)
     .join(", ");
@@ -63,9 +77,9 @@ function Numbers({ of }) {
             html`<span key=${name} class=${`l-${level}`} aria-hidden="true">
               <${Icon} name=${level} /> ${number}</span>`,
         )
-      : html`<span aria-hidden="true"><${Icon} name="ok" /> No problems</span>`
+      : html`<span aria-hidden="true"><${Icon} name="ok" /> ${none}</span>`
   }
-    <span class="spoken">${words ? `Problems: ${words}` : "No problems"}</span>`;
+    <span class="spoken">${words ? `Problems: ${words}` : none}</span>`;
 }
 
 /** What the list was opened for, also while the panels are hidden. */

@@ -137,7 +137,9 @@ function Name({ row, twist, twice, rename }) {
   const press = (event) => {
     if (event.detail > 1 && !event.target.matches("input")) event.preventDefault();
   };
-  const icon = row.kind === "status" ? row.level : row.icon || row.level;
+  const isBad = row.level === "error" || row.level === "warn";
+  const isLevel = row.kind === "status" || (row.kind === "display" && isBad);
+  const icon = isLevel ? row.level : row.icon || row.level;
   const text = `${row.name}${row.whole ? `: ${row.value}` : ""}`;
   return html`<span class="name" role="gridcell" onMouseDown=${press} onDblClick=${twice}>
     ${twist}

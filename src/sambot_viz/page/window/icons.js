@@ -2,28 +2,23 @@
 /* Small pictures, drawn here: outlines on a grid of 16 by 16. */
 
 import { html } from "../vendor/preact.js";
+import { DISPLAY_ICONS } from "./display_icons.js";
 
 /** @type {Record<string, string>} */
 const PATHS = {
+  ...DISPLAY_ICONS,
+  marker: DISPLAY_ICONS.Marker,
+  pose: DISPLAY_ICONS.Pose,
   ok: "M3 8.5l3.5 3.5L13 4.5",
   warn: "M8 2l6.5 12h-13zM8 6v4M8 12v.5",
   error: "M8 1.5a6.5 6.5 0 1 0 .01 0M5.5 5.5l5 5M10.5 5.5l-5 5",
   info: "M8 1.5a6.5 6.5 0 1 0 .01 0M8 7v4.5M8 4.5v.5",
   options:
     "M8 5.5a2.5 2.5 0 1 0 .01 0M8 1.5v2M8 12.5v2M1.5 8h2M12.5 8h2M3.4 3.4l1.4 1.4M11.2 11.2l1.4 1.4M12.6 3.4l-1.4 1.4M4.8 11.2l-1.4 1.4",
-  Grid: "M1.5 8L8 4l6.5 4L8 12zM4.7 6l6.6 4M11.3 6l-6.6 4",
-  RobotModel:
-    "M5 5h6v5H5zM8 5V2.5M6.5 7.2v.6M9.5 7.2v.6M6.5 10v3.5M9.5 10v3.5M5 7H3v2.5M11 7h2v2.5",
-  TF: "M3 13V8M3 13h5M3 13l3-3M13 3v4M13 3h-4M6 10l5-5",
-  Axes: "M4 12V3M4 12h9M4 12l4-4",
-  Group: "M1.5 4h4l1.5 1.5h7.5V13h-13z",
-  Path: "M2 13c3 0 2-5 5-5s2-5 7-5",
   link: "M4 4h8v8H4z",
   joint: "M8 5.5a2.5 2.5 0 1 0 .01 0M1.5 8h4M10.5 8h4",
   frame: "M4 12V3M4 12h9M4 12l4-4",
   points: "M4 10a1.5 1.5 0 1 0 .01 0M8 3a1.5 1.5 0 1 0 .01 0M12 9a1.5 1.5 0 1 0 .01 0",
-  marker: "M8 2l5.5 3v6L8 14l-5.5-3V5zM2.5 5L8 8l5.5-3M8 8v6",
-  pose: "M2 8h11M9 4l4 4-4 4",
   Interact:
     "M6 8V3.2a1.2 1.2 0 0 1 2.4 0V7l4 .8c.8.2 1 .8.9 1.5l-.7 4.2H7L4 9.8c-.6-1 .6-1.8 1.3-1.1z",
   "Move Camera":

@@ -14,12 +14,13 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.problems.problems import without_folders
 from sambot_viz.panels.problems.status_rows import (
     LEVELS,
+    STATUS,
     global_status_rows,
     status_rows,
 )
 from sambot_viz.panels.rows.ids import Ids
 from sambot_viz.panels.rows.property_rows import is_listed, property_row, property_rows
-from sambot_viz.panels.rows.row import Json, Row
+from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.panels.unfolded import (
     LazyRows,
     keep_expanded,
@@ -121,6 +122,17 @@ class DisplaysPanel(Panel):
         )
         self._listed = listed_rows(tree, self._document.config.expanded)
         return [mark_expanded(row, self._listed) for row in rows]
+
+    def data(self) -> Sequence[Data]:
+        """Return the rows of what has a status of the level Error."""
+        return [Data("displays/errors", [*self._with_errors()])]
+
+    def _with_errors(self) -> Iterator[str]:
+        if self._scene.global_status().level == "Error":
+            yield STATUS
+        for display in self._scene.displays:
+            if display.shown and display.status.level == "Error":
+                yield self.id_of(display.config)
 
     def changed_rows(self) -> Sequence[Row] | None:
         """Return what numbers that were set have changed in the rows of displays."""

@@ -20,7 +20,9 @@ FEW_FRAMES = 4
 """A wall of names would hide what follows it; the field of the frame lists them all."""
 FIXED_FRAME = "options/Fixed Frame"
 """The id of the row that sets it."""
-_STATUS, _TRANSFORM = "status", "Transform"
+STATUS = "status"
+"""The id of the row of RViz's Global Status."""
+_TRANSFORM = "Transform"
 _PLACE = re.compile(r"[^\s:]{1,60}:\d{1,9}")
 """A line of a file in a sentence; the file's name is as long as in `place_of`."""
 _LONGEST_SENTENCE = 2000
@@ -31,11 +33,11 @@ _LONGEST_NAME = 200
 def global_status_rows(scene: Scene) -> Iterator[Row]:
     """RViz's Global Status."""
     status = scene.global_status()
-    yield _head(_STATUS, "", "Global Status", status.level, lazy=False)
+    yield _head(STATUS, "", "Global Status", status.level, lazy=False)
     there = fixed_frame_missing(scene)
     yield Row(
-        f"{_STATUS}/Fixed Frame",
-        _STATUS,
+        f"{STATUS}/Fixed Frame",
+        STATUS,
         "status",
         "Fixed Frame",
         value=there or status.text,
