@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -114,7 +115,19 @@ def check_robot(
         files[:1] = [os.fspath(path)]
     subject = Subject(robot, tuple(files), mesh or MeshFiles(robot.file_roots))
     found = [problem for rule in RULES for problem in rule(subject)]
-    return _in_order([*robot.problems, *found])
+    return _in_order([*robot.problems, *_without_follow_ups(found, subject)])
+
+
+def _without_follow_ups(found: list[Problem], subject: Subject) -> list[Problem]:
+    """Leave out what is only wrong because of a misspelt name, which is reported."""
+    from sambot_viz.robot.corrected import corrected_robot
+
+    better = corrected_robot(subject.robot)
+    if better is None:
+        return found
+    other = replace(subject, robot=better)
+    codes = {problem.code for rule in RULES for problem in rule(other)}
+    return [problem for problem in found if problem.code in codes]
 
 
 def check_folder(

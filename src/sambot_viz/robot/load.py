@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.follow_ups import report_slips
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -23,6 +24,7 @@ from sambot_viz.robot.model_source import (
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.read_urdf import read_urdf
+from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
     ExpansionError,
@@ -141,6 +143,15 @@ class _Loader:
         urdf = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None
         )
+        report_slips(
+            root,
+            URDF,
+            findings,
+            lambda other, found: read_urdf(
+                other, found, _no_file, _no_file, expanded is not None
+            ),
+            frozenset() if expanded is None else expanded.macros,
+        )
         problems += findings.problems
         read = expanded.files if expanded is not None else ()
         if urdf is None or findings.rejected:
@@ -155,6 +166,10 @@ class _Loader:
             tuple(dict.fromkeys((*own, *read))),
             files.roots,
         )
+
+
+def _no_file(_name: str, _element: Element) -> None:
+    """Leave a mesh or a texture out, where only the elements are read."""
 
 
 def _wanted(failure: XacroFailure) -> list[Path]:

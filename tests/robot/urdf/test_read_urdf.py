@@ -350,7 +350,7 @@ def test_an_empty_name_colours_this_visual_only():
         ('<color rgba="255 128 0 255"/>', "color-range", None),
         ('<color rgba="red"/>', "color-malformed", None),
         ('<color rgba="1,0,0,1"/>', "color-malformed", None),
-        ('<color rgb="1 0 0"/>', "color-without-rgba", None),
+        ('<color r="1"/>', "color-without-rgba", None),
     ],
 )
 def test_a_wrong_colour_is_read_as_ros_reads_it(color: str, code: str, rgba: object):

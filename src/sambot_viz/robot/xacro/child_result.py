@@ -122,12 +122,14 @@ class ExpandedModel:
         root: the same as a tree; every element has the place where the user wrote it.
         files: every file that was read, the model first.
         problems: xacro's warnings.
+        macros: the macros that it defines.
     """
 
     text: str
     root: Element
     files: tuple[Path, ...]
     problems: tuple[Problem, ...]
+    macros: frozenset[str] = frozenset()
 
 
 def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
@@ -165,7 +167,13 @@ def read_result(answer: ChildAnswer, file: str) -> ExpandedModel:
     if wrong_name or _FORBIDDEN.search(expanded["xml"]):
         raise ExpansionError(_not_xml(root, file))
     files = tuple(map(Path, expanded["files"]))
-    return ExpandedModel(expanded["xml"], root, files, tuple(dict.fromkeys(problems)))
+    return ExpandedModel(
+        expanded["xml"],
+        root,
+        files,
+        tuple(dict.fromkeys(problems)),
+        frozenset(expanded["macros"]),
+    )
 
 
 def _tree(expanded: ExpandedAnswer) -> tuple[Element, bool]:

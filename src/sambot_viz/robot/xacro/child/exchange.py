@@ -48,6 +48,7 @@ class ExpandedAnswer(TypedDict):
     files: list[str]
     warnings: list[WarningRow]
     unprefixed: list[UnprefixedRow]
+    macros: list[str]
 
 
 class NotXmlAnswer(TypedDict):

@@ -117,6 +117,7 @@ class Expansion:
             "files": [name for name in self.wanted if os.path.isfile(name)],
             "warnings": self._warnings,
             "unprefixed": self._unprefixed(document.documentElement),
+            "macros": [name for kind, name in self._definitions if kind == "macro"],
         }
 
     def _unprefixed(self, root: Any) -> list[UnprefixedRow]:

@@ -1,0 +1,115 @@
+"""Say what is wrong with a misspelt name, and what to write."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sambot_viz.robot.findings import tag_text
+from sambot_viz.robot.misspelt import CALL, Slip
+from sambot_viz.robot.model_source import missing_prefix
+from sambot_viz.robot.xml.element import Element
+
+SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-misplaced"})
+"""The codes of these problems."""
+
+
+class SlipWords(NamedTuple):
+    """The parts of a problem."""
+
+    code: str
+    message: str
+    hint: str
+
+
+def slip_in_words(slip: Slip, refused: bool) -> SlipWords:
+    """Return code, message and hint for a slip.
+
+    Args:
+        slip: what is wrong.
+        refused: ROS refuses the model because of it.
+    """
+    effect = ", so it refuses the model" if refused else ""
+    if slip.attribute is not None:
+        return _attribute(slip, slip.attribute, effect)
+    if slip.parents:
+        return _misplaced(slip, effect)
+    element, right = slip.element, slip.right
+    if right.startswith(CALL):
+        problem = missing_prefix(element.tag, True, element.place)
+        return SlipWords(problem.code, f"{problem.message}{effect}", problem.hint)
+    message = (
+        f"{tag_text(element)} {_inside(element)}is not known; did you mean "
+        f"<{right}>? ROS ignores it{effect}"
+    )
+    ends = bool(element.children) or bool(element.text.strip())
+    hint = f"write <{right} …> and </{right}>" if ends else f"write <{right} …/>"
+    return SlipWords("element-misspelt", message, hint)
+
+
+def _attribute(slip: Slip, attribute: str, effect: str) -> SlipWords:
+    element, right = slip.element, slip.right
+    value = element.attributes[attribute]
+    message = (
+        f"the attribute {attribute} of {tag_text(element)} {_inside(element)}is not "
+        f"known; did you mean {right}? ROS ignores it{effect}"
+    )
+    hint = f'write {right}="{_completed(right, value)}"'
+    return SlipWords("attribute-misspelt", message, hint)
+
+
+def _completed(name: str, value: str) -> str:
+    """Return the value as the right attribute needs it."""
+    return f"{value} 1" if name == "rgba" and len(value.split()) == 3 else value
+
+
+def _misplaced(slip: Slip, effect: str) -> SlipWords:
+    element, parent = slip.element, slip.element.parent
+    inside = f"<{parent.tag}>" if parent is not None else "the file"
+    tag = tag_text(element)
+    message = (
+        f"{tag} means nothing in {inside}, where ROS ignores it{effect}; it belongs "
+        f"in {_alternatives(slip.parents)}"
+    )
+    return SlipWords("element-misplaced", message, _remedy(slip))
+
+
+def _remedy(slip: Slip) -> str:
+    tag = f"<{slip.element.tag}>"
+    if slip.target is not None:
+        target = slip.target
+        if _is_around(target, slip.element):
+            out_of = slip.element.parent.tag if slip.element.parent is not None else ""
+            return f"move {tag} out of <{out_of}>, directly into {tag_text(target)}"
+        where = f"{tag_text(target)} (line {target.place.line})"
+        return f"move {tag} into {where}"
+    if slip.around:
+        begin = "".join(f"<{around}>" for around in slip.around)
+        end = "".join(f"</{around}>" for around in reversed(slip.around))
+        return f"write {begin} before it and {end} behind it"
+    return f"delete {tag}, or move it there"
+
+
+def _is_around(outer: Element, inner: Element) -> bool:
+    element = inner.parent
+    while element is not None:
+        if element is outer:
+            return True
+        element = element.parent
+    return False
+
+
+def _inside(element: Element) -> str:
+    """Name what an element is in, when it has no name of its own: "in <joint …> "."""
+    parent = element.parent
+    if parent is None or element.get("name"):
+        return ""
+    while not parent.get("name") and parent.parent is not None:
+        parent = parent.parent
+    return f"in {tag_text(parent)} "
+
+
+def _alternatives(names: tuple[str, ...]) -> str:
+    shown = [f"<{name}>" for name in names]
+    if len(shown) == 1:
+        return shown[0]
+    return f"{', '.join(shown[:-1])} or {shown[-1]}"
