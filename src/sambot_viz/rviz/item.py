@@ -189,13 +189,13 @@ class ConfigItem(ItemMap):
         return finish
 
     def assume(self, path: str, value: Any) -> None:
-        """Use another default for a property that the file does not give.
+        """Use another default for a property that is not given, or given as empty.
 
         Args:
             path: the property.
             value: of the property's own type.
         """
-        if path not in self._given:
+        if path not in self._given or self._values[path] == "":
             self._values[path] = value
 
     def is_shown(self, path: str) -> bool:

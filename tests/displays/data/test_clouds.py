@@ -119,6 +119,28 @@ def test_points_without_the_channel_say_which_they_have(opened: Open) -> None:
     )
 
 
+def test_a_new_display_has_the_transformers_that_rviz_would_choose(
+    opened: Open,
+) -> None:
+    viz = opened("scan_points_rainbow")
+    session, text = session_of(viz), session_of(viz).document.config.to_yaml()
+    topic = {"Topic": "/scan"}
+    kind = "rviz_default_plugins/LaserScan"
+    session.display_edits.add_display(kind, values=topic)
+    viz.player.jump(viz.player.duration)
+    new = session.scene.displays[-1]
+    assert new.config.get("Position Transformer") == "XYZ"
+    assert new.config.get("Color Transformer") == "Intensity"
+    assert "From " in new.notes()["Autocompute Intensity Bounds"]
+    session.display_edits.set_property(new, "Color Transformer", "AxisColor")
+    assert new.notes()["Autocompute Value Bounds"].endswith(" m")
+    session.display_edits.set_property(new, "Color Transformer", "FlatColor")
+    assert new.notes() == {}
+    # What was chosen for a user is nothing to save.
+    session.display_edits.remove_display(new.config)
+    assert session.document.config.to_yaml() == text
+
+
 def test_rows_that_have_no_effect_are_hidden_with_those_they_depend_on(
     opened: Open,
 ) -> None:

@@ -123,6 +123,39 @@ def test_a_namespace_that_is_off_shows_nothing(messages: Open) -> None:
     assert sorted(entries.names) == ["a", "b"]
 
 
+def test_a_namespace_is_shown_as_soon_as_its_box_is_ticked(messages: Open) -> None:
+    gone = marker(1, action=DELETE)
+    made = [marker(0), marker(1), marker(2, kind=99), marker(0, "b"), gone]
+    shown = messages("Marker", *made, **{"Namespaces": {"a": False}})
+    edits = session_of(shown.viz).display_edits
+    assert "a/2" not in shown.display.status.rows
+    edits.set_entry(shown.display, "Namespaces", "a", "Value", True)
+    assert names(shown) == {("a", 0), ("b", 0)}
+    assert "a/2" in shown.display.status.rows
+    edits.set_entry(shown.display, "Namespaces", "a", "Value", False)
+    assert names(shown) == {("b", 0)}
+    assert "a/2" not in shown.display.status.rows
+    edits.set_entry(shown.display, "Namespaces", "a", "Value", True)
+    assert names(shown) == {("a", 0), ("b", 0)}
+    all_gone = messages("Marker", *made, marker(0, action=DELETE_ALL))
+    edits = session_of(all_gone.viz).display_edits
+    for is_on in (False, True):
+        edits.set_entry(all_gone.display, "Namespaces", "a", "Value", is_on)
+        assert ("a", 0) not in names(all_gone)
+
+
+def test_a_marker_grows_old_while_its_namespace_is_off(messages: Open) -> None:
+    made = [marker(0, lifetime=1), *(marker(1) for _ in range(20))]
+    shown = messages("Marker", *made)
+    shown.viz.player.jump(0.5)
+    edits = session_of(shown.viz).display_edits
+    edits.set_entry(shown.display, "Namespaces", "a", "Value", False)
+    assert names(shown) == set()
+    shown.viz.player.jump(shown.viz.player.duration)
+    edits.set_entry(shown.display, "Namespaces", "a", "Value", True)
+    assert names(shown) == {("a", 1)}
+
+
 @pytest.mark.parametrize(
     ("made", "text"),
     [

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from sambot_viz.displays.data.cloud.cloud import Cloud
 from sambot_viz.displays.data.cloud.colors import (
     Colors,
+    bounds_of,
     colors_of,
     intensities_of,
     transformer_of,
@@ -17,6 +18,9 @@ from sambot_viz.displays.data.cloud.colors import (
 from sambot_viz.displays.data.cloud.properties import (
     CHANNEL,
     CLOUD_PROPERTIES,
+    COORDINATES,
+    INTENSITIES,
+    PLACING,
     TRANSFORMER,
     color_options,
 )
@@ -128,6 +132,7 @@ class CloudDisplay(MessageFilterDisplay):
             self._made += 1
             name = f"/{self.key}p{short_id(self._made)}"
             node = PointNode(self.context.scene, name)
+        self._choose_transformers(cloud)
         colors = colors_of(cloud, color_options(self.config), T_fixed_cloud)
         self._taken += 1
         item = Selectable("points", self.config.name, f"{self.key}/{self._taken}")
@@ -136,6 +141,12 @@ class CloudDisplay(MessageFilterDisplay):
             frame = frame_and_stamp(message)[0]
         shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node, colors, item, frame)
         self._clouds.append(shown)
+
+    def _choose_transformers(self, cloud: Cloud) -> None:
+        """Take RViz's choice where none is made."""
+        self.config.assume(PLACING, "XYZ")
+        chosen = transformer_of(cloud, str(self.config.get(TRANSFORMER)))
+        self.config.assume(TRANSFORMER, chosen)
 
     def show_taken(self) -> None:
         """Draw those points that look otherwise now, without what is too old."""
@@ -204,7 +215,8 @@ class CloudDisplay(MessageFilterDisplay):
         if not self._clouds:
             return super().notes()
         wanted = str(self.config.get(TRANSFORMER))
-        cloud = self._clouds[-1].cloud
+        shown = self._clouds[-1]
+        cloud = shown.cloud
         chosen = transformer_of(cloud, wanted)
         if chosen != wanted:
             return {TRANSFORMER: f"{chosen}, by the fields of the points"}
@@ -213,7 +225,13 @@ class CloudDisplay(MessageFilterDisplay):
             *others, last = sorted({*"xyz", *cloud.fields})
             known = f"they have {', '.join(others)} and {last}"
             return {CHANNEL: f"The points have no {channel}, so all are white; {known}"}
-        return {}
+        bounds = bounds_of(cloud, color_options(self.config), shown.T_fixed_cloud)
+        if bounds is None:
+            return {}
+        low, high = bounds
+        path = COORDINATES if chosen == "AxisColor" else INTENSITIES
+        unit = " m" if chosen == "AxisColor" else ""
+        return {path: f"From {low:.6g} to {high:.6g}{unit}"}
 
     def style(self) -> PointStyle:
         """Return how all points look."""

@@ -165,13 +165,30 @@ def _intensity(cloud: Cloud, options: ColorOptions) -> Colors:
     return np.round(most * part + least * (1 - part)).astype(np.uint8)
 
 
-def _axis_color(cloud: Cloud, options: ColorOptions, T: Matrix) -> Colors:
+def bounds_of(
+    cloud: Cloud, options: ColorOptions, T_fixed_cloud: Matrix
+) -> tuple[float, float] | None:
+    """Return between which values a cloud has its colours; None where it has none."""
+    transformer = transformer_of(cloud, options.transformer)
+    if transformer == "AxisColor":
+        values = _coordinates(cloud, options, T_fixed_cloud)
+        return options.coordinates or _bounds(values)
+    values = intensities_of(cloud, options.channel)
+    if transformer != "Intensity" or values is None:
+        return None
+    return options.intensities or _bounds(values)
+
+
+def _coordinates(cloud: Cloud, options: ColorOptions, T: Matrix) -> Floats:
     axis = max(_AXES.find(options.axis), 0)
     points = cloud.points.astype(np.float64)
     if options.in_fixed_frame:
-        values = points @ T[axis, :3] + T[axis, 3]
-    else:
-        values = points[:, axis]
+        return points @ T[axis, :3] + T[axis, 3]
+    return points[:, axis]
+
+
+def _axis_color(cloud: Cloud, options: ColorOptions, T: Matrix) -> Colors:
+    values = _coordinates(cloud, options, T)
     low, high = options.coordinates or _bounds(values)
     span = high - low
     return rainbow(1 - (values - low) / (span if span != 0 else _NO_SPAN))

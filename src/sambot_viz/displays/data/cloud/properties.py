@@ -17,12 +17,13 @@ from sambot_viz.rviz import (
 )
 
 STYLES: tuple[PointShape, ...] = get_args(PointShape)
-TRANSFORMER = "Color Transformer"
+PLACING, TRANSFORMER = "Position Transformer", "Color Transformer"
 CHANNEL = "Channel Name"
 _OF_INTENSITY = (TRANSFORMER, ("Intensity", ""))
 _OF_AXIS = (TRANSFORMER, "AxisColor")
 _METRES = tuple(style for style in STYLES if style != "Points")
-_COORDINATES = "Autocompute Value Bounds"
+INTENSITIES = "Autocompute Intensity Bounds"
+COORDINATES = "Autocompute Value Bounds"
 
 CLOUD_PROPERTIES: tuple[Property, ...] = (
     BoolProperty(
@@ -66,7 +67,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         help="How long points stay; 0 shows the newest message alone.",
     ),
     EditableEnumProperty(
-        "Position Transformer",
+        PLACING,
         default="",
         options=("XYZ",),
         help="How points get their places: from their fields x, y and z.",
@@ -114,7 +115,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         hidden_unless=("Use rainbow", False),
     ),
     BoolProperty(
-        "Autocompute Intensity Bounds",
+        INTENSITIES,
         default=True,
         help="The bounds are the least and the greatest value of each message.",
         hidden_unless=_OF_INTENSITY,
@@ -123,13 +124,13 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         "Min Intensity",
         default=0.0,
         help="The value with the first colour.",
-        hidden_unless=("Autocompute Intensity Bounds", False),
+        hidden_unless=(INTENSITIES, False),
     ),
     FloatProperty(
         "Max Intensity",
         default=4096.0,
         help="The value with the last colour.",
-        hidden_unless=("Autocompute Intensity Bounds", False),
+        hidden_unless=(INTENSITIES, False),
     ),
     EnumProperty(
         "Axis",
@@ -139,7 +140,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         hidden_unless=_OF_AXIS,
     ),
     BoolProperty(
-        _COORDINATES,
+        COORDINATES,
         default=True,
         help="The bounds are the least and the greatest coordinate of each message.",
         hidden_unless=_OF_AXIS,
@@ -149,14 +150,14 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
                 default=-10.0,
                 unit="m",
                 help="The coordinate with the first colour.",
-                hidden_unless=(_COORDINATES, False),
+                hidden_unless=(COORDINATES, False),
             ),
             FloatProperty(
                 "Max Value",
                 default=10.0,
                 unit="m",
                 help="The coordinate with the last colour.",
-                hidden_unless=(_COORDINATES, False),
+                hidden_unless=(COORDINATES, False),
             ),
         ),
     ),
@@ -174,8 +175,8 @@ def color_options(config: ConfigItem) -> ColorOptions:
     get = config.get
     bounds = (float(get("Min Intensity")), float(get("Max Intensity")))
     values = (
-        float(get(f"{_COORDINATES}/Min Value")),
-        float(get(f"{_COORDINATES}/Max Value")),
+        float(get(f"{COORDINATES}/Min Value")),
+        float(get(f"{COORDINATES}/Max Value")),
     )
     return ColorOptions(
         transformer=str(get(TRANSFORMER)),
@@ -185,8 +186,8 @@ def color_options(config: ConfigItem) -> ColorOptions:
         is_inverted=bool(get("Invert Rainbow")),
         least_color=get("Min Color"),
         most_color=get("Max Color"),
-        intensities=None if get("Autocompute Intensity Bounds") else bounds,
+        intensities=None if get(INTENSITIES) else bounds,
         axis=str(get("Axis")),
-        coordinates=None if get(_COORDINATES) else values,
+        coordinates=None if get(COORDINATES) else values,
         in_fixed_frame=bool(get("Use Fixed Frame")),
     )

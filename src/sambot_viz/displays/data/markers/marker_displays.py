@@ -236,7 +236,7 @@ class MarkerDisplay(MessageFilterDisplay):
         return (self._namespaces.entries(self._ticked, self._facts),)
 
     def values_put_back(self) -> None:
-        """Hide what belongs to a namespace whose box was unticked again."""
+        """Hide or show what belongs to a namespace whose box was undone."""
         for name in self._namespaces.names:
             self._ticked(name)
         super().values_put_back()
@@ -245,10 +245,10 @@ class MarkerDisplay(MessageFilterDisplay):
         return {"Markers": str(self._markers.count_of(namespace))}
 
     def _ticked(self, namespace: str) -> None:
-        """Drop the markers of a namespace that is off; RViz waits for others too."""
-        if self.shown and not self._namespaces.is_on(namespace):
-            self._markers.remove_all(namespace)
-            self._markers.draw()
+        """Hide or show the markers of a namespace; RViz waits for others to show."""
+        if self.shown:
+            self._markers.follow_box(namespace)
+            self.show_taken()
 
 
 class MarkerArrayDisplay(MarkerDisplay):

@@ -12,6 +12,7 @@ from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
+from sambot_viz.displays.data.markers.off_markers import OffMarker, OffMarkers
 from sambot_viz.displays.display import DisplayContext, StatusList
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
@@ -53,6 +54,7 @@ class Markers:
         self.shown: dict[Key, Shown] = {}
         # Those without a place in the fixed frame: another one may have it.
         self._apart: dict[Key, Shown] = {}
+        self._off = OffMarkers()
         self._context = context
         self._key = key
         self._status = status
@@ -78,14 +80,18 @@ class Markers:
         action = int(marker.action)
         key = (str(marker.ns), int(marker.id))
         if action == ADD:
-            self._add(key, marker, arrived_ns)
+            self._add(key, OffMarker(marker, _until(marker, arrived_ns), None))
         elif action == DELETE:
+            self._off.drop(key)
             self._remove(key)
         elif action == DELETE_ALL:
             self.remove_all(key[0] or None)
 
-    def _add(self, key: Key, marker: Any, arrived_ns: int) -> None:
+    def _add(self, key: Key, one: OffMarker) -> None:
+        marker = one.marker
         if not self._namespaces.is_on(key[0]):
+            one.place, _ = self._place(marker)
+            self._off.keep(key, one)
             return
         check = check_of(marker)
         if check.is_ignored:
@@ -97,7 +103,9 @@ class Markers:
             return
         if not self._has_room(key, marker):
             return
-        place, why = self._place(marker)
+        place, why = one.place, ""
+        if place is None:
+            place, why = self._place(marker)
         if why:
             self._say(key, "Error", why)
         elif check.text:
@@ -109,7 +117,7 @@ class Markers:
             marker,
             frame_and_stamp(marker)[0] if marker.frame_locked else None,
             MarkerPose() if place is None else place,
-            _until(marker, arrived_ns),
+            one.until_ns,
             self._slot() if before is None else before.slot,
         )
         self._points += len(marker.points) - _points_of(before or self._apart.get(key))
@@ -161,8 +169,25 @@ class Markers:
             self._set_apart(key)
         self._points -= _points_of(self._apart.pop(key, None))
 
+    def follow_box(self, namespace: str) -> None:
+        """Show the markers of a namespace if its box is ticked, and else hide them."""
+        if self._namespaces.is_on(namespace):
+            for key, off in tuple(self._off.drop_all(namespace)):
+                self._add(key, off)
+            return
+        for key, one in (*self.shown.items(), *self._apart.items()):
+            if key[0] == namespace:
+                place = None if key in self._apart else one.place
+                self._remove(key)
+                self._off.keep(key, OffMarker(one.marker, one.until_ns, place))
+        for row in [row for row in self._rows if row.rpartition("/")[0] == namespace]:
+            self._rows.discard(row)
+            self._status.remove(row)
+
     def remove_all(self, namespace: str | None = None) -> None:
         """Remove the markers of a namespace, or all of them."""
+        for _ in self._off.drop_all(namespace):
+            pass
         for key in (*self.shown, *self._apart):
             if namespace is None or key[0] == namespace:
                 self._remove(key)
@@ -184,6 +209,7 @@ class Markers:
 
     def expire(self, now_ns: int) -> None:
         """Remove those whose time is over."""
+        self._off.expire(now_ns)
         over = [
             key
             for key, one in (*self.shown.items(), *self._apart.items())
@@ -194,6 +220,7 @@ class Markers:
 
     def place_again(self) -> None:
         """Place all of them in another fixed frame."""
+        self._off.lose_places()
         for key, one in self._apart.items():
             one.slot = self._slot()
             self.shown[key] = one
