@@ -339,6 +339,17 @@ def test_links_are_unfolded_while_the_displays_change(displays: Displays) -> Non
     assert displays.below("Robot", "Links")[-2:] == ["arm/tip", "base"]
 
 
+def test_the_mass_of_a_robot_is_told_when_it_is_unfolded(displays: Displays) -> None:
+    names = ("Robot", "Mass Properties")
+    assert displays.below(*names) == ["Mass", "Inertia", "Balance"]
+    assert displays.named(*names).extra == {"lazy": True}
+    assert list(displays.panel.moved_by) == []
+    displays.unfold(*names)
+    assert displays.below(*names) == ["Mass", "Inertia", "Balance", "Total Mass"]
+    assert displays.named(*names, "Total Mass").value == "unknown: no link has a mass"
+    assert len(displays.panel.moved_by) == 1
+
+
 def test_a_link_is_switched_off_alone(displays: Displays, session: Session) -> None:
     displays.unfold("Robot", "Links")
     displays.change("Robot", "Links", "arm/tip", to=False)

@@ -72,8 +72,8 @@ def test_sam_bot_stands_on_two_wheels_and_a_caster():
     height = 0.15 - 0.095 / 16.5
     assert tipping(found).margin == pytest.approx(margin)
     assert tipping(found).angle == pytest.approx(math.atan2(margin, height))
-    assert np.abs(tipping(found).direction) == pytest.approx(
-        np.array((0.2, 0.26)) / math.hypot(0.26, 0.2)
+    assert tipping(found).directions == pytest.approx(
+        np.array(((0.2, -0.26), (0.2, 0.26))) / math.hypot(0.26, 0.2)
     )
 
 
@@ -86,7 +86,7 @@ def test_a_joint_that_moves_moves_the_centre_of_mass():
     assert found.center == pytest.approx((0.3, 0.0, 0.25))
     assert tipping(found).margin == pytest.approx(-0.2)
     assert math.degrees(tipping(found).angle) == pytest.approx(-33.69, abs=0.01)
-    assert tipping(found).direction == pytest.approx((1.0, 0.0))
+    assert tipping(found).directions == pytest.approx(np.array([[1.0, 0.0]]))
 
 
 def test_on_two_wheels_alone_nothing_keeps_a_robot_upright():

@@ -347,6 +347,14 @@ class Display:
         """Return what is worth knowing about values, by paths of properties."""
         return {}
 
+    def facts(self) -> Mapping[str, Callable[[], Mapping[str, str]]]:
+        """Return what makes rows that are only shown, by the paths they are below.
+
+        It is called while a page has unfolded them, also after a motion; the names
+        stay the same until the display is drawn again.
+        """
+        return {}
+
     def options(self) -> Mapping[str, Sequence[str]]:
         """Return values that may be meant, by paths of properties."""
         return {}

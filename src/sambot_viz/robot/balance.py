@@ -29,11 +29,13 @@ class Support:
         links: those that touch it.
         polygon: the convex hull of where they do, counter-clockwise from above, (N, 2)
             [m]; two corners are a line, one is a point.
+        size: the longest side of the robot [m].
     """
 
     height: float
     links: tuple[str, ...]
     polygon: Matrix
+    size: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,12 +47,13 @@ class Tipping:
             over on level ground.
         margin: of the centre of mass to the edge of the support polygon, along the
             ground [m]; negative outside.
-        direction: from the polygon across that edge, (2,), of length 1.
+        directions: from the polygon across that edge, and across those that are as
+            near, (N, 2), of length 1.
     """
 
     angle: float
     margin: float
-    direction: Matrix
+    directions: Matrix
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,11 +87,10 @@ class Balance:
         outside = np.stack((edges[:, 1], -edges[:, 0]), axis=1)
         outside /= np.linalg.norm(outside, axis=1)[:, None]
         margins: Matrix = ((corners - self.center[:2]) * outside).sum(axis=1)
-        edge = int(margins.argmin())
-        margin = float(margins[edge])
+        margin = float(margins.min())
         height = float(self.center[2]) - self.support.height
-        angle = math.atan2(margin, height)
-        return Tipping(angle, margin, outside[edge])
+        nearest = margins < margin + SAME_POINT
+        return Tipping(math.atan2(margin, height), margin, outside[nearest])
 
 
 def balance(
@@ -134,7 +136,8 @@ def _support(
     if found is None:
         return None
     points = np.concatenate([*found.points.values()])[:, :2]
-    return Support(found.height, tuple(found.points), convex_hull(points))
+    links = tuple(found.points)
+    return Support(found.height, links, convex_hull(points), found.size)
 
 
 def convex_hull(points: Matrix) -> Matrix:

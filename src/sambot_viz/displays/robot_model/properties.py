@@ -24,6 +24,8 @@ STYLES = (
 STYLE = "Links/Link Tree Style"
 ALL_ENABLED = "Links/All Links Enabled"
 COLLISIONS = "Collision Enabled"
+MASS_PROPERTIES = "Mass Properties"
+BALANCE = f"{MASS_PROPERTIES}/Balance"
 ALL_LINKS_ENABLED = BoolProperty(
     "All Links Enabled", default=True, help="Show or hide all links."
 )
@@ -102,8 +104,8 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         COLLISIONS, default=False, help="Show the collision shapes of the links."
     ),
     GroupProperty(
-        "Mass Properties",
-        help="What the <inertial> elements say.",
+        MASS_PROPERTIES,
+        help="What the <inertial> elements say, one by one and all together.",
         children=(
             BoolProperty(
                 "Mass",
@@ -114,6 +116,12 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
                 "Inertia",
                 default=False,
                 help="Show each inertia as the box that has it.",
+            ),
+            BoolProperty(
+                "Balance",
+                default=False,
+                help="Show the robot's centre of mass, the point below it, and what "
+                "the robot stands on; RViz does not have it, and ignores it.",
             ),
         ),
     ),

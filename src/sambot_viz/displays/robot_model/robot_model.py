@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Repair, RobotDisplay, WantedQos
+from sambot_viz.displays.robot_model.balance_facts import (
+    balance_facts,
+    balance_status,
+    weigh,
+)
+from sambot_viz.displays.robot_model.balance_mark import BalanceMark
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
+    BALANCE,
     COLLISIONS,
+    MASS_PROPERTIES,
     ROBOT_MODEL_PROPERTIES,
 )
 from sambot_viz.displays.robot_model.robot_entries import (
@@ -70,6 +78,7 @@ class RobotModelDisplay(TriangleDisplay):
         self._source = RobotSource(context, config, self._file_read)
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
         self._overlays = LinkOverlays(context, key, self.frame_of)
+        self._mark = BalanceMark(context, key)
 
     @classmethod
     def topic_values(
@@ -127,6 +136,17 @@ class RobotModelDisplay(TriangleDisplay):
         )
         self._overlays.draw(robot, entries, wanted_overlays)
         self._report(robot)
+        self._draw_balance(robot)
+
+    def _draw_balance(self, robot: Robot) -> None:
+        """Draw the centre of mass, and say whether the robot stands."""
+        if not self.config.get(BALANCE):
+            self._mark.remove()
+            return
+        found = weigh(self.context, robot, self.frame_of)
+        self._mark.draw(self.frame_of(robot.root), found)
+        status = balance_status(found)
+        self.status.set("Balance", status.level, status.text)
 
     def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
         """The node of a shape, made again when its frame has moved in the tree."""
@@ -267,6 +287,7 @@ class RobotModelDisplay(TriangleDisplay):
             for _, node in self._shapes.values():
                 node.draw_again()
             self._report(self._source.robot)
+            self._draw_balance(self._source.robot)
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""
@@ -295,6 +316,17 @@ class RobotModelDisplay(TriangleDisplay):
         note = collision_note(robot) if robot is not None and wanted else ""
         return {COLLISIONS: note} if note else {}
 
+    def facts(self) -> Mapping[str, Callable[[], Mapping[str, str]]]:
+        """Return the mass of the robot, and what it takes to tip it over."""
+        robot = self._source.robot
+        if robot is None or not self.shown:
+            return {}
+        return {
+            MASS_PROPERTIES: lambda: balance_facts(
+                robot, weigh(self.context, robot, self.frame_of)
+            )
+        }
+
     def entries_of(self, robot: Robot) -> RobotEntries:
         """Return the links and joints of a robot as items of the document."""
         if self._entries is None or not self._entries.holds_for(robot):
@@ -302,9 +334,11 @@ class RobotModelDisplay(TriangleDisplay):
         return self._entries
 
     def frames_moved(self, frames: Iterable[str]) -> None:
-        """The shapes hang below their frames; only trails have to follow."""
+        """The shapes hang below their frames; trails and the balance follow."""
         if self.shown:
             self._overlays.moved()
+            if self._source.robot is not None:
+                self._draw_balance(self._source.robot)
 
     def drawn(self) -> Iterator[DrawnTriangles]:
         """Yield the shapes of links, and overlays, which select nothing, as in RViz."""
@@ -326,6 +360,7 @@ class RobotModelDisplay(TriangleDisplay):
             node.remove()
         self._shapes.clear()
         self._overlays.clear()
+        self._mark.remove()
 
 
 def _shapes_of(link: Link) -> Iterator[tuple[Kind, int, Shape]]:

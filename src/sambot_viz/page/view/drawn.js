@@ -18,12 +18,26 @@ const KINDS = {
   controls: nameGroup,
   lines: ({ material }) => rawColors(material, "lines"),
   map: dressMap,
+  mark: dressMark,
   mapTile: dressTile,
   points: dressPoints,
   ribbon: dressRibbon,
   text: dressText,
   triangles: ({ material }) => rawColors(material, "lines"),
 };
+
+/** Let something be seen through everything; only the side that faces the eye.
+ * @param {any} object */
+function dressMark(object) {
+  if (!rawColors(object.material, "lines")) return;
+  object.material.depthTest = false;
+  object.material.side = FRONT;
+  object.renderOrder = ON_TOP;
+}
+/** three.js's FrontSide. */
+const FRONT = 0;
+/** After all else that is drawn. */
+const ON_TOP = 20;
 
 const seen = new WeakSet();
 

@@ -38,6 +38,8 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal, connect
 
 OPTIONS = "options"
+Facts = Callable[[], Mapping[str, str]]
+"""Returns the values of rows that are only shown, by their names."""
 
 
 class DisplaysPanel(Panel):
@@ -86,13 +88,13 @@ class DisplaysPanel(Panel):
         # Rows as they were made at a revision of their display: a number that is set
         # makes only the rows of its display again.
         self._made: dict[DisplayConfig, tuple[int, list[Row]]] = {}
-        self._facts: dict[DisplayConfig, list[tuple[str, EntryList, str]]] = {}
+        self._facts: dict[DisplayConfig, list[tuple[str, Facts]]] = {}
         self._listed: frozenset[str] | None = None
         self._disconnect = connect(whole, self._forget)
 
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
-        """The poses of links and frames that are unfolded."""
+        """The poses of links and frames, and the facts, that are unfolded."""
         return (self._robot.positions,) if any(self._facts.values()) else ()
 
     def close(self) -> None:
@@ -166,12 +168,12 @@ class DisplaysPanel(Panel):
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
     def values(self) -> Mapping[str, Json]:
-        """Return what is shown of links and frames that are unfolded."""
+        """Return what is only shown, of links, frames and values that are unfolded."""
         return {
             _fact_id(row_id, key): value
-            for facts in self._facts.values()
-            for row_id, entries, name in facts
-            for key, value in entries.facts(name).items()
+            for shown in self._facts.values()
+            for row_id, facts in shown
+            for key, value in facts().items()
         }
 
     # Finding what a row means
@@ -288,7 +290,7 @@ class DisplaysPanel(Panel):
         item = display.config
         change = partial(self._display_edits.set_property, display)
         entries = {found.title: found for found in display.entries()}
-        notes, options = display.notes(), display.options()
+        notes, options, facts = display.notes(), display.options(), display.facts()
         of_list: dict[str, list[Row]] = {}
         for path, declared in item.declared.items():
             if not is_listed(item, declared):
@@ -299,7 +301,8 @@ class DisplaysPanel(Panel):
             row = property_row(item, declared, parent, change)
             if path in options:
                 row = replace(row, kind="enum", editable=True, options=options[path])
-            # The links of a robot come after the properties of their list.
+            # The links of a robot come after the properties of their list, and facts
+            # after those of their group.
             for title in [t for t in of_list if not path.startswith(f"{t}/")]:
                 yield from of_list.pop(title)
             if path in entries:
@@ -308,6 +311,11 @@ class DisplaysPanel(Panel):
                 row = replace(row, extra={"lazy": bool(found.names) and not unfolded})
                 if unfolded:
                     of_list[path] = [*self._entry_rows(display, found, row.id)]
+            if path in facts:
+                unfolded = self._lazy.is_unfolded(row.id)
+                row = replace(row, extra={"lazy": not unfolded})
+                if unfolded:
+                    of_list[path] = [*self._fact_rows(display, facts[path], row.id)]
             yield row
             if path in notes:
                 yield Row(f"{row.id}/:note", row.parent, "note", value=notes[path])
@@ -337,12 +345,16 @@ class DisplaysPanel(Panel):
             )
             if not (unfolded and entries.has_details):
                 continue
-            self._facts[display.config].append((row_id, entries, name))
             for path in wanted:
                 if path != "Value" and path in item.declared:
                     yield property_row(item, item.declared[path], row_id, change)
-            for key, value in entries.facts(name).items():
-                yield Row(_fact_id(row_id, key), row_id, "readonly", key, value)
+            facts = partial(entries.facts, name)
+            yield from self._fact_rows(display, facts, row_id)
+
+    def _fact_rows(self, display: Display, facts: Facts, parent: str) -> Iterator[Row]:
+        self._facts[display.config].append((parent, facts))
+        for key, value in facts().items():
+            yield Row(_fact_id(parent, key), parent, "readonly", key, value)
 
 
 def _entry_id(parent: str, name: str) -> str:

@@ -150,8 +150,9 @@ class Scene:
             return
         self.context.nodes.place(self.context.tree, self.context.fixed_frame, frames)
         self.anchors.place()
-        for display in self.displays:
-            display.frames_moved(frames)
+        with self._telling_statuses():
+            for display in self.displays:
+                display.frames_moved(frames)
 
     def time_passed(self) -> None:
         """Let what grows old grow older; nothing is sent where nothing changes."""

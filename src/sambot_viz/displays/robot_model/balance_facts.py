@@ -1,0 +1,126 @@
+"""What is said of the mass of a robot, and of what it takes to tip it over."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+
+from sambot_viz.displays.display import DisplayContext, Status, numbers
+from sambot_viz.frames import LookupRefused
+from sambot_viz.geometry import Matrix
+from sambot_viz.meshes.asset import Asset
+from sambot_viz.meshes.mesh import Mesh
+from sambot_viz.robot.balance import WORLD, Balance, Tipping, balance
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import MeshFile
+
+_MOST_NAMES = 6
+_SIDES = (
+    "front",
+    "front left",
+    "left",
+    "rear left",
+    "rear",
+    "rear right",
+    "right",
+    "front right",
+)
+"""Counter-clockwise from the x axis of the root link: forward, as in REP 103."""
+_UNKNOWN = "unknown: no link has a mass"
+
+
+def weigh(
+    context: DisplayContext, robot: Robot, frame_of: Callable[[str], str]
+) -> Balance | None:
+    """Weigh a robot as it is drawn now.
+
+    Args:
+        context: has its frames, and its mesh files as far as they are read.
+        robot: the robot.
+        frame_of: the frame of a link.
+
+    Returns:
+        None where no link has a mass.
+    """
+    root = frame_of(robot.root)
+    poses: dict[str, Matrix] = {}
+    for link in robot.links:
+        try:
+            poses[link] = context.tree.drawn(root, frame_of(link)).matrix
+        except LookupRefused:
+            continue
+
+    def mesh_of(shape: MeshFile) -> Mesh | None:
+        if shape.path is None:
+            return None
+        asset = Asset("mesh", shape.path, robot.file_roots)
+        content = context.assets.content(asset)
+        return content if isinstance(content, Mesh) else None
+
+    return balance(robot, poses, mesh_of)
+
+
+def balance_facts(robot: Robot, found: Balance | None) -> Mapping[str, str]:
+    """Return the rows of a robot's balance; the same ones at all times."""
+    if found is None:
+        return {"Total Mass": _UNKNOWN}
+    mass = f"{found.mass:.5g} kg"
+    if found.massless:
+        mass += f", without {_listed(found.massless)}, whose mass is not given"
+    return {
+        "Total Mass": mass,
+        "Center of Mass": f"{numbers(found.center.tolist())} m in {robot.root}",
+        "Stands On": _stands_on(found),
+        "Tips Over At": _tips_over(found),
+    }
+
+
+def balance_status(found: Balance | None) -> Status:
+    """Say whether a robot stands."""
+    if found is None:
+        return Status("Warn", "No link of this robot has a mass")
+    tipping = found.tipping
+    if tipping is None or tipping.margin >= 0.0:
+        return Status("Ok", "OK")
+    sides = _sides(tipping)
+    return Status("Warn", f"The robot falls over {sides} in this pose")
+
+
+def _stands_on(found: Balance) -> str:
+    if found.fixed:
+        return f"the link {WORLD}, which holds it"
+    if found.support is None:
+        return "nothing: no link has a shape that is known"
+    return _listed(found.support.links)
+
+
+def _tips_over(found: Balance) -> str:
+    tipping, support = found.tipping, found.support
+    if found.fixed:
+        return f"nothing tips it over: it is fixed to {WORLD}"
+    if support is None:
+        return "unknown"
+    if tipping is None:
+        what = "a line" if len(support.polygon) == 2 else "a point"
+        return f"0 °: what it stands on is {what}"
+    sides = _sides(tipping)
+    millimetres = f"{abs(tipping.margin) * 1000:.4g} mm"
+    if tipping.margin < 0.0:
+        return f"falls over {sides}: {millimetres} beyond what it stands on"
+    return f"{math.degrees(tipping.angle):.4g} ° {sides}, {millimetres} from the edge"
+
+
+def _sides(tipping: Tipping) -> str:
+    """Return where it falls, such as "to the front left or front right"."""
+    eighths = [
+        round(math.atan2(y, x) / (math.pi / 4)) % len(_SIDES)
+        for x, y in tipping.directions.tolist()
+    ]
+    *sides, last = dict.fromkeys(_SIDES[eighth] for eighth in sorted(eighths))
+    return f"to the {', '.join(sides)}{' or ' if sides else ''}{last}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    rest = len(names) - _MOST_NAMES
+    more = f" and {rest} more" if rest > 0 else ""
+    return ", ".join(names[:_MOST_NAMES]) + more
