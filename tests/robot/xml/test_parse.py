@@ -1,5 +1,8 @@
+from pathlib import Path
+
 import pytest
 
+from sambot_viz import check
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.element import parse_xml
@@ -69,9 +72,22 @@ def test_an_entity_bomb_is_stopped():
 
 def test_text_is_decoded_by_mark_then_by_declaration_then_as_utf_8():
     assert decode("\ufeff<로봇/>".encode()) == "<로봇/>"
-    assert decode("<로봇/>".encode("utf-16")) == "<로봇/>"
     korean = '<?xml version="1.0" encoding="euc-kr"?><로봇/>'
     assert decode(korean.encode("euc-kr")) == korean
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+def test_utf_16_is_refused_as_in_ros(encoding: str, tmp_path: Path):
+    model, text = tmp_path / "r.urdf", '<robot name="r">\n<link name="a"/></robot>\n'
+    model.write_bytes(text.encode(encoding))
+
+    (problem,) = check(model)
+
+    assert problem.severity == "error" and problem.code == "xml-encoding"
+    assert "saved as UTF-16" in problem.message
+    assert problem.hint.startswith("save the file as UTF-8")
+    model.write_bytes(text.encode())
+    assert check(model) == []
 
 
 def test_bytes_in_another_encoding_are_an_error_at_their_line():

@@ -16,6 +16,10 @@ _DECLARATION = re.compile(r"\A<\?xml\b([^<>]{0,1000}?)\?>")
 _GOOD_VERSION = re.compile(r"""\s+version\s*=\s*["']1\.[0-9]+["']""")
 
 
+_UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE, b"<\0", b"\0<")
+"""How a file in UTF-16 begins, with its mark or without."""
+
+
 class XmlFault(Exception):
     """The text is not well-formed XML.
 
@@ -42,15 +46,15 @@ def decode(data: bytes) -> str:
     """Decode an XML file: by BOM, then by declared encoding, then as UTF-8.
 
     Raises:
-        XmlFault: the bytes are not in the encoding that the file declares.
+        XmlFault: the bytes are not in the encoding that the file declares, or they are
+            UTF-16, which neither urdfdom nor xacro reads.
     """
-    for bom, encoding in (
-        (codecs.BOM_UTF8, "utf-8-sig"),
-        (codecs.BOM_UTF16_LE, "utf-16"),
-        (codecs.BOM_UTF16_BE, "utf-16"),
-    ):
-        if data.startswith(bom):
-            return _decoded(data, encoding)
+    if data.startswith(_UTF16):
+        ending = "be" if data[:1] in (b"\xfe", b"\0") else "le"
+        text = data.decode(f"utf-16-{ending}", "replace")
+        raise XmlFault("saved as UTF-16", 1, 1, text.removeprefix("\ufeff"))
+    if data.startswith(codecs.BOM_UTF8):
+        return _decoded(data, "utf-8-sig")
     declared = _DECLARED_ENCODING.match(data)
     return _decoded(data, declared[1].decode("ascii") if declared else "utf-8")
 

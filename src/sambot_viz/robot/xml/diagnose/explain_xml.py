@@ -17,6 +17,7 @@ _MOST = 12
 _LARGEST = 1_000_000
 """In a longer text [characters] only the place that expat names is reported."""
 
+_UTF16 = "saved as UTF-16"
 _KNOWN_PREFIXES = {"xacro": "http://www.ros.org/wiki/xacro"}
 
 _MISLEADING: frozenset[LexicalErrorKind] = frozenset(
@@ -38,6 +39,8 @@ def explain_xml(text: str, file: str, fault: XmlFault) -> list[Problem]:
         One or more problems of severity "error", in document order, each with a
         line and a fix. Never empty.
     """
+    if fault.message == _UTF16:
+        return [_plain(fault, file)]
     other = other_file_problem(text, file)
     if other is not None:
         return [other]
@@ -67,6 +70,12 @@ def _plain(fault: XmlFault, file: str) -> Problem:
 
 
 _FROM_EXPAT = (
+    (
+        _UTF16,
+        "xml-encoding",
+        "the file is saved as UTF-16 (PowerShell's > does that), which ROS cannot read",
+        'save the file as UTF-8 and write <?xml version="1.0"?> as its first line',
+    ),
     (
         "unknown encoding",
         "xml-encoding",
