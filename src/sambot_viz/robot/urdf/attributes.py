@@ -55,16 +55,33 @@ def read_numbers(text: str, count: int) -> tuple[float, ...]:
     """
     parts = text.split()
     if "," in text or ";" in text:
-        better = " ".join(re.split(r"[\s,;]+", text.strip(" ,;")))
-        raise BadNumber(
-            "has commas; numbers are separated by blanks only", f'write "{better}"'
-        )
+        raise BadNumber(*_without_commas(text, count))
     numbers = tuple(_component(part, text) for part in parts)
     if len(numbers) != count:
         needed = _WORDS.get(count, str(count))
         have = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
         raise BadNumber(f"{have}, {needed} are needed", _filled_up(parts, count))
     return numbers
+
+
+def _without_commas(text: str, count: int) -> tuple[str, str]:
+    """Return what is wrong with commas, and the text without them.
+
+    A comma between two digits is a decimal comma where only that gives as many numbers
+    as are needed.
+    """
+    apart = re.split(r"[\s,;]+", text.strip(" ,;"))
+    if len(apart) == count:
+        better = " ".join(apart)
+        return "has commas; numbers are separated by blanks only", f'write "{better}"'
+    pointed = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    with_points = [
+        part.strip(",") for part in re.split(r"[\s;]+", pointed.strip(" ;,"))
+    ]
+    if len(with_points) == count:
+        better = " ".join(with_points)
+        return "has a decimal comma; numbers have a point", f'write "{better}"'
+    return "has commas; numbers are separated by blanks only", _filled_up(apart, count)
 
 
 def _filled_up(parts: list[str], count: int) -> str:
@@ -103,6 +120,14 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
         return (
             f"contains {part}, which is not a number: plain URDF cannot calculate",
             f'write the number{_value_of(part)}, or use xacro: "{shown}"',
+        )
+    if re.fullmatch(r"[+-]?\d+,\d+", part):
+        better = whole.strip().replace(",", ".")
+        return "has a decimal comma; numbers have a point", f'write "{better}"'
+    if re.fullmatch(r"\{[^{}]+\}", part):
+        return (
+            f"contains {part}, which is not a number: a $ is missing before it",
+            f'write "{whole.replace(part, f"${part}")}"',
         )
     return f"contains {part}, which is not a number", "write a number such as 0.1"
 

@@ -166,8 +166,7 @@ class MaterialTable:
                 "color-malformed",
                 f"rgba=\"{text}\" of material '{name}' {bad.reason}; ROS cannot "
                 "use the colour",
-                "write four numbers from 0 to 1 with blanks between them, such as "
-                'rgba="1 0 0 1"',
+                _better_colour(text, bad),
                 color,
                 "rgba",
             )
@@ -184,6 +183,19 @@ class MaterialTable:
             "rgba",
         )
         return None
+
+
+def _better_colour(text: str, bad: BadNumber) -> str:
+    """Advise what to write for a colour that cannot be read."""
+    if bad.hint.startswith('write "'):
+        return bad.hint.replace("write ", "write rgba=", 1)
+    parts = text.replace(",", " ").replace(";", " ").split()
+    if len(parts) == 3 and _all_numbers(" ".join(parts), 3):
+        return f'write rgba="{_four(" ".join(parts))}"'
+    return (
+        "write four numbers from 0 to 1 with blanks between them, such as "
+        'rgba="1 0 0 1"'
+    )
 
 
 def _guess(name: str) -> str:
