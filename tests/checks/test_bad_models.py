@@ -83,6 +83,10 @@ CAUSES = {
 }
 
 
+# joint_state_publisher leaves this one joint out; it does not refuse the model.
+SEVERITIES = {"limit-without-lower-upper.urdf": "warning"}
+
+
 @cache
 def entries(shared: Path) -> dict[str, dict[str, Any]]:
     text = (shared / "data" / "bad-models" / "index.yaml").read_text("utf-8")
@@ -106,14 +110,15 @@ def test_a_bad_model_is_explained_with_its_cause_its_line_and_its_fix(
     problems = check(shared / "data" / "bad-models" / name)
 
     problem = next(p for p in problems if p.code == code)
-    assert problem.severity == entry["severity"]
+    severity = SEVERITIES.get(name, entry["severity"])
+    assert problem.severity == severity
     assert problem.line is not None
     assert abs(problem.line - entry["line"]) <= 1
     assert word in problem.message
     assert problem.hint
     assert problem.file is not None
     assert problem.file.endswith(name)
-    if entry["severity"] != "error":
+    if severity != "error":
         assert not any(p.severity == "error" for p in problems)
 
 

@@ -126,7 +126,7 @@ def test_all_errors_are_reported_together_each_on_its_line():
         (joint('<axis rpy="0 0 1"/>'), "axis-without-xyz", "error"),
         (joint('<axis xyz="0 0 0"/>'), "axis-zero", "error"),
         (joint('<limit effort="1" velocity="1"/>', 'type="revolute"'),
-         "limit-without-range", "error"),
+         "limit-without-range", "warning"),
         (joint('<limit lower="-1" effort="1" velocity="1"/>', 'type="revolute"'),
          "limit-without-range", "warning"),
         (joint('<limit effort="0" velocity="0"/>', 'type="revolute"'),
@@ -393,3 +393,70 @@ def test_a_missing_link_is_to_be_added_only_where_this_helps(inside: str, instea
     )
     if not instead:
         assert len(load(text + links("z")).links) == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "better"),
+    [
+        ("0.1, 0, 0.3", "0.1 0 0.3"),
+        ("0.1,0,0.3", "0.1 0 0.3"),
+        ("1,2,3", "1 2 3"),
+        ("0 0 0,3", "0 0 0.3"),
+        ("0,1 0,2 0,3", "0.1 0.2 0.3"),
+        ("0,1; 0,2; -0,3", "0.1 0.2 -0.3"),
+        ("0,1, 0,2, 0,3", "0.1 0.2 0.3"),
+        ("0,1,2,3", None),
+    ],
+)
+def test_commas_are_read_as_the_number_of_numbers_needs(text: str, better: str | None):
+    problems = refused(joint(f'<origin xyz="{text}"/>'))
+
+    if better is None:
+        assert problems[0].hint == "give three numbers with blanks between them"
+        return
+    assert problems[0].hint == f'write "{better}"'
+    assert load(joint(f'<origin xyz="{better}"/>')).problems == ()
+
+
+@pytest.mark.parametrize(
+    ("rgba", "better"),
+    [
+        ("1,0,0", "1 0 0 1"),
+        ("1, 0, 0, 1", "1 0 0 1"),
+        ("0,5 0,5 0,5 1", "0.5 0.5 0.5 1"),
+    ],
+)
+def test_a_colour_with_commas_gets_four_numbers(rgba: str, better: str):
+    def painted(value: str) -> Robot:
+        material = f'<material name="m"><color rgba="{value}"/></material>'
+        return load(visual("<box size='1 1 1'/>", material))
+
+    assert painted(rgba).problems[0].hint == f'write rgba="{better}"'
+    assert painted(better).problems == ()
+
+
+@pytest.mark.parametrize(
+    ("ends", "added"),
+    [
+        ("", 'lower="-1.57" upper="1.57"'),
+        ('lower="-1"', 'upper="1.57"'),
+        ('lower="4"', 'upper="5"'),
+        ('upper="-3"', 'lower="-4"'),
+    ],
+)
+def test_the_ends_that_a_range_lacks_fit_the_one_that_it_has(ends: str, added: str):
+    def limited(more: str) -> Robot:
+        limit = f'<limit {more} effort="1" velocity="1"/>'
+        return load(joint(limit, 'type="revolute"'))
+
+    (problem,) = limited(ends).problems
+    assert problem.severity == "warning"
+    assert "joint_state_publisher leaves the joint out" in problem.message
+    assert problem.hint == f"add {added}"
+    assert limited(f"{ends} {added}").problems == ()
+
+
+def test_a_forgotten_dollar_is_named():
+    problems = load(visual('<box size="{length} 1 2"/>')).problems
+
+    assert problems[0].hint == 'write "${length} 1 2"'

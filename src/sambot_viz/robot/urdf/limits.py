@@ -11,6 +11,12 @@ _REFUSED = "ROS refuses the model"
 _LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'
 
 
+def _example(missing: list[str], limit: Limit) -> str:
+    """Write the missing ends of a range, below or above the end that is there."""
+    lower, upper = min(-1.57, limit.upper - 1), max(1.57, limit.lower + 1)
+    return " ".join(f'{n}="{lower if n == "lower" else upper:g}"' for n in missing)
+
+
 class LimitReader:
     """Reads <limit>, <safety_controller>, <dynamics> and <calibration> of one joint.
 
@@ -84,16 +90,13 @@ class LimitReader:
         missing = [n for n in ("lower", "upper") if element.get(n) is None]
         if missing:
             names = " and no ".join(missing)
-            # A joint with no effort and no velocity is meant not to move.
-            meant = limit.effort == 0.0 and limit.velocity == 0.0
-            grave = len(missing) == 2 and not meant
-            report = self._findings.error if grave else self._findings.warn
-            report(
+            self._findings.warn(
                 "limit-without-range",
                 f"<limit> of joint {self._name} has no {names}: urdfdom takes 0, so "
-                f"the range is {limit.lower:g} to {limit.upper:g}, and "
-                "joint_state_publisher refuses the model",
-                'give both, such as lower="-1.57" upper="1.57"',
+                f"the range is {limit.lower:g} to {limit.upper:g}; "
+                "joint_state_publisher leaves the joint out, so RViz has no transform "
+                "for its link",
+                f"add {_example(missing, limit)}",
                 element,
             )
         elif limit.lower > limit.upper:
