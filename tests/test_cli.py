@@ -201,7 +201,25 @@ def test_check_prints_json_for_graders(tmp_path: Path, capsys: Capture) -> None:
     report = json.loads(capsys.readouterr().out)
     assert report["model"] == str(model)
     keys = {"severity", "code", "message", "hint", "file", "line", "column"}
-    assert report["problems"] and set(report["problems"][0]) == keys
+    assert report["problems"]
+    assert set(report["problems"][0]) == {*keys, "count", "more_places"}
+
+
+def test_the_json_of_check_has_one_row_for_each_cause(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    model, name = tmp_path / "r.urdf", "package://arm/{}.stl"
+    shapes = "\n".join(
+        f'<visual><geometry><mesh filename="{name.format(n)}"/></geometry></visual>'
+        for n in range(9)
+    )
+    model.write_text(f'<robot name="r"><link name="a">\n{shapes}\n</link></robot>')
+    assert main(["check", str(model), "--format", "json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["problems"]
+    assert row["message"] == "9 meshes of package arm: not found"
+    assert (row["line"], row["count"]) == (2, 9)
+    assert [place["line"] for place in row["more_places"]] == list(range(3, 11))
+    assert {place["file"] for place in row["more_places"]} == {str(model)}
 
 
 def test_expand_prints_the_urdf(repository: Path, capsys: Capture) -> None:

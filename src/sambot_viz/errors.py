@@ -113,7 +113,7 @@ class Problem:
         return f"{text}; {self.hint}" if self.hint else text
 
     def as_json(self) -> dict[str, str | int | None]:
-        """Return the seven fields of ``check --format json``."""
+        """Return the seven fields that a problem has in JSON."""
         return {
             "severity": self.severity,
             "code": self.code,

@@ -92,6 +92,22 @@ class ProblemGroup:
         """The problem whose place stands for all."""
         return self.problems[0]
 
+    def as_json(self) -> dict[str, object]:
+        """Return the row of ``check --format json``: a problem, and its other places.
+
+        These are the fields of the first problem with the message of the group, the
+        number of problems, and the places of those after the first.
+        """
+        return {
+            **self.first.as_json(),
+            "message": self.message,
+            "count": len(self.problems),
+            "more_places": [
+                {"file": other.file, "line": other.line, "column": other.column}
+                for other in self.problems[1:]
+            ],
+        }
+
 
 def group_problems(problems: Iterable[Problem]) -> list[ProblemGroup]:
     """Join problems that have one cause.

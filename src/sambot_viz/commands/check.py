@@ -10,7 +10,7 @@ from sambot_viz.checks import check, check_folder
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem
 from sambot_viz.options import Options
-from sambot_viz.problems import write_problems
+from sambot_viz.problems import group_problems, write_problems
 
 
 def run(words: list[str]) -> int:
@@ -19,7 +19,7 @@ def run(words: list[str]) -> int:
     found = find(model_path(options))
     model, problems = found.model, _problems(options, found)
     if given.format == "json":
-        listed = [problem.as_json() for problem in problems]
+        listed = [group.as_json() for group in group_problems(problems)]
         print(json.dumps({"model": str(model), "problems": listed}, indent=2))
     elif problems:
         write_problems(problems, sys.stdout, most=None)
