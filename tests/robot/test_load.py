@@ -251,3 +251,47 @@ def test_meshes_of_yourdfpy_are_found_where_yourdfpy_finds_them(tmp_path: Path):
     mesh = Robot.from_yourdfpy(urdf).links["a"].visuals[0].geometry
     assert isinstance(mesh, MeshFile)
     assert mesh.path == tmp_path / "a.stl"
+
+
+STRAY = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<xacro:camera name="front" size="${camera_size}"/>
+</robot>
+"""
+
+
+def test_a_finished_urdf_with_a_call_that_was_left_in_it_is_drawn(tmp_path: Path):
+    model = tmp_path / "r.urdf"
+    model.write_text(STRAY)
+
+    robot = load_robot(model)
+
+    (problem,) = robot.problems
+    assert list(robot.links) == ["a"]
+    assert (problem.severity, problem.code, problem.line) == (
+        "warning",
+        "xacro-left-over",
+        3,
+    )
+    assert load_robot(STRAY).links.keys() == robot.links.keys()
+    model.write_text("\n".join(STRAY.splitlines()[:2]) + "</robot>")
+    assert load_robot(model).problems == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("r.urdf.xacro", "", ""),
+        ("r.urdf", "xacro:camera name", "xacro:inculde filename"),
+        ("r.urdf", 'size="1 1 1"', 'size="${x} 1 1"'),
+        ("r.urdf", "<link", '<xacro:arg name="a" default="b"/><link'),
+    ],
+)
+def test_a_call_of_an_unknown_macro_is_an_error_where_xacro_is_needed(
+    tmp_path: Path, name: str, old: str, new: str
+):
+    model = tmp_path / name
+    model.write_text(STRAY.replace(old, new, 1))
+
+    with pytest.raises(RobotError):
+        load_robot(model)

@@ -15,10 +15,13 @@ from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
     PathLike,
+    open_model,
+)
+from sambot_viz.robot.needs_xacro import (
     first_xacro,
+    left_over,
     missing_prefixes,
     only_names_files,
-    open_model,
     undeclared_prefix,
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
@@ -102,6 +105,8 @@ class _Loader:
         if xacro is None:
             problems += missing_prefixes(self.opened.document)
             return self._robot(self.opened.document, None, problems)
+        if calls := left_over(self.opened.document, self.opened.source.path):
+            return self._robot(self.opened.document, None, [*problems, *calls])
         try:
             expanded = self.expanded()
         except RobotError as error:

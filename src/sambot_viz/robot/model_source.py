@@ -1,14 +1,13 @@
-"""The text of a model as XML, and whether xacro has to expand it."""
+"""The text of a model as XML."""
 
 from __future__ import annotations
 
 import os
-import re
 import stat
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from sambot_viz.errors import Place, Problem, RobotError, did_you_mean
+from sambot_viz.errors import Problem, RobotError, did_you_mean
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.element import Element, parse_xml
 
@@ -18,9 +17,6 @@ TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
 
 _LARGEST = 64_000_000
-_PARTS = ("include", "macro")
-"""Without these a part of the robot is missing; other elements are harmless."""
-_SUBSTITUTION = re.compile(r"\$[{(]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,108 +207,3 @@ def _nearest(path: Path) -> str:
         return f"the folder {path.parent} does not exist either"
     models = [n for n in names if n.endswith((".urdf", ".xacro", ".xml", ".sdf"))]
     return f"in {path.parent}: {did_you_mean(path.name, models)}"
-
-
-def first_xacro(document: Element) -> Element | None:
-    """Find the first element for which a document needs xacro, or None.
-
-    These are xacro's own elements and attributes, and a substitution where URDF needs
-    a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
-    could fail there although ROS does not use the value.
-    """
-    for element in document.iter():
-        if _is_own(element):
-            return element
-    robot = document if document.tag == "robot" else document.find("robot")
-    parts = robot.children if robot is not None else []
-    return next(
-        (
-            element
-            for part in parts
-            if part.tag in ("link", "joint", "material")
-            for element in part.iter()
-            if any(_SUBSTITUTION.search(v) for v in element.attributes.values())
-        ),
-        None,
-    )
-
-
-def _is_own(element: Element) -> bool:
-    names = (element.tag, *element.attributes)
-    return any(name.startswith("xacro:") for name in names)
-
-
-def only_names_files(document: Element) -> bool:
-    """Tell whether all substitutions of a document are in file names.
-
-    Then it is a plain URDF for urdfdom, which does not open these files.
-    """
-    return not any(
-        _is_own(element)
-        or any(
-            name != "filename" and _SUBSTITUTION.search(value)
-            for name, value in element.attributes.items()
-        )
-        for element in document.iter()
-    )
-
-
-def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
-    """Make the warning for one element without its prefix.
-
-    Args:
-        tag: its name.
-        is_macro: whether a macro of that name is defined.
-        place: where it is.
-    """
-    what = "a macro call" if is_macro else "a xacro instruction"
-    return Problem.at(
-        place,
-        "warning",
-        "xacro-prefix-missing",
-        f"<{tag}> looks like {what} without its prefix: xacro copies it to the "
-        "URDF, where ROS ignores it",
-        f"write <xacro:{tag}>",
-    )
-
-
-def missing_prefixes(document: Element) -> list[Problem]:
-    """Make the warnings for a document without any prefix, which xacro does not see."""
-    return [
-        missing_prefix(child.tag, False, child.place)
-        for child in document.children
-        if child.tag in _PARTS
-    ]
-
-
-def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
-    """Make the warning for a .urdf file that uses ``xacro:`` without declaring it.
-
-    xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
-    they ignore elements they do not know.
-
-    Returns:
-        None when the prefix is declared or not used, or when the file is meant for
-        xacro by its name: then it is an error.
-    """
-    if path is None or path.suffix.lower() != ".urdf":
-        return None
-    first: Element | None = None
-    for element in document.iter():
-        if "xmlns:xacro" in element.attributes:
-            return None
-        names = (element.tag, *element.attributes)
-        if first is None and any(name.startswith("xacro:") for name in names):
-            first = element
-    if first is None:
-        return None
-    return Problem.at(
-        first.place,
-        "warning",
-        "xacro-prefix-undeclared",
-        f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is "
-        "not a xacro file: ROS ignores these elements, and what they would create "
-        "is missing",
-        f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
-        f"{document.place.line}, and call the file .urdf.xacro",
-    )

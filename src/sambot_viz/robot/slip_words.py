@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.misspelt import CALL, Slip
-from sambot_viz.robot.model_source import missing_prefix
+from sambot_viz.robot.needs_xacro import missing_prefix
 from sambot_viz.robot.xml.element import Element
 
 SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-misplaced"})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.robot.needs_xacro import OWN_TAGS
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,
@@ -12,9 +13,6 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import (
 )
 from sambot_viz.robot.xacro.diagnose.source_files import NamedElement
 
-_OWN_TAGS = (
-    "arg attribute call element if include insert_block macro property unless".split()
-)
 _BUILT_IN = (
     "acos asin atan atan2 ceil cos cosh degrees e exp fabs float floor fmod hypot inf "
     "int isinf isnan len list log log10 map max min nan pi pow radians range round sin "
@@ -145,7 +143,7 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
 
 
 def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str:
-    own = nearest(name, _OWN_TAGS, likeness=0.75)
+    own = nearest(name, OWN_TAGS, likeness=0.75)
     places = {m.name: m.place for m in macros if m.prefixed}
     near = nearest(name, places)
     if near:

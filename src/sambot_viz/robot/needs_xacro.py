@@ -1,0 +1,170 @@
+"""Whether xacro has to expand a document, and what is odd about its use of xacro.
+
+The content decides, not the ending of the file name.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.vocabulary import meant
+from sambot_viz.robot.xml.element import Element
+
+OWN_TAGS = (
+    "arg attribute call element if include insert_block macro property unless".split()
+)
+"""The elements of xacro."""
+_PREFIX = "xacro:"
+_PARTS = ("include", "macro")
+"""Without these a part of the robot is missing; other elements are harmless."""
+_SUBSTITUTION = re.compile(r"\$[{(]")
+
+
+def first_xacro(document: Element) -> Element | None:
+    """Find the first element for which a document needs xacro, or None.
+
+    These are xacro's own elements and attributes, and a substitution where URDF needs
+    a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
+    could fail there although ROS does not use the value.
+    """
+    for element in document.iter():
+        if _is_own(element):
+            return element
+    return _first_substitution(document)
+
+
+def _first_substitution(document: Element) -> Element | None:
+    """Find the first element with an expression where URDF needs a value."""
+    robot = document if document.tag == "robot" else document.find("robot")
+    parts = robot.children if robot is not None else []
+    return next(
+        (
+            element
+            for part in parts
+            if part.tag in ("link", "joint", "material")
+            for element in part.iter()
+            if any(_SUBSTITUTION.search(v) for v in element.attributes.values())
+        ),
+        None,
+    )
+
+
+def left_over(document: Element, path: Path | None) -> list[Problem]:
+    """Make the warnings for macro calls that were left in a finished URDF.
+
+    xacro refuses such a file, but the nodes of ROS read it without xacro, and ignore
+    what they do not know.
+
+    Args:
+        document: the root element.
+        path: the file; None for a text.
+
+    Returns:
+        One for each call; none when something else in the document needs xacro, when a
+        call may be a misspelt word of xacro, or when the file's name is xacro's.
+    """
+    if path is not None and path.suffix.lower() != ".urdf":
+        return []
+    own = [element for element in document.iter() if _is_own(element)]
+    calls = [e for e in own if e.tag.startswith(_PREFIX) and not _may_be_own_tag(e.tag)]
+    if len(calls) < len(own) or _first_substitution(document) is not None:
+        return []
+    return [
+        Problem.at(
+            call.place,
+            "warning",
+            "xacro-left-over",
+            f"<{call.tag}> is left over from xacro: this file neither defines nor "
+            "includes the macro, so ROS ignores the element; xacro refuses the file",
+            "delete it, or include the file of the macro and call this one .urdf.xacro",
+        )
+        for call in calls
+    ]
+
+
+def _may_be_own_tag(tag: str) -> bool:
+    """Tell whether a tag is a word of xacro, or was meant to be one."""
+    return meant(tag.removeprefix(_PREFIX), OWN_TAGS) is not None
+
+
+def _is_own(element: Element) -> bool:
+    names = (element.tag, *element.attributes)
+    return any(name.startswith(_PREFIX) for name in names)
+
+
+def only_names_files(document: Element) -> bool:
+    """Tell whether all substitutions of a document are in file names.
+
+    Then it is a plain URDF for urdfdom, which does not open these files.
+    """
+    return not any(
+        _is_own(element)
+        or any(
+            name != "filename" and _SUBSTITUTION.search(value)
+            for name, value in element.attributes.items()
+        )
+        for element in document.iter()
+    )
+
+
+def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
+    """Make the warning for one element without its prefix.
+
+    Args:
+        tag: its name.
+        is_macro: whether a macro of that name is defined.
+        place: where it is.
+    """
+    what = "a macro call" if is_macro else "a xacro instruction"
+    return Problem.at(
+        place,
+        "warning",
+        "xacro-prefix-missing",
+        f"<{tag}> looks like {what} without its prefix: xacro copies it to the "
+        "URDF, where ROS ignores it",
+        f"write <xacro:{tag}>",
+    )
+
+
+def missing_prefixes(document: Element) -> list[Problem]:
+    """Make the warnings for a document without any prefix, which xacro does not see."""
+    return [
+        missing_prefix(child.tag, False, child.place)
+        for child in document.children
+        if child.tag in _PARTS
+    ]
+
+
+def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
+    """Make the warning for a .urdf file that uses ``xacro:`` without declaring it.
+
+    xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
+    they ignore elements they do not know.
+
+    Returns:
+        None when the prefix is declared or not used, or when the file is meant for
+        xacro by its name: then it is an error.
+    """
+    if path is None or path.suffix.lower() != ".urdf":
+        return None
+    first: Element | None = None
+    for element in document.iter():
+        if "xmlns:xacro" in element.attributes:
+            return None
+        names = (element.tag, *element.attributes)
+        if first is None and any(name.startswith(_PREFIX) for name in names):
+            first = element
+    if first is None:
+        return None
+    return Problem.at(
+        first.place,
+        "warning",
+        "xacro-prefix-undeclared",
+        f"the prefix xacro: of <{first.tag}> is not declared, so this .urdf file is "
+        "not a xacro file: ROS ignores these elements, and what they would create "
+        "is missing",
+        f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
+        f"{document.place.line}, and call the file .urdf.xacro",
+    )
