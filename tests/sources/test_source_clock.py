@@ -68,6 +68,20 @@ def test_a_clock_that_is_set_counts_after_a_while() -> None:
     assert clock.lag_s() == 0
 
 
+def test_a_clock_that_is_set_back_is_no_lag() -> None:
+    wall = Wall()
+    clock = SourceClock(wall)
+    for ahead in (0, 0, -60, -60, -59.5):
+        wall.now += SECOND
+        clock.note_message(wall.now + int(ahead * SECOND))
+        assert clock.lag_s() == 0
+    # Later messages that take longer are one again.
+    for n in range(1, 5):
+        wall.now += SECOND
+        clock.note_message(wall.now - 60 * SECOND - n * SECOND // 2)
+    assert clock.lag_s() == 2.5
+
+
 def test_simulated_stamps_are_no_lag() -> None:
     wall = Wall()
     clock = SourceClock(wall)

@@ -15,8 +15,35 @@ _SAME_TIME = 3_600_000_000_000
 """Clocks that differ by more than an hour do not tell the same time [ns]."""
 _WINDOW = 10_000_000_000
 """The fastest message counts for so long [ns]: clocks drift, and are set."""
+_SET_BACK = 1_000_000_000
+"""A log time that is so much before the last one is of a clock that was set back [ns]:
+messages that are only late have later ones."""
 _QUIET = 3_000_000_000
 """What came before this time says nothing about the lag now [ns]."""
+
+
+class _Fastest:
+    """Keeps the largest log time minus receive time of some seconds."""
+
+    def __init__(self) -> None:
+        # That of this window and of the last one [ns].
+        self._offset: int | None = None
+        self._last_offset: int | None = None
+        self._window_end = 0
+
+    def note(self, now: int, offset: int) -> None:
+        """Note the offset of a message that came now [ns]."""
+        if now > self._window_end:
+            self._last_offset, self._offset = self._offset, offset
+            self._window_end = now + _WINDOW
+        elif self._offset is None or offset > self._offset:
+            self._offset = offset
+
+    @property
+    def offset(self) -> int | None:
+        """The largest one [ns]; None before the first message."""
+        known = [one for one in (self._offset, self._last_offset) if one is not None]
+        return max(known) if known else None
 
 
 class SourceClock:
@@ -30,17 +57,16 @@ class SourceClock:
 
     def __init__(self, wall_ns: Callable[[], int] = time.time_ns) -> None:
         self._wall_ns = wall_ns
-        self._server_ns: int | None = None
-        # The largest log time minus receive time of this window and of the last one.
-        self._offset: int | None = None
-        self._last_offset: int | None = None
-        self._window_end = 0
-        self._newest: tuple[int, int] | None = None
+        self.reset()
 
     def reset(self) -> None:
         """Forget what was noted: another server, or another connection."""
-        self._server_ns = self._offset = self._last_offset = self._newest = None
-        self._window_end = 0
+        self._server_ns: int | None = None
+        self._fastest = _Fastest()
+        # What a lag is compared with: it begins again when the peer's clock is set.
+        self._undelayed = _Fastest()
+        self._newest: tuple[int, int] | None = None
+        self._last_ns = 0
 
     @property
     def is_told(self) -> bool:
@@ -51,8 +77,7 @@ class SourceClock:
         """Return the time at the peer [ns]; this computer's if nothing is known."""
         if self._server_ns is not None:
             return self._server_ns
-        offset = self._best_offset()
-        return self._wall_ns() + (offset or 0)
+        return self._wall_ns() + (self._fastest.offset or 0)
 
     def note_time(self, server_ns: int) -> None:
         """Note the time that the peer has told [ns]; it counts from now on."""
@@ -64,21 +89,17 @@ class SourceClock:
         offset = log_ns - now
         if abs(offset) > _SAME_TIME:
             return
-        if now > self._window_end:
-            self._last_offset, self._offset = self._offset, offset
-            self._window_end = now + _WINDOW
-        elif self._offset is None or offset > self._offset:
-            self._offset = offset
+        if log_ns < self._last_ns - _SET_BACK:
+            self._undelayed = _Fastest()
+        self._last_ns = log_ns
+        for one in (self._fastest, self._undelayed):
+            one.note(now, offset)
         self._newest = (now, offset)
 
     def lag_s(self) -> float | None:
         """Return how much longer than at best the newest message took [s]."""
-        best = self._best_offset()
+        best = self._undelayed.offset
         if self._server_ns is not None or best is None or self._newest is None:
             return None
         now, offset = self._newest
         return None if self._wall_ns() - now > _QUIET else (best - offset) / 1e9
-
-    def _best_offset(self) -> int | None:
-        known = [one for one in (self._offset, self._last_offset) if one is not None]
-        return max(known) if known else None
