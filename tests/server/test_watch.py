@@ -422,6 +422,23 @@ def test_changes_made_in_the_page_are_not_thrown_away(sam_bot: Followed) -> None
     assert sam_bot.session.scene.context.fixed_frame == "base_link"
 
 
+def test_a_config_that_was_saved_elsewhere_is_shown_when_all_changes_are_undone(
+    sam_bot: Followed,
+) -> None:
+    session = sam_bot.session
+    client = 7
+    for value in (12, 13):
+        with session.history.acting(client, value):
+            session.document.set_option("Frame Rate", value)
+    sam_bot.save("Fixed Frame: base_link", "Fixed Frame: front_caster", sam_bot.config)
+    sam_bot.wait_for(lambda: sam_bot.failed)
+    session.history.undo(client)
+    assert sam_bot.failed == ["config-changes-kept"]
+    session.history.undo(client)
+    sam_bot.wait_for(lambda: session.scene.context.fixed_frame == "front_caster")
+    sam_bot.wait_for(lambda: not sam_bot.failed)
+
+
 def test_a_view_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown(
     sam_bot: Followed, protocol: Callable[[int], ProtocolClient]
 ) -> None:

@@ -23,6 +23,7 @@ from sambot_viz.server.config_store import Sources
 from sambot_viz.server.sessions import Sessions
 from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
+from sambot_viz.session.signals import connect
 
 _log = logging.getLogger(__name__)
 
@@ -58,6 +59,7 @@ class Reloader:
         self._of_config = self._documents.current.problems
         self._reported: tuple[Problem, ...] = ()
         self._watcher: FileWatcher | None = None
+        self._end_waiting: list[Callable[[], None]] = []
 
     def start(self) -> None:
         """Follow the files from now on; saves since they were opened count too."""
@@ -72,6 +74,7 @@ class Reloader:
 
     def close(self) -> None:
         """Stop following the files."""
+        self._wait_no_longer()
         if self._watcher is not None:
             self._watcher.close()
 
@@ -185,22 +188,30 @@ class Reloader:
 
     def _opened(self) -> None:
         """Another config was opened in the page."""
+        self._wait_no_longer()
         self._of_config = self._documents.current.problems
         self._ask_again()
         self._sessions.set_reload_problems("config", ())
 
-    def _reload_config(self, path: Path) -> None:
+    def _reload_config(self, path: Path, before: Plain | None = None) -> None:
+        """Show the config again.
+
+        Args:
+            path: of its file.
+            before: the view of the config that is shown; by default that of the file
+                as it was read last.
+        """
+        self._wait_no_longer()
         try:
             document = self._documents.read(path)
         except ConfigError as error:
             self.refuse_config(error)
         else:
-            self._show_config(path, document)
+            self._show_config(path, document, before or self._documents.view)
         self._report_changed()
 
-    def _show_config(self, path: Path, document: RvizConfig) -> None:
+    def _show_config(self, path: Path, document: RvizConfig, before: Plain) -> None:
         text = document.to_yaml()
-        before = self._documents.view
         if not self._documents.replace(path, document):
             return
         kept: list[Session] = []
@@ -213,6 +224,23 @@ class Reloader:
         problems = (reload_problems.kept(str(path)),) if kept else ()
         self._sessions.set_reload_problems("config", problems)
         self._of_config = problems or document.problems
+        for session in kept:
+            self._wait_for_undo(session, path, before)
+
+    def _wait_for_undo(self, session: Session, path: Path, before: Plain) -> None:
+        """Show the file once a user has undone, or saved, all changes."""
+        modified = session.history.modified
+
+        def look() -> None:
+            if not modified.value:
+                session.worker.post(lambda: self._reload_config(path, before))
+
+        self._end_waiting.append(connect([modified], look))
+
+    def _wait_no_longer(self) -> None:
+        waiting, self._end_waiting = self._end_waiting, []
+        for end in waiting:
+            end()
 
     def _take(self, session: Session, path: Path, text: str, before: Plain) -> bool:
         """Show the file, unless that would throw away what a user has changed.
