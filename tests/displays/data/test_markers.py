@@ -13,7 +13,7 @@ import pytest
 from inside import session_of
 from PIL import Image
 
-from sambot_viz.displays.data.markers.marker_displays import MOST_MESSAGES
+from sambot_viz.displays.data.markers.marker_displays import MOST_AT_ONCE, MOST_MESSAGES
 from sambot_viz.displays.data.markers.textures import has_texture
 from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL
@@ -38,9 +38,11 @@ def built(
     points: int = 0,
     colors: int = 0,
     image: bytes = b"",
+    turn: float = 1.0,
+    locked: bool = False,
 ) -> object:
     time, point = types["builtin_interfaces/msg/Time"], types["geometry_msgs/msg/Point"]
-    turn = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
+    wxyz = types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, turn)
     picture = types["sensor_msgs/msg/CompressedImage"]
     header = types["std_msgs/msg/Header"]
     return types["visualization_msgs/msg/Marker"](
@@ -49,11 +51,11 @@ def built(
         number,
         kind,
         action,
-        types["geometry_msgs/msg/Pose"](point(x, 0.0, 0.0), turn),
+        types["geometry_msgs/msg/Pose"](point(x, 0.0, 0.0), wxyz),
         types["geometry_msgs/msg/Vector3"](scale, scale, scale),
         types["std_msgs/msg/ColorRGBA"](1.0, 0.0, 0.0, 1.0),
         types["builtin_interfaces/msg/Duration"](lifetime, 0),
-        False,
+        locked,
         [point(float(n % 3), float(n % 2), 0.0) for n in range(points)],
         [types["std_msgs/msg/ColorRGBA"](1.0, 1.0, 0.0, 1.0)] * colors,
         "embedded://picture" if image else "",
@@ -79,6 +81,30 @@ def array(*numbers: int) -> Make:
         return "/a", name, types[name]([built(types, number) for number in numbers])
 
     return make
+
+
+def arrays(*values: dict[str, Any]) -> Make:
+    """An array of markers that have a number by their place."""
+
+    def make(types: Any) -> tuple[str, str, object]:
+        name = "visualization_msgs/msg/MarkerArray"
+        rows = [built(types, number, **one) for number, one in enumerate(values)]
+        return "/a", name, types[name](rows)
+
+    return make
+
+
+def solids(shown: Any) -> list[tuple[Any, ...]]:
+    """The copies of unit shapes in the scene, of which the display's key is no part."""
+    fields = "positions", "wxyzs", "scales", "colors"
+    nodes = shown._nodes.items()  # pyright: ignore[reportPrivateUsage]
+    return [
+        (
+            name.partition(shown.display.key)[2],
+            *(getattr(node, f"batched_{field}").tolist() for field in fields),
+        )
+        for name, node in sorted(nodes)
+    ]
 
 
 def names(shown: Any) -> set[tuple[str, int]]:
@@ -270,7 +296,70 @@ def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
         shown.display.messages_came()
     level, text = shown.statuses["Messages"]
     assert level == "Warn"
-    assert text.startswith("More than 10,000 messages or 8 MB")
+    assert text.startswith("More than 10,000 messages or 1 MB")
+
+
+def test_of_large_messages_between_two_pictures_the_newest_are_drawn(
+    messages: Open,
+) -> None:
+    shown = messages("Marker", marker(0), marker(1))
+    subscription = shown.display.subscription
+    (last,) = subscription._last.values()  # pyright: ignore[reportPrivateUsage]
+    taken: list[bytes] = []
+    with session_of(shown.viz).lock:
+        for number in range(9):
+            payload = bytes(last.payload) + bytes([number]) * MOST_AT_ONCE
+            later = last.log_ns + 1 + number
+            subscription.take(replace(last, log_ns=later, payload=payload))
+        taken += [
+            one.payload[-1:] for one in shown.display.wanted(subscription.drain())
+        ]
+    # As many as RViz keeps.
+    assert taken == [bytes([number]) for number in range(4, 9)]
+
+
+SPHERE, CYLINDER = 2, 3
+
+
+@pytest.mark.parametrize(
+    "last",
+    [
+        {"x": 2.0},
+        {"x": 2.0, "frame": "odom"},
+        {"kind": SPHERE},
+        {"kind": 5},
+        {"scale": 3.0, "kind": CYLINDER},
+        {"frame": "map"},
+        {"locked": True},
+        {"turn": 0.0, "x": 1.0},
+        {"turn": 7.0},
+    ],
+    ids=str,
+)
+def test_markers_that_come_again_are_drawn_as_those_that_come_once(
+    messages: Open, last: dict[str, Any]
+) -> None:
+    again = [{"x": 1.0}, {**last, "ns": "a"}, {"x": 0.5}]
+    come = [
+        arrays({}, {}, {}),
+        arrays({}, {"x": 5.0}, {"x": 0.5}),
+        arrays({}, {"x": 5.0}, {"x": 0.5}),
+        arrays({"x": 3.0}, {"x": 5.0, "locked": "locked" in last}, {"x": 0.5}),
+    ]
+    shown = messages("MarkerArray", *come, arrays(*again))
+    many, said = solids(shown), shown.statuses
+    once = messages("MarkerArray", arrays(*again))
+    assert many == solids(once)
+    topics = {key: said.pop(key, None) for key in ("Topic",)}
+    assert said == {k: v for k, v in once.statuses.items() if k not in topics}
+
+
+def test_what_was_wrong_with_the_pose_of_a_marker_is_forgotten(messages: Open) -> None:
+    wrong = arrays({"x": 1.0, "turn": 7.0}, {})
+    shown = messages("MarkerArray", arrays({}, {}), wrong)
+    assert "Unnormalized" in shown.statuses["a/0"][1]
+    shown = messages("MarkerArray", arrays({}, {}), wrong, arrays({"x": 2.0}, {}))
+    assert "a/0" not in shown.statuses
 
 
 @pytest.mark.parametrize("kind", ["Marker", "MarkerArray"])

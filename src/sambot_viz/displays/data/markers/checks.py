@@ -83,6 +83,23 @@ def check_of(marker: Any) -> Check:
     return Check(level, " \n".join([*warnings, *errors]), not hidden)
 
 
+def looks_the_same(marker: Any, before: Any) -> bool:
+    """Return whether a marker is in nothing but its pose other than one before.
+
+    It is not, if that is not certain, and where there is something to say of its pose.
+    """
+    if marker.pose is not before.pose:
+        p, q = marker.pose.position, marker.pose.orientation
+        norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
+        # A comparison with NaN is never true.
+        if not (abs(norm - 1.0) <= _UNNORMALIZED and math.isfinite(p.x + p.y + p.z)):
+            return False
+    # Of what was decoded together, behind the pose, this is the first.
+    if marker.scale is not before.scale or marker.type != before.type:
+        return False
+    return not marker.frame_locked or (marker.header.frame_id == before.header.frame_id)
+
+
 def _invalid(marker: Any) -> str:
     """Return which part of a marker has a number that is none."""
     p, q, s, c = (

@@ -47,6 +47,7 @@ class Shown:
         place: where the frame was; that frame itself when it follows it.
         until_ns: when it vanishes [ns]; None when it stays.
         slot: a small number that no other one has.
+        is_fine: whether there was nothing to say of it.
     """
 
     marker: Any
@@ -54,6 +55,7 @@ class Shown:
     place: MarkerPose
     until_ns: int | None
     slot: int
+    is_fine: bool = False
 
 
 def draw_list(node: PointNode, one: Shown) -> None:

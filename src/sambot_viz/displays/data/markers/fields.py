@@ -36,6 +36,14 @@ class MarkerPose:
             x, y, z, w = T_fixed_frame.rotation_xyzw
             self._wxyz = (w, x, y, z)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same pose."""
+        return self is other or (
+            isinstance(other, MarkerPose)
+            and self._at == other._at
+            and self._turn == other._turn
+        )
+
     def of(self, pose: Any) -> tuple[Wxyz, Vector3]:
         """Return a geometry_msgs/Pose in the frame that it is drawn in."""
         p, q = pose.position, pose.orientation

@@ -27,14 +27,17 @@ from sambot_viz.topics.decoding import frame_and_stamp
 
 DUPLICATES, MESSAGES = "Duplicate Marker Check", "Messages"
 MOST_MESSAGES, MOST_BYTES = 10_000, 8_000_000
-"""So much of the newest messages is looked at, between two pictures or after a jump."""
+"""So much of the newest messages is looked at after a jump."""
+MOST_AT_ONCE, FEWEST = 1_000_000, 5
+"""So much of the newest ones between two pictures [bytes], but so many messages, which
+are as many as RViz keeps: a computer that is slow goes on to show the newest."""
 OLDER = (
     f"Of what was before a jump the last {KEPT_DEPTH_S:.0f} s are shown, up to "
     f"{MOST_BYTES / 1e6:.0f} MB: markers that were sent before are missing; to see "
     "them, play from an earlier time"
 )
 TOO_MANY = (
-    f"More than {MOST_MESSAGES:,} messages or {MOST_BYTES / 1e6:.0f} MB came between "
+    f"More than {MOST_MESSAGES:,} messages or {MOST_AT_ONCE / 1e6:.0f} MB came between "
     "two pictures: markers of the oldest ones may be missing"
 )
 ROS1_TOPIC = "Marker Topic"
@@ -103,11 +106,11 @@ class MarkerDisplay(MessageFilterDisplay):
         """Leave out what later messages make good for nothing."""
         kept: list[Recorded] = []
         seen: set[bytes] = set()
-        size = 0
+        size, most = 0, MOST_BYTES if self._is_after_jump else MOST_AT_ONCE
         for one in reversed(came):
             payload = bytes(one.payload)
             size += len(payload)
-            if kept and size > MOST_BYTES:
+            if size > most and len(kept) >= (1 if self._is_after_jump else FEWEST):
                 self._has_left_out = True
                 break
             if payload not in seen:

@@ -6,7 +6,7 @@ import heapq
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from sambot_viz.displays.data.markers.checks import check_of
+from sambot_viz.displays.data.markers.checks import check_of, looks_the_same
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.meshes import MeshFinder
@@ -80,12 +80,30 @@ class Markers:
         action = int(marker.action)
         key = (str(marker.ns), int(marker.id))
         if action == ADD:
-            self._add(key, OffMarker(marker, _until(marker, arrived_ns), None))
+            until_ns = _until(marker, arrived_ns)
+            before = self.shown.get(key)
+            if before is None or not self._moved(key, before, marker, until_ns):
+                self._add(key, OffMarker(marker, until_ns, None))
         elif action == DELETE:
             self._off.drop(key)
             self._remove(key)
         elif action == DELETE_ALL:
             self.remove_all(key[0] or None)
+
+    def _moved(self, key: Key, one: Shown, marker: Any, until_ns: int | None) -> bool:
+        """Move a marker that looks as before, if that is all; return whether it is."""
+        old, place = one.marker, None
+        if one.is_fine and looks_the_same(marker, old):
+            place, why = self._place(marker)
+            place = None if why else place
+        if place is None:
+            return False
+        is_there = marker.pose is old.pose and place == one.place
+        one.marker, one.place = marker, place
+        one.until_ns = until_ns
+        if not is_there or one.frame is not None:
+            self._changed[key] = None
+        return True
 
     def _add(self, key: Key, one: OffMarker) -> None:
         marker = one.marker
@@ -119,6 +137,7 @@ class Markers:
             MarkerPose() if place is None else place,
             one.until_ns,
             self._slot() if before is None else before.slot,
+            is_fine=not (why or check.text),
         )
         self._points += len(marker.points) - _points_of(before or self._apart.get(key))
         self._apart.pop(key, None)
