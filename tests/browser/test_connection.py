@@ -73,6 +73,31 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
         assert dict(second.joint_positions) == {LEFT: 1.0, RIGHT: 0.5}
 
 
+def test_the_selected_rows_are_those_of_before_after_a_restart(
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    link = ("Displays", "Links", "base_link")
+    with Visualizer(port=0, look="rviz") as first:
+        port = first.viser.get_port()
+        viewer = open_viewer(first.url)
+        viewer.expects_errors = True
+        user, edits = viewer.user, session_of(first).display_edits
+        edits.add_display("rviz_default_plugins/Axes", place=(0, None))
+        user.row("Displays", "Axes")
+        edits.remove_display(session_of(first).document.config.displays[0])
+        user.gone("row", "Axes")
+        for names in (("RobotModel",), ("Links",)):
+            user.unfold("Displays", *names)
+        user.click_on(user.row(*link))
+        user.tab("Frames")
+        user.click_on(user.row("Frames", "To"))
+    user.reads("Connection lost. Trying again…")
+    with Visualizer(port=port, look="rviz"):
+        user.reads("The connection is back. The server was restarted.", 40.0)
+        user.until(lambda: user.row(*link).state("selected"))
+        user.until(lambda: user.row("Frames", "To").state("selected"))
+
+
 def test_a_page_whose_link_has_changed_says_so(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:

@@ -33,7 +33,8 @@ import {
 } from "./reconnect.js";
 import { retries } from "./retries.js";
 import { hasDisk } from "../window/files.js";
-import { Cell, folds, useData, useRow } from "../state.js";
+import { Cell, folds, selected, useData, useRow } from "../state.js";
+import { selectAgain } from "../tree/select_again.js";
 
 /** @typedef {import("./reconnect.js").Memory} Memory */
 /** @typedef {Memory & {waiting: any[][], stuck: boolean, at: string}} Kept what a page that is loaded again has kept */
@@ -86,6 +87,9 @@ export function followConnection() {
       location.reload();
     }
   });
+  /** The rows that are selected when the rows of a new server come. */
+  let chosen = selected.value;
+  rows.listen("whole:session", () => (chosen = selected.value));
   // The rows of this browser come after those of everyone.
   rows.listen("whole:browser", () => {
     if (isState(said.value)) said.set(null);
@@ -107,6 +111,7 @@ export function followConnection() {
     }
     folds.set(foldsNow(then, folds.value));
     const there = idsNow(then);
+    if (!loaded) selectAgain(chosen, there);
     const flush = () =>
       sendHeldBack((id) => {
         const now = there(id);
