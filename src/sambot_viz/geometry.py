@@ -22,6 +22,8 @@ Wxyz = tuple[float, float, float, float]
 """A rotation as viser wants it."""
 IDENTITY: Wxyz = (1.0, 0.0, 0.0, 0.0)
 """The rotation that turns nothing."""
+_GIMBAL_COSINE = 1e-9
+"""Below this cosine of the pitch, roll and yaw turn about the same axis."""
 SHORTEST = 1e-150
 """A quaternion that is not longer has no direction: its squares are 0."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
@@ -56,6 +58,22 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> list[list[float]
         [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
         [-sp, cp * sr, cp * cr],
     ]
+
+
+def rpy_from_matrix(T: Matrix) -> Vector3:
+    """Return fixed-axis roll, pitch, yaw [rad] of a (4, 4) or (3, 3) matrix.
+
+    Pitch is within ±π/2. At ±90° only roll − yaw (or roll + yaw) means anything: yaw
+    is 0 there and roll carries all of it.
+    """
+    rows: list[list[float]] = T.tolist()
+    (r00, r01, r02), (r10, r11, r12) = rows[0][:3], rows[1][:3]
+    straight = math.hypot(r00, r10) < _GIMBAL_COSINE
+    yaw = 0.0 if straight else math.atan2(r10, r00)
+    # Turned back by yaw, so that pitch and roll make up for what yaw has lost.
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    pitch = math.atan2(-rows[2][0], math.hypot(r00, r10))
+    return (math.atan2(sy * r02 - cy * r12, cy * r11 - sy * r01), pitch, yaw)
 
 
 def rotation_from_axis(axis: Vector3, angle: float) -> list[list[float]]:

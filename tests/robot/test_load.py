@@ -47,6 +47,9 @@ def test_every_urdf_error_of_the_collection_is_reported_on_its_line(shared: Path
         name = entry["file"]
         if entry["stage"] != "urdf" or name.partition(".")[0] in rules:
             continue
+        if name.endswith(".sdf"):
+            # An error for tools that know URDF only; here it is a robot.
+            continue
         try:
             problems = load_robot(folder / name).problems
         except RobotError as error:

@@ -1,6 +1,6 @@
 """Text in a model that stops ``ros2 launch``.
 
-A launch file that passes Command([…]) straight as robot_description has the whole URDF
+A launch file that passes Command([…]) straight as robot_description has the whole text
 read as YAML. xacro keeps comments, so a harmless "TODO: …" is enough to stop it. The
 rule says nothing unless the model's package has such a launch file.
 """
@@ -30,16 +30,16 @@ _SHORTEST_WORDS = 4
 def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
     """Find the first text that YAML cannot read where a launch file makes it YAML."""
     # xacro writes its own line breaks and indentation between tags.
-    urdf = _BETWEEN_TAGS.sub(">\n<", subject.robot.urdf)
-    trap = _TRAP.search(urdf)
+    model_text = _BETWEEN_TAGS.sub(">\n<", subject.robot.description)
+    trap = _TRAP.search(model_text)
     # Launch files are only looked for where one could have trouble: most have none.
     if trap is None or not subject.files:
         return
     model = Path(subject.files[0])
     launch = next(_bare_launch_files(model.absolute().parent), None)
-    if launch is None or _is_text_in_yaml(urdf):
+    if launch is None or _is_text_in_yaml(model_text):
         return
-    text = _text_around(urdf, trap.start())
+    text = _text_around(model_text, trap.start())
     yield Problem.at(
         _place(subject.files, text) or str(model),
         "warning",

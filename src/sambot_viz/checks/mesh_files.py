@@ -12,7 +12,7 @@ import numpy as np
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Place, Problem, Severity
 from sambot_viz.geometry import Vector3
-from sambot_viz.robot.parts import Link, MeshFile, Shape
+from sambot_viz.robot.parts import Language, Link, MeshFile, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh, MeshPart
@@ -165,7 +165,9 @@ def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
             continue
         seen.add((path, mesh.scale))
         size = _longest_side(subject, mesh, path)
-        advice = None if size is None else _advice(size, mesh.scale)
+        advice = (
+            None if size is None else _advice(size, mesh.scale, subject.robot.language)
+        )
         if size is None or advice is None:
             continue
         wrong.setdefault(advice, []).append((link.name, path.name, size))
@@ -196,7 +198,7 @@ def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
     return None if sides.min() < _FLAT * size else size
 
 
-def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
+def _advice(size: float, scale: Vector3, language: Language) -> tuple[str, str] | None:
     """Say what is probably wrong, and what to do about it."""
     if size > _NONSENSE:
         return (
@@ -205,9 +207,12 @@ def _advice(size: float, scale: Vector3) -> tuple[str, str] | None:
         )
     if size > _TOO_LARGE:
         factors = " ".join(number(factor / 1000) for factor in scale)
+        write = f'scale="{factors}"'
+        if language == "sdf":
+            write = f"<scale>{factors}</scale>"
         return (
             "is probably drawn in millimetres",
-            f'write scale="{factors}", or export it in metres',
+            f"write {write}, or export it in metres",
         )
     if 0 < size < _TOO_SMALL and max(abs(factor) for factor in scale) < 0.1:
         return "is probably in metres already", "delete the scale"

@@ -17,6 +17,9 @@ def inertia_on_root(subject: Subject) -> Iterator[Problem]:
     root = subject.robot.links[subject.robot.root]
     if root.inertial is None or len(subject.robot.links) == 1:
         return
+    if subject.robot.language == "sdf":
+        # There every link has one, and the tutorial says not to mind the warning.
+        return
     yield Problem.at(
         root.inertial.place or root.place,
         "info",
@@ -158,7 +161,9 @@ def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
     A wheel turns without end about a level axis, and is a sphere or a cylinder
     about that axis. Other links, and wheels that are meshes, are not judged.
     """
-    if joint.type != "continuous":
+    if joint.limit is not None and joint.limit.ends != (None, None):
+        return None
+    if joint.type not in ("continuous", "revolute"):
         return None
     axis = T_footprint_link[:3, :3] @ np.array(joint.axis)
     if abs(axis[2]) > 0.1:

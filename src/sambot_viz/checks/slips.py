@@ -15,6 +15,8 @@ from sambot_viz.robot.parts import (
     Cylinder,
     Geometry,
     Joint,
+    Language,
+    Limit,
     Link,
     MeshFile,
     Origin,
@@ -55,10 +57,17 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
             "warning",
             "limit-in-degrees",
             f"joint {joint.name}: the limits {number(limit.lower)} and "
-            f"{number(limit.upper)} look like degrees, but URDF uses radians",
-            f'write lower="{number(math.radians(limit.lower))}" '
-            f'upper="{number(math.radians(limit.upper))}"',
+            f"{number(limit.upper)} look like degrees, but "
+            f"{subject.robot.language.upper()} uses radians",
+            _limits_in_radians(limit, subject.robot.language),
         )
+
+
+def _limits_in_radians(limit: Limit, language: Language) -> str:
+    lower, upper = (number(math.radians(v)) for v in (limit.lower, limit.upper))
+    if language == "sdf":
+        return f"write <lower>{lower}</lower> and <upper>{upper}</upper>"
+    return f'write lower="{lower}" upper="{upper}"'
 
 
 def rpy_in_degrees(subject: Subject) -> Iterator[Problem]:
@@ -137,7 +146,7 @@ def invisible_materials(subject: Subject) -> Iterator[Problem]:
                 "info",
                 "alpha-zero",
                 f"{named}link {link.name} has the alpha 0: it is invisible",
-                'the fourth number of rgba is the opacity: write rgba="… … … 1"',
+                "the fourth number of a colour is the opacity: write 1 there",
             )
 
 

@@ -19,6 +19,7 @@ from sambot_viz.geometry import (
     Xyzw,
     inverse_matrix,
     rotation_from_xyzw,
+    rpy_from_matrix,
     xyzw_from_matrix,
     xyzw_from_rpy,
     xyzw_product,
@@ -33,9 +34,6 @@ Pose = Union["Transform", Sequence[float], Sequence[Sequence[float]], npt.NDArra
 
 _LENGTH_TOLERANCE = 0.01
 """tf2 refuses quaternions whose squared length differs from 1 by more."""
-
-_GIMBAL_COSINE = 1e-9
-"""Below this cosine of the pitch, roll and yaw are not distinct."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,12 +181,7 @@ class Transform:
         At a pitch of ±90° only roll − yaw (or roll + yaw) means anything: yaw is 0
         there and roll carries all of it.
         """
-        (r00, r01, _, _), (r10, r11, _, _), (r20, r21, r22, _), _ = self.matrix.tolist()
-        pitch_cosine = math.hypot(r21, r22)
-        pitch = math.atan2(-r20, pitch_cosine)
-        if pitch_cosine < _GIMBAL_COSINE:
-            return (math.atan2(r01 if pitch > 0 else -r01, r11), pitch, 0.0)
-        return (math.atan2(r21, r22), pitch, math.atan2(r10, r00))
+        return rpy_from_matrix(self.matrix)
 
     def inverse(self) -> Transform:
         """Return the pose of the parent in the child, T_child_parent."""

@@ -25,7 +25,8 @@ from sambot_viz.robot.needs_xacro import (
     undeclared_prefix,
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
-from sambot_viz.robot.parts import Joint, Link
+from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
+from sambot_viz.robot.sdf.read_sdf import read_sdf
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xacro.child_result import (
@@ -50,9 +51,10 @@ class LoadedModel(NamedTuple):
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
     problems: tuple[Problem, ...]
-    urdf: str
+    description: str
     files: tuple[Path, ...]
     file_roots: tuple[Path, ...] | None
+    language: Language
 
 
 def load_model(
@@ -73,7 +75,7 @@ def expand(
     package_path: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> str:
-    """Return the URDF text of a model, as the xacro command prints it.
+    """Return the URDF or SDF text of a model, as the xacro command prints it.
 
     Args:
         model: the file, or the XML text itself.
@@ -145,7 +147,34 @@ class _Loader:
     ) -> LoadedModel:
         source, findings = self.opened.source, ModelFindings()
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
-        urdf = read_urdf(
+        tree = self._tree(root, files, findings, expanded)
+        problems += findings.problems
+        read = expanded.files if expanded is not None else ()
+        if tree is None or findings.rejected:
+            raise RobotError(
+                explain_without_links(problems, self.opened.document, source.path), read
+            )
+        own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
+        return LoadedModel(
+            *tree,
+            tuple(problems),
+            expanded.text if expanded is not None else declared_as_utf8(source.text),
+            tuple(dict.fromkeys((*own, *read))),
+            files.roots,
+            "sdf" if root.tag == "sdf" else "urdf",
+        )
+
+    def _tree(
+        self,
+        root: Element,
+        files: FileFinder,
+        findings: ModelFindings,
+        expanded: ExpandedModel | None,
+    ) -> RobotTree | None:
+        """Read a document in the language that its root element says."""
+        if root.tag == "sdf":
+            return read_sdf(root, self.opened.document, findings, files.mesh)
+        tree = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None
         )
         report_slips(
@@ -157,20 +186,7 @@ class _Loader:
             ),
             frozenset() if expanded is None else expanded.macros,
         )
-        problems += findings.problems
-        read = expanded.files if expanded is not None else ()
-        if urdf is None or findings.rejected:
-            raise RobotError(
-                explain_without_links(problems, self.opened.document, source.path), read
-            )
-        own = (Path(os.path.abspath(source.path)),) if source.path is not None else ()
-        return LoadedModel(
-            *urdf,
-            tuple(problems),
-            expanded.text if expanded is not None else declared_as_utf8(source.text),
-            tuple(dict.fromkeys((*own, *read))),
-            files.roots,
-        )
+        return tree
 
 
 def _no_file(_name: str, _element: Element) -> None:

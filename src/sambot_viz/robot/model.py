@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ from sambot_viz.errors import JointError, Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.parts import Joint, Link, MeshFile, Shape
+from sambot_viz.robot.parts import Joint, Language, Link, MeshFile, Shape
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
@@ -38,15 +38,16 @@ class Robot:
     """A robot whose links form one tree.
 
     Attributes:
-        name: the name attribute of <robot>.
+        name: the name attribute of <robot>, or of the <model> of an SDF file.
         root: name of the root link.
         links: link name → Link, in document order.
         joints: joint name → Joint, in document order.
         problems: warnings and notes; errors only for things left out of the picture.
-        urdf: the expanded and validated URDF text.
+        description: the expanded and validated text, as in /robot_description.
         files: every file that was read for it, the model first (for reload on save).
         file_roots: folders that its meshes and textures may be read from (resolved);
             None for a trusted model, whose files may be anywhere.
+        language: what the description is written in.
     """
 
     name: str
@@ -54,9 +55,19 @@ class Robot:
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
     problems: tuple[Problem, ...] = field(default=(), compare=False)
-    urdf: str = field(default="", compare=False, repr=False)
+    description: str = field(default="", compare=False, repr=False)
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
+    language: Language = field(default="urdf", compare=False, repr=False)
+
+    @cached_property
+    def urdf(self) -> str:
+        """The robot as URDF: its description, or what ROS makes of an SDF file."""
+        if self.language == "urdf":
+            return self.description
+        from sambot_viz.robot.urdf.write_urdf import write_urdf
+
+        return write_urdf(self.name, self.links, self.joints)
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -170,9 +181,10 @@ def load_robot(
     package_path: Sequence[Path | str] = (),
     trusted: bool = True,
 ) -> Robot:
-    """Load a robot from a URDF or xacro file, or from text.
+    """Load a robot from a URDF, SDF or xacro file, or from text.
 
-    The content decides whether xacro expands it, not the ending of the file name.
+    The content decides what it is and whether xacro expands it, not the ending of the
+    file name.
 
     Args:
         model: the file, the XML text itself, or the result of `open_model`.

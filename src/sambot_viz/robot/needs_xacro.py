@@ -27,7 +27,8 @@ def first_xacro(document: Element) -> Element | None:
 
     These are xacro's own elements and attributes, and a substitution where URDF needs
     a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
-    could fail there although ROS does not use the value.
+    could fail there although ROS does not use the value. In SDF, which launch files
+    always give to xacro, every substitution counts.
     """
     for element in document.iter():
         if _is_own(element):
@@ -36,7 +37,9 @@ def first_xacro(document: Element) -> Element | None:
 
 
 def _first_substitution(document: Element) -> Element | None:
-    """Find the first element with an expression where URDF needs a value."""
+    """Find the first element with an expression where the format needs a value."""
+    if document.tag == "sdf":
+        return next(filter(_has_substitution, document.iter()), None)
     robot = document if document.tag == "robot" else document.find("robot")
     parts = robot.children if robot is not None else []
     return next(
@@ -89,6 +92,11 @@ def _may_be_own_tag(tag: str) -> bool:
     return meant(tag.removeprefix(_PREFIX), OWN_TAGS) is not None
 
 
+def _has_substitution(element: Element) -> bool:
+    values = (element.text, *element.attributes.values())
+    return any(_SUBSTITUTION.search(value) for value in values)
+
+
 def _is_own(element: Element) -> bool:
     names = (element.tag, *element.attributes)
     return any(name.startswith(_PREFIX) for name in names)
@@ -99,7 +107,7 @@ def only_names_files(document: Element) -> bool:
 
     Then it is a plain URDF for urdfdom, which does not open these files.
     """
-    return not any(
+    return document.tag != "sdf" and not any(
         _is_own(element)
         or any(
             name != "filename" and _SUBSTITUTION.search(value)
@@ -133,7 +141,7 @@ def missing_prefixes(document: Element) -> list[Problem]:
     return [
         missing_prefix(child.tag, False, child.place)
         for child in document.children
-        if child.tag in _PARTS
+        if child.tag in _PARTS and document.tag != "sdf"
     ]
 
 

@@ -13,12 +13,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from sambot_viz.errors import Place
 from sambot_viz.geometry import Matrix, Rgba, Vector3, rotation_from_rpy
+
+Language = Literal["urdf", "sdf"]
+"""What a model is written in."""
 
 
 @dataclass(frozen=True)
@@ -157,6 +160,8 @@ JointType = Literal[
 ]
 MOVABLE_TYPES: frozenset[str] = frozenset({"revolute", "continuous", "prismatic"})
 """The joint types that joint_state_publisher drives."""
+_NO_LIMIT = 1e16
+"""What Gazebo writes for "no limit"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,6 +174,12 @@ class Limit:
     velocity: float = 0.0
     place: Place | None = field(default=None, compare=False)
 
+    @property
+    def ends(self) -> tuple[float | None, float | None]:
+        """Lower and upper [rad or m]; None where there is no end (1e16 and beyond)."""
+        lower = self.lower if abs(self.lower) < _NO_LIMIT else None
+        return lower, self.upper if abs(self.upper) < _NO_LIMIT else None
+
 
 @dataclass(frozen=True, slots=True)
 class SoftLimit:
@@ -176,6 +187,14 @@ class SoftLimit:
 
     lower: float | None = None
     upper: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Dynamics:
+    """What brakes a joint: damping [N m s/rad or N s/m], friction [N m or N]."""
+
+    damping: float = 0.0
+    friction: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,6 +222,7 @@ class Joint:
         soft_limit: soft limits, or None.
         mimic: the joint it follows, or None.
         place: where the element is.
+        dynamics: what brakes it, or None.
     """
 
     name: str
@@ -215,6 +235,7 @@ class Joint:
     soft_limit: SoftLimit | None = None
     mimic: Mimic | None = None
     place: Place | None = field(default=None, compare=False)
+    dynamics: Dynamics | None = None
 
     @property
     def movable(self) -> bool:
@@ -226,12 +247,12 @@ class Joint:
         """Lower and upper position [rad or m], as joint_state_publisher takes them.
 
         Continuous joints have −π … π whatever the file says; soft limits narrow the
-        range.
+        range. So have others where the file gives no end (prismatic: 1 m); there
+        joint_state_publisher_gui ends with an error.
         """
         if self.type == "continuous":
             return (-math.pi, math.pi)
-        limit = self.limit or Limit()
-        lower, upper = limit.lower, limit.upper
+        lower, upper = _closed(self.limit or Limit(), self.type)
         if self.soft_limit is not None:
             if self.soft_limit.lower is not None:
                 lower = max(lower, self.soft_limit.lower)
@@ -247,6 +268,29 @@ class Joint:
         """
         lower, upper = self.range
         return (lower + upper) / 2 if lower > 0 or upper < 0 else 0.0
+
+
+class RobotTree(NamedTuple):
+    """What a document says: name, root link, and the links and joints of its tree."""
+
+    name: str
+    root: str
+    links: dict[str, Link]
+    joints: dict[str, Joint]
+
+
+def _closed(limit: Limit, kind: JointType) -> tuple[float, float]:
+    """Return a range [rad or m] that has both ends: a turn, or two metres."""
+    half = 1.0 if kind == "prismatic" else math.pi
+    match limit.ends:
+        case None, None:
+            return -half, half
+        case lower, None:
+            return lower, half if lower < half else lower + half
+        case None, upper:
+            return -half if upper > -half else upper - half, upper
+        case lower, upper:
+            return lower, upper
 
 
 @dataclass(frozen=True, slots=True)

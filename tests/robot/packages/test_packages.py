@@ -111,7 +111,7 @@ def test_mesh_names_of_every_kind_are_resolved(workspace: Path):
         found = files.resolve(name)
         assert found.path is not None, name
         assert found.path.resolve() == mesh
-        assert found.doubt is None
+        assert found.doubt == ("model-scheme" if name.startswith("model:") else None)
     assert files.resolve("near.stl").path == near
 
 

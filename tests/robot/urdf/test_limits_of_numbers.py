@@ -53,7 +53,10 @@ def test_poses_stay_finite_whatever_the_limits_and_origins(
 def test_limits_as_real_files_have_them_stay_as_they_are() -> None:
     joint = LIMIT.format("-1e+16", "1e+16").replace('effort="1"', 'effort="1e+30"')
     robot = load_robot(two_links(joint=joint, kind="revolute"))
-    assert robot.joints["j"].range == (-1e16, 1e16)
+    limit = robot.joints["j"].limit
+    assert limit is not None
+    assert (limit.lower, limit.upper) == (-1e16, 1e16)
+    assert robot.joints["j"].range == (-math.pi, math.pi)
     assert robot.problems == ()
 
 

@@ -228,8 +228,8 @@ def test_an_axis_is_normalised():
 
 
 def test_another_root_element_is_named():
-    with pytest.raises(RobotError, match=r"SDF file of Gazebo \(<sdf> on line 1\)"):
-        load_robot('<sdf version="1.6"><model name="m"/></sdf>')
+    with pytest.raises(RobotError, match=r"a Gazebo model \(<model> on line 1\)"):
+        load_robot('<model name="m"/>')
     robot = load_robot(f'<urdf><robot name="r">{link("")}</robot></urdf>')
     assert codes(robot.problems) == ["robot-not-root"]
 

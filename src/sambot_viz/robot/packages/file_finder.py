@@ -41,6 +41,13 @@ _DOUBTS = {
         "finds nothing; {path} was used",
         "write package://PACKAGE/…, with two slashes and the name of the package",
     ),
+    "model-scheme": (
+        "file-model-scheme",
+        "only Gazebo looks for model:// among its models, RViz does not find the "
+        "file; {path} was used",
+        "write package://PACKAGE/…, which RViz finds, and Gazebo too when the share "
+        "folder of the workspace is in GZ_SIM_RESOURCE_PATH",
+    ),
 }
 _MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
 """Endings of the mesh files that are read."""

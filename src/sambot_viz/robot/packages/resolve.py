@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Container, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Literal
 from urllib.parse import unquote
@@ -17,7 +17,12 @@ from urllib.parse import unquote
 from sambot_viz.robot.packages.package_index import PackageIndex
 
 Doubt = Literal[
-    "letter-case", "other-machine", "other-layout", "path-only", "three-slashes"
+    "letter-case",
+    "other-machine",
+    "other-layout",
+    "path-only",
+    "three-slashes",
+    "model-scheme",
 ]
 """The reason why ROS would not find a file that was found here by this name."""
 
@@ -91,7 +96,10 @@ class FileResolver:
             if found is not None:
                 return Resolution(found, lookup.searched, "path-only", package)
             return Resolution(None, lookup.searched, missing_package=package)
-        return self._below(lookup.path, tail)
+        found = self._below(lookup.path, tail)
+        if scheme == "model" and found.path is not None and found.doubt is None:
+            return replace(found, doubt="model-scheme")
+        return found
 
     def _without_package(self, tail: str) -> Resolution:
         """A file of "package:///tail": the package is the first folder, or missing."""

@@ -118,7 +118,7 @@ class _JointReader:
         limits = LimitReader(
             self._element, self._name, self._kind, self._reader, self._findings
         )
-        limits.check_dynamics()
+        dynamics = limits.dynamics()
         limits.check_calibration()
         return Joint(
             self._name,
@@ -131,6 +131,7 @@ class _JointReader:
             limits.soft_limit(),
             self._mimic(),
             self._element.place,
+            dynamics,
         )
 
     def _axis(self) -> Vector3:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.parts import JointType, Limit, SoftLimit
+from sambot_viz.robot.parts import Dynamics, JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.xml.element import Element
 
@@ -137,11 +137,11 @@ class LimitReader:
             return None
         return self._reader.number(element, name)
 
-    def check_dynamics(self) -> None:
-        """Report a <dynamics> that ROS refuses; its numbers are not kept."""
+    def dynamics(self) -> Dynamics | None:
+        """Read the <dynamics>; None when there is none."""
         element = self._element.find("dynamics")
         if element is None:
-            return
+            return None
         if element.get("damping") is None and element.get("friction") is None:
             self._findings.reject(
                 "dynamics-empty",
@@ -150,17 +150,21 @@ class LimitReader:
                 "delete it, or give one of the two",
                 element,
             )
-        self._check_numbers(element, ("damping", "friction"))
+        damping, friction = self._numbers(element, ("damping", "friction"))
+        return Dynamics(damping, friction)
 
     def check_calibration(self) -> None:
         """Report a <calibration> that ROS refuses; its numbers are not kept."""
         element = self._element.find("calibration")
         if element is not None:
-            self._check_numbers(element, ("rising", "falling"))
+            self._numbers(element, ("rising", "falling"))
 
-    def _check_numbers(self, element: Element, names: tuple[str, ...]) -> None:
+    def _numbers(self, element: Element, names: tuple[str, ...]) -> list[float]:
+        """Read numbers; one that is wrong has been reported and is 0."""
+        numbers: list[float] = []
         for name in names:
             try:
-                self._reader.optional(element, name, 0.0)
+                numbers.append(self._reader.optional(element, name, 0.0))
             except Unreadable:
-                continue
+                numbers.append(0.0)
+        return numbers

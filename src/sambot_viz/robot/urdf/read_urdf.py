@@ -7,10 +7,8 @@ the end, so that all errors are reported together.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from sambot_viz.robot.findings import ModelFindings, tag_text
-from sambot_viz.robot.parts import Joint, Link
+from sambot_viz.robot.parts import RobotTree
 from sambot_viz.robot.urdf.joints import check_mimics
 from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
@@ -19,7 +17,7 @@ from sambot_viz.robot.urdf.robot_parts import RobotParts, read_parts
 from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
-    "sdf": "an SDF file of Gazebo",
+    "SDF": "an SDF file whose <sdf> is in capital letters",
     "world": "an SDF world of Gazebo",
     "model": "a Gazebo model",
     "mujoco": "a MuJoCo model",
@@ -28,15 +26,11 @@ _OTHER_ROOTS = {
     "package": "a package manifest",
     "html": "a web page",
 }
-
-
-class UrdfRobot(NamedTuple):
-    """The content of a URDF document: name, root link, links and joints of its tree."""
-
-    name: str
-    root: str
-    links: dict[str, Link]
-    joints: dict[str, Joint]
+_OTHER_HINTS = {
+    "SDF": "write <sdf> in small letters",
+    "model": 'put it into <sdf version="1.8">, then it is an SDF file',
+    "world": "open the file of the robot",
+}
 
 
 def read_urdf(
@@ -45,7 +39,7 @@ def read_urdf(
     find_mesh: FindMesh,
     find_texture: FindTexture,
     expanded: bool,
-) -> UrdfRobot | None:
+) -> RobotTree | None:
     """Read a document.
 
     Args:
@@ -74,7 +68,7 @@ def read_urdf(
     tree = build_tree(parts, findings)
     if tree is None:
         return None
-    return UrdfRobot(name, tree.root, tree.links, tree.joints)
+    return RobotTree(name, tree.root, tree.links, tree.joints)
 
 
 def _robot_element(document: Element, findings: ModelFindings) -> Element | None:
@@ -92,7 +86,7 @@ def _robot_element(document: Element, findings: ModelFindings) -> Element | None
         return inner
     kind = _OTHER_ROOTS.get(document.tag, "not a robot description")
     more = (
-        "export URDF, or convert the file first"
+        _OTHER_HINTS.get(document.tag, "export URDF, or convert the file first")
         if document.tag in _OTHER_ROOTS
         else "the root element must be <robot>"
     )

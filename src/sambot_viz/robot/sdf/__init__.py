@@ -1,0 +1,1 @@
+"""From SDF elements to links, joints and one tree, with sdformat_urdf's rules."""

@@ -1,0 +1,267 @@
+"""Check every element that libsdformat knows: attributes, values, unknown names.
+
+libsdformat reads the whole file by a table before it looks at what it means; a wrong
+number in a sensor refuses the robot, an unknown element is only lost.
+"""
+
+from __future__ import annotations
+
+import re
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.findings import ModelFindings, tag_text
+from sambot_viz.robot.sdf import values
+from sambot_viz.robot.sdf.elements import ElementType, Values, model_type
+from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
+from sambot_viz.robot.sdf.habits import (
+    attributes_of_urdf,
+    element_of_urdf,
+    says_more_inside,
+)
+from sambot_viz.robot.sdf.old_versions import Version
+from sambot_viz.robot.sdf.values import BadValue, trimmed
+from sambot_viz.robot.sdf.wording import REFUSED, described
+from sambot_viz.robot.xml.element import Element
+
+
+def check_elements(model: Element, version: Version, findings: ModelFindings) -> None:
+    """Report what libsdformat refuses or loses in a <model>, in document order.
+
+    Args:
+        model: the <model>.
+        version: that of the file; older ones have a few other names.
+        findings: where the problems go.
+    """
+    _ElementChecker(version, findings).check(model)
+
+
+class _ElementChecker:
+    def __init__(self, version: Version, findings: ModelFindings) -> None:
+        self._version = version
+        self._findings = findings
+
+    def check(self, model: Element) -> None:
+        stack = [(model, model_type(), False)]
+        while stack:
+            element, known, quiet = stack.pop()
+            quiet = quiet or is_for_gazebo(element)
+            read_as_urdf = self._check_attributes(element, known, quiet)
+            if known.text.kind and not read_as_urdf:
+                self._check_text(element, known.text)
+            if known.open:
+                continue
+            inside: list[tuple[Element, ElementType, bool]] = []
+            for child in element.children:
+                if child.tag == "include":
+                    self._refuse_include(child)
+                elif (child_type := known.children.get(child.tag)) is not None:
+                    inside.append((child, child_type, quiet))
+                elif not quiet:
+                    self._report_unknown(child, known)
+            stack.extend(reversed(inside))
+
+    def _check_attributes(
+        self, element: Element, known: ElementType, quiet: bool
+    ) -> bool:
+        """Check the attributes; tells whether they say what the text should say."""
+        unknown: list[str] = []
+        for name, text in element.attributes.items():
+            wanted = known.attributes.get(name)
+            if wanted is not None:
+                self._check_attribute(element, name, text, wanted)
+            elif ":" not in name and not self._version.knows(element, name):
+                unknown.append(name)
+        for name, wanted in known.attributes.items():
+            if wanted.required and element.get(name) is None:
+                self._report_missing(element, name)
+        if not unknown or quiet or says_more_inside(element):
+            return False
+        return self._report_attributes(element, known, unknown)
+
+    def _check_attribute(
+        self, element: Element, name: str, text: str, wanted: Values
+    ) -> None:
+        shown = f'{name}="{text}" of {tag_text(element)}'
+        if wanted.required and not trimmed(text):
+            self._findings.reject(
+                "sdf-attribute-empty",
+                f"{shown} in {described(element)} is empty; {REFUSED}",
+                f'write {name}="…"',
+                element,
+                name,
+            )
+            return
+        try:
+            _check_value(text, wanted)
+        except BadValue as bad:
+            self._findings.reject(
+                "sdf-value",
+                f"{shown} in {described(element)} {bad.reason}; {REFUSED}",
+                bad.hint,
+                element,
+                name,
+            )
+
+    def _report_missing(self, element: Element, name: str) -> None:
+        message, hint = f"this <{element.tag}> has no {name}", f'write {name}="…"'
+        if name == "name":
+            message += f"; in SDF every <{element.tag}> needs one"
+            hint = f'write <{element.tag} name="…">'
+            parent = element.parent.get("name") if element.parent else None
+            if parent and element.tag in ("visual", "collision"):
+                hint = f'write <{element.tag} name="{parent}_{element.tag}">'
+                message += ", unique in its link"
+        elif name == "type" and element.tag == "joint":
+            message = f"joint {element.get('name')} has no type"
+            hint = 'write type="fixed", "revolute" or "continuous"'
+        self._findings.reject(
+            "attribute-missing", f"{message}; {REFUSED}", hint, element
+        )
+
+    def _report_attributes(
+        self, element: Element, known: ElementType, unknown: list[str]
+    ) -> bool:
+        habit = attributes_of_urdf(element, unknown)
+        if habit is not None:
+            report = self._findings.reject if habit.refused else self._findings.warn
+            report("sdf-urdf-habit", habit.message, habit.hint, element, unknown[0])
+            return habit.refused
+        for name in unknown:
+            near = did_you_mean(name, known.attributes)
+            self._findings.warn(
+                "sdf-attribute-unknown",
+                f"SDF knows no attribute {name} of <{element.tag}> ({near}); ROS "
+                "ignores it",
+                "delete it",
+                element,
+                name,
+            )
+        return False
+
+    def _check_text(self, element: Element, wanted: Values) -> None:
+        text = trimmed(element.text)
+        shown = f"<{element.tag}>{_short(text)}</{element.tag}> of {described(element)}"
+        if not text and wanted.required:
+            self._findings.reject(
+                "sdf-value",
+                f"<{element.tag}> of {described(element)} is empty; {REFUSED}",
+                f"write a value into it, or delete <{element.tag}>",
+                element,
+            )
+            return
+        try:
+            ignored = text and (
+                _check_pose(element, text)
+                if wanted.kind == "pose"
+                else _check_value(text, wanted)
+            )
+        except BadValue as bad:
+            self._findings.reject(
+                "sdf-value", f"{shown} {bad.reason}; {REFUSED}", bad.hint, element
+            )
+            return
+        if ignored:
+            self._report_ignored(element, shown, text)
+
+    def _report_ignored(self, element: Element, shown: str, text: str) -> None:
+        better = re.sub(r"(?<=\d),(?=\d)", ".", text)
+        better = re.sub(r"(?<=[\d.])[^\d\s.,+eE-]+", "", better)
+        hint = f"write {better}" if better != text else "write nothing but numbers"
+        start = values.read_number(text.split()[0])
+        self._findings.warn(
+            "sdf-number-cut-off",
+            f"{shown}: ROS reads the start of a number and ignores the rest, so this "
+            f"is {start.value:g}"
+            if len(text.split()) == 1
+            else f"{shown}: ROS reads the start of each number and ignores the rest",
+            hint,
+            element,
+        )
+
+    def _report_unknown(self, element: Element, parent: ElementType) -> None:
+        if ":" in element.tag or is_for_gazebo(element):
+            return
+        if self._version.knows_element(element):
+            return
+        habit = element_of_urdf(element)
+        if habit is not None:
+            self._findings.warn("sdf-urdf-habit", habit.message, habit.hint, element)
+            return
+        near = did_you_mean(element.tag, parent.children)
+        self._findings.warn(
+            "sdf-element-unknown",
+            f"SDF knows no <{element.tag}> in <{parent.name}> ({near}); ROS ignores it "
+            "and all that is in it",
+            f"delete <{element.tag}>, or write what it is meant to say as SDF has it",
+            element,
+        )
+
+    def _refuse_include(self, element: Element) -> None:
+        uri = element.find("uri")
+        name = trimmed(uri.text) if uri is not None else ""
+        self._findings.reject(
+            "sdf-include",
+            f"robot_state_publisher does not find the model {name or 'of <include>'}: "
+            "it knows no place where models of Gazebo are, and does not take "
+            f"package:// here; {REFUSED}",
+            "copy the links and joints of that model into this file, or write them in "
+            "a xacro file and use <xacro:include filename=…/>",
+            element,
+        )
+
+
+def _check_value(text: str, wanted: Values) -> bool:
+    """Check a text that is not empty; tells whether ROS ignores a part of it.
+
+    Raises:
+        BadValue: libsdformat does not take it.
+    """
+    text = trimmed(text)
+    if not text:
+        return False
+    match wanted.kind:
+        case "number":
+            number = values.read_number(text)
+            _check_range(number.value, wanted)
+            return number.ignored != ""
+        case "int" | "uint":
+            number = values.read_integer(text, wanted.kind == "int")
+            _check_range(number.value, wanted)
+            return re.fullmatch(r"(\.0*)?", number.ignored) is None
+        case "boolean":
+            values.read_boolean(text)
+        case "color":
+            values.read_colour(text)
+        case "vector2" | "vector3":
+            values.read_vector(text, int(wanted.kind[-1]))
+        case _:
+            _check_word(text, wanted)
+    return False
+
+
+def _check_pose(element: Element, text: str) -> bool:
+    degrees = trimmed(element.get("degrees") or "").lower() in ("true", "1")
+    rotation_format = trimmed(element.get("rotation_format") or "") or "euler_rpy"
+    return values.read_pose(text, degrees, rotation_format).ignored
+
+
+def _check_range(number: float, wanted: Values) -> None:
+    if number < wanted.low:
+        raise BadValue(f"is less than {wanted.low:g}", f"write {wanted.low:g} or more")
+    if number > wanted.high:
+        raise BadValue(
+            f"is more than {wanted.high:g}", f"write {wanted.high:g} or less"
+        )
+
+
+def _check_word(text: str, wanted: Values) -> None:
+    word = text.lower() if wanted.any_case else text
+    if not wanted.words or word in wanted.words:
+        return
+    near = did_you_mean(word, wanted.words)
+    raise BadValue(f"is not known ({near})", f"write one of {', '.join(wanted.words)}")
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return text if len(text) <= 60 else f"{text[:60]}…"

@@ -1,0 +1,124 @@
+"""Values of elements for the readers: what is missing or wrong gives the default.
+
+What is wrong has been reported by `check_elements`. A number that cannot be shown is
+replaced here, with a warning.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sambot_viz.geometry import Matrix, Rgba, Vector3
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf import values
+from sambot_viz.robot.sdf.values import LARGEST, BadValue, PoseText, trimmed
+from sambot_viz.robot.sdf.wording import described
+from sambot_viz.robot.xml.element import Element
+
+
+def text_in(parent: Element, tag: str) -> str:
+    """Return the text of an element in another, "" when it is not there."""
+    element = parent.find(tag)
+    return "" if element is None else trimmed(element.text)
+
+
+def number_in(parent: Element | None, tag: str, default: float) -> float:
+    """Return a number in an element; it may be infinite, or not a number."""
+    text = "" if parent is None else text_in(parent, tag)
+    try:
+        return values.read_number(text).value if text else default
+    except BadValue:
+        return default
+
+
+def length_in(
+    parent: Element, tag: str, default: float, findings: ModelFindings
+) -> float:
+    """Return a number that can be drawn, else the nearest one, with a warning."""
+    value = number_in(parent, tag, default)
+    if -LARGEST <= value <= LARGEST:
+        return value
+    shown = 0.0 if math.isnan(value) else math.copysign(LARGEST, value)
+    findings.warn(
+        "number-too-large",
+        f"<{tag}>{text_in(parent, tag)}</{tag}> of {described(parent)} is nothing that "
+        f"can be shown; {shown:g} is taken instead",
+        "write the number in metres",
+        parent.find(tag) or parent,
+    )
+    return shown
+
+
+def vector_in(parent: Element, tag: str, default: Vector3) -> Vector3:
+    """Return three numbers in an element."""
+    text = text_in(parent, tag)
+    try:
+        x, y, z = values.read_vector(text, 3) if text else default
+    except BadValue:
+        return default
+    return (_bounded(x), _bounded(y), _bounded(z))
+
+
+def _bounded(value: float) -> float:
+    return min(max(value, -LARGEST), LARGEST)
+
+
+def colour_in(parent: Element, tag: str, default: Rgba) -> Rgba:
+    """Return a colour in an element."""
+    text = text_in(parent, tag)
+    try:
+        return values.read_colour(text) if text else default
+    except BadValue:
+        return default
+
+
+def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
+    """Return the pose that an element says, T_base_owner (4, 4), whatever its base is.
+
+    A quaternion whose length is not 1 gets it, with a warning.
+    """
+    element = owner.find("pose")
+    if element is None:
+        return np.eye(4)
+    degrees = trimmed(element.get("degrees") or "").lower() in ("true", "1")
+    rotation_format = trimmed(element.get("rotation_format") or "") or "euler_rpy"
+    try:
+        pose = values.read_pose(element.text, degrees, rotation_format)
+    except BadValue:
+        return np.eye(4)
+    _check_length(pose, element, findings)
+    if not degrees:
+        _check_degrees(pose, element, findings)
+    T = pose.matrix
+    T[:3, 3] = [_bounded(value) for value in T[:3, 3].tolist()]
+    return T
+
+
+def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) -> None:
+    """Warn of round angles of more than a turn, which are meant as degrees."""
+    angles = pose.numbers[3:6] if len(pose.numbers) == 6 else ()
+    if not any(abs(angle) > 2 * math.pi + 1e-3 for angle in angles):
+        return
+    if all((2 * angle).is_integer() for angle in angles):
+        findings.warn(
+            "rpy-in-degrees",
+            f"the angles of <pose> in {described(element)} look like degrees, but SDF "
+            "uses radians",
+            'write <pose degrees="true">, or the angles in radians',
+            element,
+        )
+
+
+def _check_length(pose: PoseText, element: Element, findings: ModelFindings) -> None:
+    if abs(pose.length - 1.0) <= 1e-3:
+        return
+    findings.warn(
+        "sdf-quaternion",
+        f"the quaternion in <pose> of {described(element)} has the length "
+        f"{pose.length:.3g}, not 1; it is made 1 here, and ROS may turn the part "
+        "another way",
+        "write a quaternion of length 1, such as 0 0 0 1",
+        element,
+    )

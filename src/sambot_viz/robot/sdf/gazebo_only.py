@@ -1,0 +1,113 @@
+"""What is in a model only for Gazebo: one note for each kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.sdf.wording import and_list
+from sambot_viz.robot.xml.element import Element
+
+_KINDS = {
+    "sensor": "sensors",
+    "plugin": "plugins",
+    "light": "lights",
+    "gripper": "grippers",
+    "projector": "projectors",
+    "particle_emitter": "particle emitters",
+    "battery": "batteries",
+    "audio_source": "sounds",
+    "audio_sink": "microphones",
+    "ros2_control": "parts of ros2_control",
+}
+"""Tag → what several of them are called."""
+
+_SETTINGS = frozenset(
+    "static self_collide allow_auto_disable enable_wind gravity kinematic "
+    "must_be_base_link velocity_decay surface physics laser_retro max_contacts "
+    "cast_shadows visibility_flags meta fluid_added_mass "
+    "transparency lighting".split()
+)
+"""Elements that say how Gazebo simulates or draws, and nothing else."""
+
+_MOST_NAMES = 4
+_NOTHING_TO_DO = "nothing has to be done"
+_WHEEL_JOINTS = ("left_joint", "right_joint")
+
+
+def is_for_gazebo(element: Element) -> bool:
+    """Tell whether ROS never looks at an element and what is in it."""
+    return element.tag in _KINDS or element.tag in ("surface", "physics")
+
+
+def note_gazebo_only(
+    model: Element, joints: Iterable[str], findings: ModelFindings
+) -> None:
+    """Note what has no effect on the picture, and wheels that a plugin will not find.
+
+    Args:
+        model: the <model>.
+        joints: the names of its joints.
+        findings: where the notes go.
+    """
+    found: dict[str, list[Element]] = {}
+    settings: dict[str, Element] = {}
+    stack = [model]
+    while stack:
+        element = stack.pop()
+        if element.tag in _KINDS:
+            found.setdefault(element.tag, []).append(element)
+            if element.tag == "plugin":
+                _check_wheels(element, list(joints), findings)
+            continue
+        if element.tag in _SETTINGS:
+            settings.setdefault(element.tag, element)
+            continue
+        stack.extend(reversed(element.children))
+    for tag, elements in found.items():
+        _note_kind(tag, elements, findings)
+    if settings:
+        tags = and_list(f"<{tag}>" for tag in settings)
+        findings.add(
+            "info",
+            "sdf-gazebo-only",
+            f"{tags} {'is' if len(settings) == 1 else 'are'} for Gazebo: ROS and this "
+            "picture leave such settings out",
+            _NOTHING_TO_DO,
+            next(iter(settings.values())).place,
+        )
+
+
+def _note_kind(tag: str, elements: list[Element], findings: ModelFindings) -> None:
+    names = [element.get("name") or f"<{tag}>" for element in elements]
+    shown = ", ".join(names[:_MOST_NAMES])
+    shown += f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    one = len(elements) == 1
+    what = tag.replace("_", " ") if one else _KINDS[tag]
+    counted = f"1 {what}" if one else f"{len(elements)} {what}"
+    links = "; its link is shown" if one else "; their links are shown"
+    findings.add(
+        "info",
+        "sdf-gazebo-only",
+        f"{counted} ({shown}) {'is' if one else 'are'} for Gazebo and not for ROS"
+        + (links if tag == "sensor" else ""),
+        _NOTHING_TO_DO,
+        elements[0].place,
+    )
+
+
+def _check_wheels(plugin: Element, joints: list[str], findings: ModelFindings) -> None:
+    """Warn of a joint that a plugin drives and that does not exist."""
+    for child in plugin.children:
+        name = trimmed(child.text)
+        if child.tag in _WHEEL_JOINTS and name and name not in joints:
+            findings.warn(
+                "sdf-plugin-joint",
+                f"the plugin {plugin.get('name')} drives the joint {name}, which does "
+                f"not exist ({did_you_mean(name, joints)}): in Gazebo the robot will "
+                "not move",
+                f"write the name of a joint into <{child.tag}>",
+                child,
+            )

@@ -1,0 +1,159 @@
+"""What people write in SDF as they know it from URDF, where values are attributes.
+
+ROS ignores it without a message. What each is in SDF is told in full.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sambot_viz.robot.sdf.wording import REFUSED, and_list, described
+from sambot_viz.robot.xml.element import Element
+
+
+@dataclass(frozen=True, slots=True)
+class Habit:
+    """What ROS does with it, and what to write.
+
+    Attributes:
+        message: the cause and what comes of it.
+        hint: the same as SDF has it.
+        refused: whether ROS refuses the model for it.
+    """
+
+    message: str
+    hint: str
+    refused: bool = False
+
+
+_VALUES = {
+    "box": (("size",), "the box gets the default size of 1 1 1, one metre"),
+    "cylinder": (("radius", "length"), "radius and length become 1 metre"),
+    "capsule": (("radius", "length"), "radius and length become 1 metre"),
+    "sphere": (("radius",), "the radius becomes 1 metre"),
+    "mesh": (("filename", "scale"), "no file is found"),
+    "axis": (("xyz",), "the axis becomes 0 0 1"),
+    "limit": (("lower", "upper", "effort", "velocity"), "the joint has no limits"),
+    "dynamics": (("damping", "friction"), "they become 0"),
+    "mass": (("value",), "the mass becomes 1 kg"),
+    "inertia": (("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), "they become 1 or 0"),
+    "mimic": (("multiplier", "offset"), "they become 1 and 0"),
+}
+"""Element of URDF → its attributes, and what SDF takes instead."""
+
+_IN_AXIS = ("limit", "dynamics", "mimic")
+
+
+def says_more_inside(element: Element) -> bool:
+    """Tell whether the finding about an element inside says what is wrong here too."""
+    return element.tag == "material" and element.find("color") is not None
+
+
+def attributes_of_urdf(element: Element, names: list[str]) -> Habit | None:
+    """Tell what the attributes of an element mean in URDF, or None.
+
+    Args:
+        element: an element of SDF.
+        names: its attributes that SDF does not know.
+    """
+    if element.tag in ("parent", "child") and names == ["link"]:
+        link = element.get("link")
+        return Habit(
+            f"in SDF the link is text inside <{element.tag}>; the attribute link is "
+            f"ignored and <{element.tag}> of {described(element)} is empty; {REFUSED}",
+            f"write <{element.tag}>{link}</{element.tag}>",
+            refused=not element.text.strip(),
+        )
+    if element.tag == "material":
+        return _unnamed_material(element)
+    known, effect = _VALUES.get(element.tag, ((), ""))
+    if not known or any(name not in known for name in names):
+        return None
+    what = "the attribute" if len(names) == 1 else "the attributes"
+    return Habit(
+        f"SDF does not know {what} {and_list(names)} of <{element.tag}> in "
+        f"{described(element)}; {effect}",
+        f"write {_as_sdf(element, names)}",
+    )
+
+
+def _as_sdf(element: Element, names: list[str]) -> str:
+    """Write attributes of URDF as the elements that SDF has for them."""
+    renamed = {"filename": "uri"}
+    if element.tag == "mass":
+        return f"<mass>{element.get('value')}</mass>"
+    inner = "".join(
+        f"<{renamed.get(name, name)}>{element.get(name)}</{renamed.get(name, name)}>"
+        for name in names
+    )
+    return f"<{element.tag}>{inner}</{element.tag}>"
+
+
+def _unnamed_material(element: Element) -> Habit:
+    return Habit(
+        f"<material> of {described(element)} has no name in SDF: a material of another "
+        "place cannot be used, each visual has its own colour",
+        "write <material><ambient>…</ambient><diffuse>…</diffuse></material>"
+        if not element.children
+        else "delete the name",
+    )
+
+
+def element_of_urdf(element: Element) -> Habit | None:
+    """Tell what an element that SDF does not know means in URDF, or None."""
+    parent = element.parent
+    if parent is None:
+        return None
+    match parent.tag, element.tag:
+        case _, "origin":
+            return _origin(element, parent)
+        case "material", "color":
+            rgba = element.get("rgba") or "0.5 0.5 0.5 1"
+            return Habit(
+                f"SDF has no <color>; the <material> of {described(element)} without "
+                "<ambient> and <diffuse> is black",
+                f"write <ambient>{rgba}</ambient> and <diffuse>{rgba}</diffuse>",
+            )
+        case "material", "texture":
+            return Habit(
+                "SDF has no <texture> here, and ROS shows no textures of SDF",
+                "put the texture into the mesh file",
+            )
+        case "joint", "limit" | "dynamics" | "mimic":
+            names = list(element.attributes)
+            inner = _as_sdf(element, names)
+            return Habit(
+                f"in SDF <{element.tag}> is inside <axis>; here ROS ignores it, so "
+                f"{described(element)} has none",
+                f"write {inner} inside <axis>",
+            )
+        case "joint", "safety_controller" | "calibration":
+            return Habit(f"SDF has no <{element.tag}>; ROS ignores it", "delete it")
+        case _, "gazebo" | "transmission":
+            return Habit(
+                f"<{element.tag}> belongs to URDF; in SDF ROS and Gazebo ignore it",
+                "delete it; what it says to Gazebo goes into the <model> itself",
+            )
+        case _:
+            return None
+
+
+def _origin(element: Element, parent: Element) -> Habit:
+    xyz = element.get("xyz") or "0 0 0"
+    rpy = element.get("rpy") or "0 0 0"
+    pose = f"{xyz} {rpy}"
+    if parent.tag != "joint":
+        return Habit(
+            f"SDF has no <origin>; ROS ignores it, so {described(element)} stays where "
+            "its frame is",
+            f"write <pose>{pose}</pose>",
+        )
+    links = [end.text.strip() for end in map(parent.find, ("parent", "child")) if end]
+    above, child = links if len(links) == 2 else ("parent_link", "the child")
+    name = parent.get("name")
+    return Habit(
+        f"SDF has no <origin>; ROS ignores it, so the link {child} stays in the middle "
+        f"of {above}",
+        f'write <pose relative_to="{above}">{pose}</pose>, and '
+        f'<pose relative_to="{name}"/> in the link {child}',
+    )

@@ -1,0 +1,119 @@
+"""The two links of every joint; for ROS they must be links of this model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.fields import text_in
+from sambot_viz.robot.sdf.scopes import Frame, Scope
+from sambot_viz.robot.sdf.wording import REFUSED
+from sambot_viz.robot.xml.element import Element
+
+
+@dataclass(frozen=True, slots=True)
+class JoinedLinks:
+    """A joint and the two links that it joins."""
+
+    joint: Frame
+    parent: str
+    child: str
+
+
+def read_ends(scope: Scope, findings: ModelFindings) -> list[JoinedLinks]:
+    """Return the joints between two different links; others are reported."""
+    read = [_read(joint, scope, findings) for joint in scope.of_kind("joint")]
+    return [ends for ends in read if ends is not None]
+
+
+def _read(joint: Frame, scope: Scope, findings: ModelFindings) -> JoinedLinks | None:
+    parent, child = (_end(joint, tag, scope, findings) for tag in ("parent", "child"))
+    if parent is None or child is None:
+        return None
+    if parent == child:
+        findings.reject(
+            "joint-to-itself",
+            f"joint {joint.name} connects {child} to itself; {REFUSED}",
+            "name two different links as <parent> and <child>",
+            joint.element.find("child") or joint.element,
+        )
+        return None
+    return JoinedLinks(joint, parent, child)
+
+
+def _end(joint: Frame, tag: str, scope: Scope, findings: ModelFindings) -> str | None:
+    """Return the name of a link, None for anything else."""
+    element = joint.element.find(tag)
+    if element is None:
+        findings.reject(
+            f"joint-without-{tag}",
+            f"joint {joint.name} has no <{tag}>; {REFUSED}",
+            f"write <{tag}>…</{tag}> with the name of a link into it",
+            joint.element,
+        )
+        return None
+    name = text_in(joint.element, tag)
+    if not name:
+        return None
+    if scope.frames.get(name, scope.own).kind == "link":
+        return name
+    if name == "world":
+        _refuse_world(joint, tag, element, findings)
+    elif scope.find(name) is not None or "::" in name:
+        _refuse_frame(joint, tag, name, element, scope, findings)
+    else:
+        links = [frame.name for frame in scope.of_kind("link")]
+        near = did_you_mean(name, links)
+        findings.reject(
+            f"joint-{tag}-unknown",
+            f"joint {joint.name} names the {tag} link '{name}', which does not exist "
+            f"({near}); {REFUSED}",
+            f'correct the name, or add <link name="{name}"/>',
+            element,
+            cause=f"link {name}",
+        )
+    return None
+
+
+def _refuse_world(
+    joint: Frame, tag: str, element: Element, findings: ModelFindings
+) -> None:
+    findings.reject(
+        "sdf-joint-to-world",
+        f"joint {joint.name} has world as its {tag}: where the robot is belongs to "
+        f"Gazebo's world, and {REFUSED}",
+        f"delete the joint {joint.name}, or put it into a file for Gazebo only",
+        element,
+    )
+
+
+def _refuse_frame(
+    joint: Frame,
+    tag: str,
+    name: str,
+    element: Element,
+    scope: Scope,
+    findings: ModelFindings,
+) -> None:
+    """Report an end that is a frame, a joint, or in a nested model."""
+    if "::" in name:
+        findings.reject(
+            "sdf-joint-to-nested",
+            f"joint {joint.name} has {name} as its {tag}, a link of a nested model: "
+            "robot_state_publisher ends with an error at it",
+            "write the links and joints of the nested model into this model",
+            element,
+        )
+        return
+    frame = scope.find(name)
+    while frame is not None and frame.kind != "link":
+        frame = frame.attached
+    better = frame.name if frame is not None else "…"
+    findings.reject(
+        "sdf-joint-to-frame",
+        f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
+        f"but {REFUSED}",
+        f"write <{tag}>{better}</{tag}>",
+        element,
+    )

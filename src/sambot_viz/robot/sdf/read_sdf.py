@@ -1,0 +1,90 @@
+"""Read an SDF document into links and joints, as sdformat_urdf does.
+
+The frame that has a link's name is where its joint is, not where SDF has the link; the
+shapes are moved, so that the picture is right. What ROS refuses is an error; reading
+goes on to the end, so that all errors are reported together.
+"""
+
+from __future__ import annotations
+
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.parts import Joint, RobotTree
+from sambot_viz.robot.sdf.check_elements import check_elements
+from sambot_viz.robot.sdf.frames import FramePoses
+from sambot_viz.robot.sdf.gazebo_only import note_gazebo_only
+from sambot_viz.robot.sdf.joint_ends import JoinedLinks, read_ends
+from sambot_viz.robot.sdf.joints import JointMotion, MotionReader
+from sambot_viz.robot.sdf.links import SdfLinkReader, origin_of
+from sambot_viz.robot.sdf.scopes import Frame, read_scopes
+from sambot_viz.robot.sdf.shapes import FindMesh
+from sambot_viz.robot.sdf.the_model import find_model
+from sambot_viz.robot.sdf.tree import check_tree, root_link
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.xml.element import Element
+
+
+def read_sdf(
+    document: Element,
+    written: Element,
+    findings: ModelFindings,
+    find_mesh: FindMesh,
+) -> RobotTree | None:
+    """Read a document.
+
+    Args:
+        document: its root element, <sdf>.
+        written: the root element before xacro, for the macro calls in it.
+        findings: where problems go; `findings.rejected` says whether ROS refuses it.
+        find_mesh: mesh name → file.
+
+    Returns:
+        The robot, or None when ROS refuses it.
+    """
+    found = find_model(document, findings)
+    if found is None:
+        return None
+    model, version = found
+    check_elements(model, version, findings)
+    scope = read_scopes(model, written, version, findings)
+    frames = FramePoses(scope, version, findings)
+    ends = read_ends(scope, findings)
+    root = root_link(scope, findings)
+    if root is not None:
+        check_tree(scope, root, ends, findings)
+    note_gazebo_only(model, [j.name for j in scope.of_kind("joint")], findings)
+    holders = {e.child: e.joint for e in reversed(ends)}
+    reader = SdfLinkReader(frames, findings, find_mesh)
+    links = {
+        link.name: reader.read(link, holders.get(link.name, link))
+        for link in scope.of_kind("link")
+    }
+    motions = MotionReader(frames, version, findings)
+    motion = {joint.name: motions.read(joint) for joint in scope.of_kind("joint")}
+    if findings.rejected or root is None:
+        return None
+    above = {name: holders.get(name, scope.frames[name]) for name in links}
+    joints = {
+        e.joint.name: _joint(e, motion[e.joint.name], frames, above[e.parent])
+        for e in ends
+    }
+    return RobotTree(trimmed(model.get("name") or ""), root.name, links, joints)
+
+
+def _joint(
+    ends: JoinedLinks, motion: JointMotion, frames: FramePoses, parent: Frame
+) -> Joint:
+    """Put a joint together; its origin counts from where its parent link is in ROS."""
+    joint = ends.joint
+    pose = joint.element.find("pose")
+    place = pose.place if pose is not None else None
+    return Joint(
+        joint.name,
+        motion.type,
+        ends.parent,
+        ends.child,
+        origin_of(frames.between(parent, joint), place),
+        motion.axis,
+        motion.limit,
+        place=joint.element.place,
+        dynamics=motion.dynamics,
+    )

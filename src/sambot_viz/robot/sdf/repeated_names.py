@@ -1,0 +1,102 @@
+"""Report a name that is used twice; most often a macro is called twice alike."""
+
+from __future__ import annotations
+
+from sambot_viz.errors import Place
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.wording import REFUSED
+from sambot_viz.robot.xml.element import Element
+
+_SIDES = (
+    ("left", "right"),
+    ("front", "rear"),
+    ("front", "back"),
+    ("upper", "lower"),
+    ("l", "r"),
+)
+
+
+def report_repeated(
+    name: str,
+    element: Element,
+    first: Element,
+    written: Element,
+    findings: ModelFindings,
+) -> None:
+    """Report a name that another element has already.
+
+    Args:
+        name: the name.
+        element: the element that has it again.
+        first: the element that has it rightly.
+        written: the root of the document before xacro.
+        findings: where the problem goes.
+    """
+    what = f"{element.tag} {name}"
+    if element.tag != first.tag:
+        findings.reject(
+            "sdf-name-taken",
+            f"the {what} has the name of the {first.tag} on line {first.place.line}: "
+            "links, joints, frames and nested models of a model must have different "
+            f"names; {REFUSED}",
+            f"write {name}_{element.tag}, here and where it is used",
+            element,
+            "name",
+        )
+    elif element.call is not None and element.call != first.call:
+        _report_call(what, element.call, first, written, findings)
+    else:
+        findings.reject(
+            "sdf-name-taken",
+            f"the {what} is there on line {first.place.line} and again here; names "
+            f"must be unique, and {REFUSED}",
+            "give one of the two another name",
+            element,
+            "name",
+        )
+
+
+def _report_call(
+    what: str, call: Place, first: Element, written: Element, findings: ModelFindings
+) -> None:
+    """Report a macro call that makes again what another call has made."""
+    earlier = first.call or first.place
+    other = _other_argument(what, _at(call, written), _at(earlier, written))
+    findings.add(
+        "error",
+        "sdf-name-taken",
+        f"this call of the macro makes the {what} again, which line {earlier.line} "
+        f"makes already; names must be unique, and {REFUSED}",
+        other or "give the macro other arguments, so that the name is another",
+        call,
+    )
+    findings.rejected = True
+
+
+def _at(call: Place, written: Element) -> Element | None:
+    """Return the macro call at a place, or None when it is in another file."""
+    return next(
+        (
+            element
+            for element in written.iter()
+            if (element.place.file, element.place.line) == (call.file, call.line)
+            and element.tag.startswith("xacro:")
+        ),
+        None,
+    )
+
+
+def _other_argument(
+    what: str, call: Element | None, earlier: Element | None
+) -> str | None:
+    """Return the argument to change, with the other side of the robot, or None."""
+    if call is None or earlier is None:
+        return None
+    for name, value in call.attributes.items():
+        if not value or value not in what or earlier.get(name) != value:
+            continue
+        for one, two in (*_SIDES, *(pair[::-1] for pair in _SIDES)):
+            if value == one or f"_{one}" in value or f"{one}_" in value:
+                return f'write {name}="{value.replace(one, two, 1)}"'
+        return f'write another {name} than "{value}"'
+    return None

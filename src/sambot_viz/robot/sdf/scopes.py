@@ -1,0 +1,218 @@
+"""The names of a model: links, joints, frames and nested models, each once.
+
+A nested model has names of its own, which the others write as ``model::name``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sambot_viz.errors import Place
+from sambot_viz.geometry import Matrix
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.old_versions import Version
+from sambot_viz.robot.sdf.repeated_names import report_repeated
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.sdf.wording import REFUSED
+from sambot_viz.robot.xml.element import Element
+
+OWN = "__model__"
+"""The name of a model's own frame."""
+
+_MOST_NESTED = 100
+_KINDS = ("link", "joint", "frame")
+
+
+@dataclass(slots=True, eq=False)
+class Frame:
+    """A name that poses can count from.
+
+    Attributes:
+        name: as the model calls it.
+        kind: "model", "link", "joint" or "frame".
+        element: where it is written.
+        base: the frame its pose counts from; None for the whole robot, and while it
+            is not known.
+        attached: the frame that a <frame> moves with, and the child of a joint.
+        T_base_frame: its pose in the base (4, 4).
+    """
+
+    name: str
+    kind: str
+    element: Element
+    base: Frame | None = None
+    attached: Frame | None = None
+    T_base_frame: Matrix = field(default_factory=lambda: np.eye(4))
+
+
+@dataclass(slots=True, eq=False)
+class Scope:
+    """The names inside one model.
+
+    Attributes:
+        own: the frame of the model itself.
+        frames: name → frame, in the order libsdformat reads them.
+        nested: name → names inside that nested model.
+    """
+
+    own: Frame
+    frames: dict[str, Frame] = field(default_factory=dict[str, Frame])
+    nested: dict[str, Scope] = field(default_factory=dict[str, "Scope"])
+
+    @property
+    def model(self) -> Element:
+        """The <model>."""
+        return self.own.element
+
+    def find(self, name: str) -> Frame | None:
+        """Return the frame of a name such as "arm", "gripper::palm" or "__model__"."""
+        if name == OWN:
+            return self.own
+        if name in self.frames:
+            return self.frames[name]
+        scope = self
+        *models, last = name.split("::")
+        for model in models:
+            if model not in scope.nested:
+                return None
+            scope = scope.nested[model]
+        return scope.own if last == OWN else scope.frames.get(last)
+
+    def of_kind(self, kind: str) -> list[Frame]:
+        """Return the frames of one kind, in document order."""
+        return [frame for frame in self.frames.values() if frame.kind == kind]
+
+    def all(self) -> Iterator[Scope]:
+        """Yield this scope and all in it."""
+        stack: list[Scope] = [self]
+        while stack:
+            scope = stack.pop()
+            yield scope
+            stack.extend(reversed(scope.nested.values()))
+
+
+def read_scopes(
+    model: Element, written: Element, version: Version, findings: ModelFindings
+) -> Scope:
+    """Read all names of a model and report those that are not allowed.
+
+    Args:
+        model: the <model>, after xacro.
+        written: the root of the document before xacro, for the macro calls in it.
+        version: that of the file.
+        findings: where the problems go.
+    """
+    reader = _NameReader(written, version, findings)
+    top = Scope(Frame(OWN, "model", model))
+    stack = [(top, 0)]
+    while stack:
+        scope, depth = stack.pop()
+        reader.read(scope)
+        if depth < _MOST_NESTED:
+            stack.extend((inner, depth + 1) for inner in scope.nested.values())
+    return top
+
+
+class _NameReader:
+    def __init__(
+        self, written: Element, version: Version, findings: ModelFindings
+    ) -> None:
+        self._written = written
+        self._version = version
+        self._findings = findings
+        self._repeating: set[Place] = set()
+
+    def read(self, scope: Scope) -> None:
+        for element in scope.model.find_all("model"):
+            frame = self._take(scope, element, "model")
+            if frame is not None:
+                scope.nested[frame.name] = Scope(frame)
+                self._findings.warn(
+                    "sdf-nested-model",
+                    f"ROS does not show the links of the nested model {frame.name}; "
+                    "its frames count",
+                    "write its links and joints into the model around it",
+                    element,
+                )
+        for element in scope.model.children:
+            if element.tag in _KINDS:
+                self._take(scope, element, element.tag)
+            if element.tag in ("link", "joint"):
+                self._check_inside(element)
+
+    def _take(self, scope: Scope, element: Element, kind: str) -> Frame | None:
+        """Take the name of an element into a scope; None when it cannot be used."""
+        name = self._checked(element)
+        if not name:
+            return None
+        other = scope.frames.get(name)
+        if other is not None and (other.kind == kind or not self._version.may_rename):
+            self._report_repeated(name, element, other.element)
+            return None
+        if other is not None:
+            name = self._renamed(scope, element, name)
+        frame = scope.frames[name] = Frame(name, kind, element)
+        return frame
+
+    def _renamed(self, scope: Scope, element: Element, name: str) -> str:
+        ending = f"{name}_{element.tag}"
+        numbered = (f"{ending}{n}" for n in range(len(scope.frames) + 1))
+        new = next(n for n in (ending, *numbered) if n not in scope.frames)
+        self._findings.warn(
+            "sdf-name-changed",
+            f"the {element.tag} {name} has the name of a "
+            f"{scope.frames[name].kind}; in a file of this version ROS calls it {new}",
+            f'write name="{new}", or another name that is used once',
+            element,
+            "name",
+        )
+        return new
+
+    def _checked(self, element: Element) -> str:
+        """Return the name of an element, "" when it has none."""
+        name = trimmed(element.get("name") or "")
+        reserved = len(name) > 3 and name[:2] == name[-2:] == "__"
+        if reserved or name == "world":
+            self._findings.reject(
+                "sdf-name-reserved",
+                f"the name {name} of this <{element.tag}> is reserved in SDF; "
+                f"{REFUSED}",
+                "write another name",
+                element,
+                "name",
+            )
+        elif "::" in name and not self._version.may_have_colons:
+            self._findings.reject(
+                "sdf-name-reserved",
+                f"the name {name} of this <{element.tag}> has ::, which separates the "
+                f"names of nested models; {REFUSED}",
+                f"write {name.replace('::', '_')}",
+                element,
+                "name",
+            )
+        return name
+
+    def _check_inside(self, part: Element) -> None:
+        """Check the names of visuals, collisions, sensors … of one link or joint."""
+        seen: dict[tuple[str, str], Element] = {}
+        for element in part.children:
+            if element.tag not in _INSIDE:
+                continue
+            name = self._checked(element)
+            first = seen.setdefault((element.tag, name), element)
+            if name and first is not element:
+                self._report_repeated(name, element, first)
+
+    def _report_repeated(self, name: str, element: Element, first: Element) -> None:
+        """Report a name that is there already; of a macro call only its first name."""
+        if element.call is not None and element.call != first.call:
+            if element.call in self._repeating:
+                return
+            self._repeating.add(element.call)
+        report_repeated(name, element, first, self._written, self._findings)
+
+
+_INSIDE = frozenset("visual collision sensor light particle_emitter projector".split())

@@ -1,0 +1,127 @@
+"""The one <model> of an SDF file, and what else such files are."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.fields import pose_of
+from sambot_viz.robot.sdf.old_versions import NEWEST, OLDEST, Version, version_of
+from sambot_viz.robot.sdf.wording import REFUSED, and_list
+from sambot_viz.robot.xml.element import Element
+
+_MOST_MODELS = 5
+_ENTITIES = ("model", "light", "actor")
+
+
+def find_model(
+    document: Element, findings: ModelFindings
+) -> tuple[Element, Version] | None:
+    """Return the model of a document and the version it is written in.
+
+    Returns:
+        None when there is no such model; that is reported.
+    """
+    version = _version(document, findings)
+    models = document.find_all("model")
+    world = document.find("world")
+    if world is not None:
+        _refuse_world(world, findings)
+        return None
+    if not models:
+        _refuse_without_model(document, findings)
+        return None
+    others = [e for e in document.children if e.tag in _ENTITIES and e is not models[0]]
+    if others:
+        names = and_list(f"<{e.tag}> {e.get('name')}" for e in [models[0], *others])
+        findings.reject(
+            "sdf-not-one-model",
+            f"ROS reads an SDF file with one <model> only, here are {names}; {REFUSED}",
+            "put each into a file of its own",
+            others[0],
+        )
+    _check_rest(document, findings)
+    _check_pose(models[0], version, findings)
+    return models[0], version
+
+
+def _version(document: Element, findings: ModelFindings) -> Version:
+    text = document.get("version")
+    version = version_of(text or "")
+    if version is not None:
+        return version
+    newest = Version(NEWEST)
+    findings.reject(
+        "sdf-version",
+        f'ROS does not read the version "{text}" of SDF, only 1.{OLDEST} to '
+        f"1.{NEWEST}; it refuses the model"
+        if text is not None
+        else f"<sdf> has no version; {REFUSED}",
+        'write <sdf version="1.8">',
+        document,
+        "version",
+    )
+    return newest
+
+
+def _refuse_world(world: Element, findings: ModelFindings) -> None:
+    models = [m.get("name") or "?" for m in world.find_all("model")]
+    shown = ", ".join(models[:_MOST_MODELS])
+    more = f" with the models {shown}" if len(models) > 1 else ""
+    more = f" with the model {shown}" if len(models) == 1 else more
+    findings.reject(
+        "sdf-world",
+        f"this is a world for Gazebo{more}; ROS reads an SDF file with one <model> "
+        "directly in <sdf>",
+        "open the file of the robot, for example "
+        "src/description/sam_bot_description.sdf",
+        world,
+    )
+
+
+def _refuse_without_model(document: Element, findings: ModelFindings) -> None:
+    if document.find("robot") is not None:
+        message = "<robot> of URDF is inside <sdf>"
+        hint = "delete <sdf> and </sdf>: then it is a URDF file"
+    elif document.find("include") is not None:
+        message = "this file only includes a model, which ROS does not find"
+        hint = "open the file of that model"
+    else:
+        message = "there is no <model> directly in <sdf>"
+        hint = 'put the links and joints into <model name="my_robot">'
+    findings.reject("sdf-not-one-model", f"{message}; {REFUSED}", hint, document)
+
+
+def _check_rest(document: Element, findings: ModelFindings) -> None:
+    """Report what is beside the model: ROS does not see it."""
+    for element in document.children:
+        if element.tag == "include":
+            findings.reject(
+                "sdf-include",
+                f"<include> beside the model: ROS does not find such models; {REFUSED}",
+                "delete it",
+                element,
+            )
+        elif element.tag not in _ENTITIES and ":" not in element.tag:
+            findings.warn(
+                "sdf-element-unknown",
+                f"<{element.tag}> is beside the <model>, where ROS ignores it",
+                "move it into the <model>",
+                element,
+            )
+
+
+def _check_pose(model: Element, version: Version, findings: ModelFindings) -> None:
+    pose = model.find("pose")
+    if pose is None:
+        return
+    moved = not np.array_equal(pose_of(model, findings), np.eye(4))
+    if moved or version.relative_to(pose):
+        findings.reject(
+            "sdf-model-pose",
+            "robot_state_publisher refuses a <pose> of the <model>: where the robot "
+            "stands belongs to the world, not to the robot",
+            "delete the line; Gazebo gets the height from the launch file (spawn "
+            "argument z)",
+            pose,
+        )

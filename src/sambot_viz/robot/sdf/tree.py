@@ -1,0 +1,163 @@
+"""One tree of links, as sdformat_urdf demands it: its root is the canonical link."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.joint_graph import (
+    children_of,
+    links_below,
+    report_depth,
+    rings_of,
+)
+from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.sdf.joint_ends import JoinedLinks
+from sambot_viz.robot.sdf.scopes import Frame, Scope
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.sdf.wording import REFUSED
+from sambot_viz.robot.xml.element import Element
+
+
+def root_link(scope: Scope, findings: ModelFindings) -> Frame | None:
+    """Return the canonical link: the one that the model names, or the first."""
+    model = scope.model
+    links = scope.of_kind("link")
+    if not links:
+        findings.reject(
+            "robot-without-links",
+            "the robot has no links",
+            'add <link name="base_link"/> to the model',
+            model,
+        )
+        return None
+    name = trimmed(model.get("canonical_link") or "")
+    if not name:
+        return links[0]
+    frame = scope.frames.get(name)
+    if frame is not None and frame.kind == "link":
+        return frame
+    near = did_you_mean(name, [link.name for link in links])
+    findings.reject(
+        "sdf-canonical-link-unknown",
+        f'canonical_link="{name}" names no link of the model ({near}); {REFUSED}',
+        "name the link that all others hang from",
+        model,
+        "canonical_link",
+    )
+    return None
+
+
+def check_tree(
+    scope: Scope, root: Frame, ends: Sequence[JoinedLinks], findings: ModelFindings
+) -> None:
+    """Report what keeps the links from being one tree below the root.
+
+    Args:
+        scope: the names of the model.
+        root: its canonical link.
+        ends: the joints between links.
+        findings: where the problems go.
+    """
+    joints = [Joint(e.joint.name, "fixed", e.parent, e.child) for e in ends]
+    elements = {e.joint.name: e.joint.element for e in ends}
+    holders: dict[str, list[Joint]] = {}
+    for joint in joints:
+        holders.setdefault(joint.child, []).append(joint)
+    if root.name in holders:
+        _report_root(scope, root, joints, elements, findings)
+        return
+    for link, above in holders.items():
+        if len(above) > 1:
+            _report_two_parents(link, above, elements, findings)
+    # Links that a joint with a mistake leaves alone are no mistake of their own.
+    if len(ends) < len(scope.of_kind("joint")):
+        return
+    holder = {link: above[0] for link, above in holders.items()}
+    links = {link.name: link.element for link in scope.of_kind("link")}
+    reached = links_below(root.name, children_of(joints))
+    for ring in rings_of(links, holder):
+        _report_ring(ring, elements, findings)
+        reached |= {joint.child for joint in ring}
+    reached |= {j.child for j in joints}
+    for link, element in links.items():
+        if link not in reached and link != root.name:
+            findings.reject(
+                "root-not-unique",
+                f"link {link} is not connected to {root.name}: no joint has it as "
+                f"<child>, so there is more than one root link; {REFUSED}",
+                f"add a joint whose child is {link}",
+                element,
+            )
+    report_depth(root.name, joints, links, scope.model, findings)
+
+
+def _report_root(
+    scope: Scope,
+    root: Frame,
+    joints: Sequence[Joint],
+    elements: Mapping[str, Element],
+    findings: ModelFindings,
+) -> None:
+    """Report a canonical link that hangs from another one."""
+    holder = {joint.child: joint for joint in reversed(joints)}
+    joint, top, seen = holder[root.name], root.name, {root.name}
+    while top in holder and (top := holder[top].parent) not in seen:
+        seen.add(top)
+    model = scope.model
+    named = model.get("canonical_link") is not None
+    why = (
+        f'canonical_link="{root.name}" must name the root'
+        if named
+        else f"without canonical_link the first link is the root, here {root.name}"
+    )
+    message = f"{why}; but {root.name} is the child of {joint.name}; {REFUSED}"
+    if top in holder:
+        findings.reject(
+            "sdf-root-not-canonical",
+            f"{message}, for these joints form a ring",
+            f"delete the joint {joint.name}, or another joint of the ring",
+            elements[joint.name],
+        )
+        return
+    fix = f'write <model name="{model.get("name")}" canonical_link="{top}">'
+    findings.reject(
+        "sdf-root-not-canonical",
+        message,
+        fix if named else f"{fix}, or move {top} to the top",
+        model if named else root.element,
+        "canonical_link" if named else None,
+    )
+
+
+def _report_two_parents(
+    link: str,
+    joints: Sequence[Joint],
+    elements: Mapping[str, Element],
+    findings: ModelFindings,
+) -> None:
+    listed = " and ".join(
+        f"{j.name} (line {elements[j.name].place.line})" for j in joints
+    )
+    element = elements[joints[-1].name]
+    findings.reject(
+        "link-two-parents",
+        f"link {link} is the child of more than one joint: {listed}; {REFUSED}",
+        "a link can be the child of one joint only: delete or correct the other",
+        element.find("child") or element,
+    )
+
+
+def _report_ring(
+    ring: Sequence[Joint], elements: Mapping[str, Element], findings: ModelFindings
+) -> None:
+    last = max(ring, key=lambda joint: list(elements).index(joint.name))
+    names = " → ".join([ring[0].parent, *(joint.child for joint in ring)])
+    element = elements[last.name]
+    findings.reject(
+        "joint-ring",
+        f"the joints form a ring that hangs from nothing: {names}; {REFUSED}",
+        f"delete the joint {last.name}, or another joint of the ring",
+        element.find("child") or element,
+    )
