@@ -18,6 +18,7 @@ from sambot_viz.robot.model_source import (
     open_model,
 )
 from sambot_viz.robot.needs_xacro import (
+    OWN_TAGS,
     first_xacro,
     left_over,
     missing_prefixes,
@@ -184,7 +185,7 @@ class _Loader:
             lambda other, found: read_urdf(
                 other, found, _no_file, _no_file, expanded is not None
             ),
-            frozenset() if expanded is None else expanded.macros,
+            frozenset() if expanded is None else expanded.macros.union(OWN_TAGS),
         )
         return tree
 

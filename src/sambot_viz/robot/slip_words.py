@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.misspelt import CALL, Slip
-from sambot_viz.robot.needs_xacro import missing_prefix
+from sambot_viz.robot.needs_xacro import OWN_TAGS, missing_prefix
 from sambot_viz.robot.xml.element import Element
 
 SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-misplaced"})
@@ -35,7 +35,8 @@ def slip_in_words(slip: Slip, refused: bool) -> SlipWords:
         return _misplaced(slip, effect)
     element, right = slip.element, slip.right
     if right.startswith(CALL):
-        problem = missing_prefix(element.tag, True, element.place)
+        is_macro = element.tag not in OWN_TAGS
+        problem = missing_prefix(element.tag, is_macro, element.place)
         return SlipWords(problem.code, f"{problem.message}{effect}", problem.hint)
     message = (
         f"{tag_text(element)} {_inside(element)}is not known; did you mean "

@@ -97,7 +97,7 @@ def meant(name: str, names: Iterable[str]) -> str | None:
     plain, known = name.lower(), list(names)
     ranked = sorted(known, key=lambda other: -_likeness(plain, other.lower()))
     for other in ranked:
-        if _is_one_slip(plain, other.lower()):
+        if is_one_slip(plain, other.lower()):
             return other
     best = next(iter(ranked), None)
     if best is None or _likeness(plain, best.lower()) < _LIKENESS:
@@ -109,7 +109,7 @@ def _likeness(one: str, other: str) -> float:
     return difflib.SequenceMatcher(None, one, other).ratio()
 
 
-def _is_one_slip(one: str, other: str) -> bool:
+def is_one_slip(one: str, other: str) -> bool:
     """Tell whether two names differ in one letter, or in the order of two."""
     if one == other:
         return True

@@ -136,7 +136,7 @@ def test_a_misspelt_xacro_element_is_recognised(explain: Explain) -> None:
         '<xacro:proprty name="x" value="1"/>', "unknown macro name: xacro:proprty"
     )
 
-    assert problem.hint == "did you mean <xacro:property>?"
+    assert problem.hint == "write <xacro:property …>"
 
 
 def test_a_file_beside_the_model_that_has_the_macro_is_named(
@@ -205,7 +205,7 @@ def test_a_missing_package_lists_the_searched_folders_and_a_similar_name(
     )
 
     assert f"looked in {tmp_path / 'ws'}, /nowhere" in problem.message
-    assert problem.hint.endswith("did you mean 'sam_bot'?")
+    assert problem.hint.startswith("did you mean 'sam_bot'? If not, give")
 
 
 def test_a_misspelt_include_suggests_a_similar_file(

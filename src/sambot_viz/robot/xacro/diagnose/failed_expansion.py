@@ -6,9 +6,14 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from sambot_viz.errors import Place, Problem, did_you_mean
+from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.robot.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
-from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, SourceSet
+from sambot_viz.robot.xacro.diagnose.source_files import (
+    NamedElement,
+    SourceSet,
+    read_source,
+)
 
 
 @dataclass(frozen=True)
@@ -105,11 +110,23 @@ class FailedExpansion:
 
     @property
     def near_package(self) -> str:
-        """A package that was found and has nearly the name: "; did you mean …?"."""
+        """A package that was found and has nearly the name: "did you mean …? If …"."""
         package = self.failure.missing_package
         if package is None or not package.known:
             return ""
-        return f"; {did_you_mean(package.name, package.known)}"
+        near = meant(package.name, package.known)
+        if near is None or not is_one_slip(package.name, near):
+            return ""
+        return f"did you mean '{near}'? If not, "
+
+    @property
+    def near_block(self) -> str:
+        """A block of the macro with nearly the name: 'write name="…", or '."""
+        running = self.failure.macros[0][0] if self.failure.macros else ""
+        macro = next((m for m in self.named("macro") if m.name == running), None)
+        blocks = re.findall(r"\*+([^\s:]+)", macro.params) if macro else []
+        near = nearest(self.found[0], blocks)
+        return f'write name="{near}"; or ' if near else ""
 
     @property
     def folder_missing(self) -> str:
@@ -119,14 +136,33 @@ class FailedExpansion:
 
     @property
     def near_file(self) -> str:
-        """A file of the folder that has nearly the name: "; did you mean …?"."""
+        """A file of the folder with nearly the name: "did you mean …? If not, "."""
         folder = Path(self.found[0].strip()).parent
         try:
             files = sorted(path.name for path in folder.iterdir() if path.is_file())
         except OSError:
             return ""
         near = did_you_mean(self.found[1], files[:500])
-        return f"; {near}" if near.startswith("did") else ""
+        return f"{near} If not, " if near.startswith("did") else ""
+
+    @property
+    def near_key(self) -> str:
+        """Advise which key of the yaml files was meant."""
+        keys: dict[str, None] = {}
+        for file in self.failure.files:
+            source = read_source(file) if file.endswith((".yaml", ".yml")) else None
+            if source is not None:
+                names = re.findall(r"(?m)^\s*(?:- )?([\w-]+)\s*:", source.text)
+                keys.update(dict.fromkeys(names))
+        return f"{did_you_mean(self.found[0], keys)}; or add it to the file"
+
+    @property
+    def ring(self) -> str:
+        """The files that include each other, or the one that includes itself."""
+        files = list(dict.fromkeys(self.failure.includes))
+        if len(files) < 2:
+            return "this file includes itself"
+        return f"the files include each other: {' and '.join(files[:4])}"
 
     @property
     def identifier(self) -> str:
@@ -221,7 +257,9 @@ def line_in(place: Place, seen_from: Place) -> str:
 
 def parameters(params: str) -> list[str]:
     """Return the names in params="a b:=1 *c **d"."""
-    without_values = re.sub(
-        r":?=\s*(?:'[^']*'|\"[^\"]*\"|\$\{[^}]*\}|\S+)", " ", params
-    )
-    return [name.strip("*") for name in without_values.split() if name.strip("*")]
+    return [name.strip("*") for name in without_defaults(params).split() if name != "*"]
+
+
+def without_defaults(params: str) -> str:
+    """Return the parameter text of a macro with the names only: "a b *c"."""
+    return re.sub(r":?=\s*(?:'[^']*'|\"[^\"]*\"|\$\{[^}]*\}|\S+)", " ", params)

@@ -6,6 +6,7 @@ import re
 
 from sambot_viz.errors import Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.needs_xacro import OWN_TAGS
+from sambot_viz.robot.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,
@@ -143,13 +144,13 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
 
 
 def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str:
-    own = nearest(name, OWN_TAGS, likeness=0.75)
+    own = meant(name, OWN_TAGS)
     places = {m.name: m.place for m in macros if m.prefixed}
     near = nearest(name, places)
     if near:
         return f"did you mean {near} ({line_in(places[near], at)})?"
     if own:
-        return f"did you mean <xacro:{own}>?"
+        return f"write <xacro:{own} …>"
     if not places:
         return (
             f"no macro is defined in the files that were read: include the file with "
@@ -171,11 +172,11 @@ def undefined_argument(failed: FailedExpansion, name: str) -> Problem:
         return _prefix_forgotten(here, same)
     if same is not None and same.place.file == at.file and same.place.line > at.line:
         return _defined_after_use(here, same)
-    near = did_you_mean(name, sorted({a.name for a in known})) if known else ""
-    near = f"; {near}" if near.startswith("did") else ""
+    near = nearest(name, sorted({a.name for a in known}))
+    meant_one = f"did you mean $(arg {near})? If not, " if near else ""
     return here.error(
         "xacro-argument-missing",
         f"the argument {name} has no value{here.trail}",
-        f"give it on the command line: {name}:=…, or a default in the file: "
-        f'<xacro:arg name="{name}" default="…"/>{near}',
+        f"{meant_one}give it on the command line: {name}:=…, or a default in the file: "
+        f'<xacro:arg name="{name}" default="…"/>',
     )

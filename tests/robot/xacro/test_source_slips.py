@@ -1,0 +1,217 @@
+"""Slips in xacro's own words: the problem names them, and its advice is enough."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz import check
+from sambot_viz.errors import Problem
+
+MODEL = """<?xml version="1.0"?>
+<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="arm" default="true"/>
+  <xacro:arg name="kind" default="kind1"/>
+  <xacro:property name="size" value="0.5"/>
+  <xacro:property name="all" value="${xacro.load_yaml('config/sizes.yaml')}"/>
+  <xacro:include filename="wheel.xacro"/>
+  <xacro:include filename="$(arg kind)/part.xacro"/>
+  <link name="base"/>
+  <xacro:wheel name="left" parent="base">
+    <origin xyz="0 ${size/2} 0"/>
+  </xacro:wheel>
+  <xacro:if value="$(arg arm)">
+    <link name="arm">
+      <visual>
+        <geometry>
+          <sphere radius="${all['arm']['size']}"/>
+        </geometry>
+      </visual>
+    </link>
+    <joint name="arm_joint" type="fixed">
+      <parent link="base"/>
+      <child link="arm"/>
+    </joint>
+  </xacro:if>
+</robot>
+"""
+WHEEL = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="wheel" params="name parent *origin">
+    <link name="${name}_wheel"/>
+    <joint name="${name}_joint" type="fixed">
+      <parent link="${parent}"/>
+      <child link="${name}_wheel"/>
+      <xacro:insert_block name="origin"/>
+    </joint>
+  </xacro:macro>
+</robot>
+"""
+FILES = {
+    "r.urdf.xacro": MODEL,
+    "wheel.xacro": WHEEL,
+    "config/sizes.yaml": "arm:\n  size: 0.1\n",
+    "kind1/part.xacro": "<robot/>",
+}
+Change = Callable[..., list[Problem]]
+
+
+@pytest.fixture
+def changed(tmp_path: Path) -> Change:
+    """Checks the package with one text of one file exchanged."""
+
+    def run(file: str = "r.urdf.xacro", old: str = "", new: str = "") -> list[Problem]:
+        for name, text in FILES.items():
+            path = tmp_path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            assert old in FILES[file]
+            path.write_text(text.replace(old, new, 1) if name == file else text)
+        return check(tmp_path / "r.urdf.xacro")
+
+    return run
+
+
+def test_the_package_of_these_tests_is_good(changed: Change) -> None:
+    assert changed() == []
+
+
+SLIPS = [
+    ("r.urdf.xacro", "<xacro:include filename=", "<xacro:inculde filename="),
+    ("r.urdf.xacro", "<xacro:property name", "<xacro:proprety name"),
+    ("r.urdf.xacro", "<xacro:arg name", "<xacro:rag name"),
+    ("r.urdf.xacro", "<xacro:include filename=", "<include filename="),
+    ("r.urdf.xacro", "<xacro:property name", "<property name"),
+    ("r.urdf.xacro", "<xacro:arg name", "<arg name"),
+]
+
+
+@pytest.mark.parametrize(("file", "right", "wrong"), SLIPS)
+def test_a_misspelt_word_of_xacro_is_named_at_its_line(
+    changed: Change, file: str, right: str, wrong: str
+) -> None:
+    (problem,) = changed(file, right, wrong)
+
+    line = FILES[file][: FILES[file].index(right)].count("\n") + 1
+    assert (problem.line, problem.severity) == (line, "error")
+    assert problem.hint.startswith(f"write {right.split()[0]}")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "fix"),
+    [
+        ("xacro:marco", "write <xacro:macro …>"),
+        ("xacro:mcaro", "write <xacro:macro …>"),
+        ("macro", "write <xacro:macro …> and </xacro:macro>"),
+    ],
+)
+def test_a_macro_without_its_name_is_named_at_its_line(
+    changed: Change, tmp_path: Path, wrong: str, fix: str
+) -> None:
+    changed()
+    wheel = tmp_path / "wheel.xacro"
+    wheel.write_text(WHEEL.replace("xacro:macro", wrong))
+
+    (problem,) = check(tmp_path / "r.urdf.xacro")
+
+    assert problem.file == str(wheel)
+    assert (problem.line, problem.hint) == (2, fix)
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong"),
+    [
+        ("r.urdf.xacro", 'value="0.5"', 'vlaue="0.5"'),
+        ("r.urdf.xacro", 'default="true"', 'defualt="true"'),
+        ("r.urdf.xacro", 'filename="wheel.xacro"', 'file="wheel.xacro"'),
+        ("r.urdf.xacro", 'filename="wheel.xacro"', 'filname="wheel.xacro"'),
+        ("r.urdf.xacro", 'value="$(arg arm)"', 'valeu="$(arg arm)"'),
+        ("wheel.xacro", 'params="name parent *origin"', 'parms="name parent *origin"'),
+        ("wheel.xacro", 'name="origin"', 'nmae="origin"'),
+        (
+            "wheel.xacro",
+            'params="name parent *origin"',
+            'params="name, parent, *origin"',
+        ),
+        ("wheel.xacro", 'name="origin"', 'name="orign"'),
+        ("r.urdf.xacro", 'value="0.5"', 'value="0.5m"'),
+        ("r.urdf.xacro", 'value="0.5"', 'value="0,5"'),
+    ],
+)
+def test_the_advice_is_the_text_that_was_right(
+    changed: Change, file: str, right: str, wrong: str
+) -> None:
+    (problem,) = changed(file, right, wrong)
+
+    line = FILES[file][: FILES[file].index(right)].count("\n") + 1
+    assert (Path(problem.file or "").name, problem.line) == (file, line)
+    assert re.match(rf"write {re.escape(right)}(?:$|;)", problem.hint)
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong", "line", "hint"),
+    [
+        ("r.urdf.xacro", "['size']", "['siez']", 17, "did you mean 'size'?"),
+        ("r.urdf.xacro", "sizes.yaml", "size.yaml", 6, "did you mean 'sizes.yaml'?"),
+        (
+            "r.urdf.xacro",
+            '"wheel.xacro',
+            '"whel.xacro',
+            7,
+            "did you mean 'wheel.xacro'?",
+        ),
+        ("config/sizes.yaml", "  size", "\tsize", 2, "write blanks instead of the tab"),
+        (
+            "r.urdf.xacro",
+            '"kind1"',
+            '"kindX"',
+            8,
+            "give it on the command line: kind:=k",
+        ),
+        ("r.urdf.xacro", '"wheel.xacro', '"r.urdf.xacro', 7, "correct the name of the"),
+        ("r.urdf.xacro", "$(arg arm)", "$(arg amr)", 13, "did you mean $(arg arm)?"),
+        (
+            "r.urdf.xacro",
+            "size/2",
+            "siez/2",
+            11,
+            "did you mean size (defined on line 5)",
+        ),
+    ],
+)
+def test_the_cause_comes_with_what_was_meant(
+    changed: Change, file: str, right: str, wrong: str, line: int, hint: str
+) -> None:
+    (problem,) = changed(file, right, wrong)
+
+    assert problem.line == line
+    assert problem.hint.startswith(hint)
+
+
+def test_a_block_without_its_prefix_in_a_joint_is_named(changed: Change) -> None:
+    problems = changed("wheel.xacro", "<xacro:insert_block", "<insert_block")
+
+    assert [(p.line, p.code, p.hint) for p in problems] == [
+        (7, "xacro-prefix-missing", "write <xacro:insert_block>")
+    ]
+
+
+def test_an_argument_in_the_name_of_a_package_is_named(
+    changed: Change, tmp_path: Path
+) -> None:
+    package = tmp_path / "blue_description"
+    package.mkdir()
+    (package / "package.xml").write_text(
+        "<package><name>blue_description</name></package>"
+    )
+    (tmp_path / "package.xml").write_text("<package><name>own</name></package>")
+    text = '<xacro:arg name="model" default=""/>\n<xacro:property name="m" '
+    text += (
+        'value="$(arg model)"/>\n<xacro:include filename="$(find ${m}_description)/x"/>'
+    )
+
+    (problem,) = changed("r.urdf.xacro", '<link name="base"/>', text)
+
+    assert problem.code == "xacro-argument-placeholder"
+    assert problem.hint == "give it on the command line: model:=blue"
