@@ -167,6 +167,10 @@ def test_a_recording_without_a_robot_says_so_in_the_joints(
     with Visualizer(recording, port=0) as viz:
         page = protocol(viz.viser.get_port())
         assert "The recording has no robot" in page.row("joints/none")["value"]
+        # The view goes with it all the same.
+        config = session_of(viz).document.config
+        assert config.global_options.get("Fixed Frame") == "odom"
+        assert config.view.get("Target Frame") == "base_link"
 
 
 def test_links_that_were_published_once_are_there_after_users_had_the_joints(

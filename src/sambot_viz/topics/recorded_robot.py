@@ -19,7 +19,9 @@ from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.robot_topics import (
     STAND_IN_LINK,
+    STAND_IN_NAME,
     RobotTopics,
+    base_frame,
     robot_topics,
     stand_in_model,
     top_frame,
@@ -166,7 +168,12 @@ class RecordedRobot:
         return self.name if topic is None else f"{self.name}:{topic}"
 
     def root_frame(self, robot: Robot) -> str:
-        """Return the frame of a robot's root link, with the prefix of its frames."""
+        """Return the frame of a robot's root link, with the prefix of its frames.
+
+        Of a stand-in it is the frame that the missing robot seems to have.
+        """
+        if robot.name == STAND_IN_NAME:
+            return base_frame(self._told.pairs()) or plain_name(robot.root)
         prefix = frame_prefix(joints_of(robot), self._told.pairs())
         return prefix + plain_name(robot.root)
 

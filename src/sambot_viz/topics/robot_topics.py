@@ -12,6 +12,8 @@ STAND_IN_LINK = "base_link"
 """The link of a stand-in of which no frame is known."""
 STAND_IN_NAME = "no robot"
 """What a stand-in is called."""
+_BASES = ("base_link", "base_footprint")
+"""What the frame of a mobile robot is called (REP 105)."""
 DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
 TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
 JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
@@ -97,6 +99,17 @@ def top_frame(root: str, pairs: Iterable[tuple[str, str]]) -> str:
             break
         frame = above[frame]
     return frame
+
+
+def base_frame(pairs: Iterable[tuple[str, str]]) -> str | None:
+    """Return the frame that is called as that of a robot by convention, if one is.
+
+    Args:
+        pairs: (parent, child) of all transforms that are known.
+    """
+    children = [child for _, child in pairs]
+    named = (child for name in _BASES for child in children if _last(child) == name)
+    return next(named, None)
 
 
 def _of(
