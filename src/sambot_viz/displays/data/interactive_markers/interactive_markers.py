@@ -23,7 +23,6 @@ from sambot_viz.displays.data.interactive_markers.marker_nodes import (
 from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.checks import check_of
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
-from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.nodes import Key
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
@@ -66,14 +65,12 @@ class InteractiveMarkers:
         self._context = context
         self._rows = rows
         self._key = key
-        self._files_found = files_found
         self._options = ShowOptions()
         self._dirty: dict[str, None] = {}
         self._waiting: dict[str, None] = {}
         self._shown: dict[Key, Shown] = {}
         self._changed: dict[Key, None] = {}
-        self._nodes = ControlNodes(context, key)
-        self._finders: dict[str, MeshFinder] = {}
+        self._nodes = ControlNodes(context, key, files_found)
         self._free: list[int] = []
         self._made = 0
 
@@ -158,7 +155,6 @@ class InteractiveMarkers:
         self._changed.clear()
         self._free.clear()
         self._made = 0
-        self._finders.clear()
         self._rows.clear()
 
     def _new_nodes(self) -> InteractiveMarkerNodes:
@@ -204,7 +200,7 @@ class InteractiveMarkers:
             self._draw_one(name, self.known[name])
         changed, self._changed = self._changed, {}
         if changed:
-            self._nodes.update(self._shown, changed, self._finder)
+            self._nodes.update(self._shown, changed)
             self._report_meshes()
 
     def look_again(self) -> None:
@@ -284,16 +280,7 @@ class InteractiveMarkers:
         # All slots below the number of markers are taken or free.
         return heapq.heappop(self._free) if self._free else len(self._shown)
 
-    def _finder(self, resource: str) -> MeshFinder:
-        found = self._finders.get(resource)
-        if found is None:
-            found = MeshFinder(self._context, resource, self._files_found)
-            self._finders[resource] = found
-        return found
-
     def _report_meshes(self) -> None:
-        for key, nodes in self._nodes.meshes.items():
-            if nodes.is_missing:
-                resource = self._shown[key].marker.mesh_resource
-                text = f"Mesh resource marker [{key[0]}] could not load [{resource}]"
-                self._rows.say(key[0], "Error", text)
+        for (name, _), resource in self._nodes.missing_meshes(self._shown):
+            text = f"Mesh resource marker [{name}] could not load [{resource}]"
+            self._rows.say(name, "Error", text)

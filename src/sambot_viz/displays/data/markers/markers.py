@@ -9,7 +9,6 @@ from typing import Any
 from sambot_viz.displays.data.markers.checks import check_of, looks_the_same
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.fields import MarkerPose
-from sambot_viz.displays.data.markers.meshes import MeshFinder
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
 from sambot_viz.displays.data.markers.off_markers import OffMarker, OffMarkers
@@ -59,9 +58,7 @@ class Markers:
         self._key = key
         self._status = status
         self._namespaces = namespaces
-        self._nodes = MarkerNodes(context, key)
-        self._files_found = files_found
-        self._finders: dict[str, MeshFinder] = {}
+        self._nodes = MarkerNodes(context, key, files_found)
         self._changed: dict[Key, None] = {}
         self._places: dict[tuple[str, int | None], MarkerPose] = {}
         self._rows: set[str] = set()
@@ -274,7 +271,7 @@ class Markers:
         if not self._changed:
             return
         changed, self._changed = self._changed, {}
-        self._nodes.update(self.shown, changed, self._finder)
+        self._nodes.update(self.shown, changed)
         self._report_meshes()
 
     def files_read(self) -> None:
@@ -289,7 +286,6 @@ class Markers:
         self._status.remove(MARKERS)
         self._changed.clear()
         self._free.clear()
-        self._finders.clear()
         self._nodes.remove()
 
     def placed(self) -> Iterator[Placed]:
@@ -315,20 +311,11 @@ class Markers:
         """Return how many markers of a namespace are shown."""
         return sum(key[0] == namespace for key in self.shown)
 
-    def _finder(self, resource: str) -> MeshFinder:
-        found = self._finders.get(resource)
-        if found is None:
-            found = MeshFinder(self._context, resource, self._files_found)
-            self._finders[resource] = found
-        return found
-
     def _report_meshes(self) -> None:
-        for key, nodes in self._nodes.meshes.items():
-            if nodes.is_missing:
-                resource = self.shown[key].marker.mesh_resource
-                name = f"{key[0]}/{key[1]}"
-                text = f"Mesh resource marker [{name}] could not load [{resource}]"
-                self._say(key, "Error", text)
+        for key, resource in self._nodes.missing_meshes(self.shown):
+            name = f"{key[0]}/{key[1]}"
+            text = f"Mesh resource marker [{name}] could not load [{resource}]"
+            self._say(key, "Error", text)
 
     # What is said
 

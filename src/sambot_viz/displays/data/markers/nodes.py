@@ -69,11 +69,16 @@ class MarkerNodes:
     Args:
         context: what to draw with.
         key: what the names of nodes begin with.
+        files_found: called when mesh files are known.
     """
 
-    def __init__(self, context: DisplayContext, key: str) -> None:
+    def __init__(
+        self, context: DisplayContext, key: str, files_found: Callable[[], None]
+    ) -> None:
         self._context = context
         self._key = key
+        self._files_found = files_found
+        self._finders: dict[str, MeshFinder] = {}
         self._batches: dict[Hashable, _Batch] = {}
         self._batch_of: dict[Key, Hashable] = {}
         self._single: dict[Key, tuple[Hashable, MarkerNode]] = {}
@@ -84,18 +89,22 @@ class MarkerNodes:
         singles = self._single.items()
         return {k: node for k, (_, node) in singles if isinstance(node, MeshNodes)}
 
-    def update(
-        self,
-        shown: Mapping[Key, Shown],
-        changed: Iterable[Key],
-        finder: Callable[[str], MeshFinder],
-    ) -> None:
+    def missing_meshes(self, shown: Mapping[Key, Shown]) -> Iterator[tuple[Key, str]]:
+        """Yield the markers whose mesh files are not there, and what these are called.
+
+        Args:
+            shown: all that is shown.
+        """
+        for key, nodes in self.meshes.items():
+            if nodes.is_missing:
+                yield key, str(shown[key].marker.mesh_resource)
+
+    def update(self, shown: Mapping[Key, Shown], changed: Iterable[Key]) -> None:
         """Draw what has changed, and remove what is shown no longer.
 
         Args:
             shown: all that is to be shown.
             changed: what is other than at the last call.
-            finder: returns what knows the file of a mesh resource.
         """
         dirty: dict[Hashable, None] = {}
         touched: dict[Hashable, None] = {}
@@ -120,7 +129,7 @@ class MarkerNodes:
             self._draw_batch(group)
         # Names of nodes are free again when all that is gone has been removed.
         for key, one, above in todo:
-            self._draw_single(key, one, above, finder)
+            self._draw_single(key, one, above)
 
     def placed(
         self, shown: Mapping[Key, Shown], item_of: Callable[[Key], Selectable | None]
@@ -163,6 +172,7 @@ class MarkerNodes:
         self._batches.clear()
         self._batch_of.clear()
         self._single.clear()
+        self._finders.clear()
 
     def _above(self, one: Shown) -> str | None:
         """Return the node that a marker hangs below; None when it has no place."""
@@ -223,13 +233,7 @@ class MarkerNodes:
         if found is not None:
             found[1].remove()
 
-    def _draw_single(
-        self,
-        key: Key,
-        one: Shown,
-        above: str,
-        finder: Callable[[str], MeshFinder],
-    ) -> None:
+    def _draw_single(self, key: Key, one: Shown, above: str) -> None:
         scene, kind = self._context.scene, int(one.marker.type)
         _, node = self._single.get(key, (None, None))
         name = f"{above}/{self._key}m{short_id(one.slot)}"
@@ -245,10 +249,17 @@ class MarkerNodes:
         elif kind == MESH:
             if not isinstance(node, MeshNodes):
                 node = MeshNodes(self._context, name)
-            node.finder = finder(str(one.marker.mesh_resource))
+            node.finder = self._finder(str(one.marker.mesh_resource))
             node.draw(one.marker, *one.place.of(one.marker.pose))
         else:
             if not isinstance(node, TrianglesNode):
                 node = TrianglesNode(scene, name)
             node.draw(one.marker, *one.place.of(one.marker.pose))
         self._single[key] = ((kind, above, one.slot), node)
+
+    def _finder(self, resource: str) -> MeshFinder:
+        found = self._finders.get(resource)
+        if found is None:
+            found = MeshFinder(self._context, resource, self._files_found)
+            self._finders[resource] = found
+        return found
