@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz.displays.data.image.camera_info import projection_of
 from sambot_viz.displays.data.message_numbers import Floats, require_finite
 from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.refusals import MessageRefused
@@ -144,7 +145,7 @@ def corners_of(message: Any) -> Floats:
     Raises:
         MessageRefused: its focal lengths are 0.
     """
-    P = np.reshape(np.array(_projection(message), np.float64), (3, 4))
+    P = np.reshape(np.array(projection_of(message), np.float64), (3, 4))
     if P[0, 0] == 0.0 or P[1, 1] == 0.0:
         raise MessageRefused("Invalid intrinsic matrix")
     region = message.roi
@@ -154,7 +155,3 @@ def corners_of(message: Any) -> Floats:
     with np.errstate(over="ignore"):
         at = (pixels - P[:2, 2] - P[:2, 3]) / (P[0, 0], P[1, 1])
     return np.column_stack([at, np.ones(4)])
-
-
-def _projection(message: Any) -> Any:
-    return message.p if hasattr(message, "p") else message.P

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,15 +42,19 @@ class CameraNumbers:
     roi: tuple[int, int, int, int]
 
 
+def projection_of(message: Any) -> Sequence[float]:
+    """Return the projection matrix of a sensor_msgs/CameraInfo, row by row."""
+    # ROS 1 calls it P.
+    return message.p if hasattr(message, "p") else message.P
+
+
 def numbers_of(message: Any) -> CameraNumbers:
     """Return the numbers of a sensor_msgs/CameraInfo.
 
     Raises:
         MessageRefused: they are not finite, or have no focal length.
     """
-    # ROS 1 calls it P.
-    given = message.p if hasattr(message, "p") else message.P
-    p = [float(value) for value in given]
+    p = [float(value) for value in projection_of(message)]
     if len(p) != 12:
         raise MessageRefused(f"P has {len(p)} numbers; it needs 12", CAMERA_INFO)
     try:
