@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,23 +12,16 @@ from sambot_viz.displays.data.message_numbers import (
     require_few,
     require_finite,
 )
-from sambot_viz.displays.data.newest_message import NewestMessageDisplay
-from sambot_viz.displays.data.poses.pose_shapes import (
-    AXES,
-    FLAT_ARROW,
-    SOLID_ARROW,
-    PoseLook,
-    PoseShapes,
-    color_property,
+from sambot_viz.displays.data.poses.many_poses import (
+    ManyPosesDisplay,
+    many_poses_properties,
 )
-from sambot_viz.displays.data.properties import alpha_property, metres
-from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.data.poses.pose_shapes import (
+    PoseLook,
+)
+from sambot_viz.displays.data.properties import metres
 from sambot_viz.geometry import Vector3, Wxyz
-from sambot_viz.rviz import DisplayConfig, EnumProperty
 
-_IF_ARROW = ("Shape", (FLAT_ARROW, SOLID_ARROW))
 SHORTEST, LONGEST = "Min Arrow Length", "Max Arrow Length"
 SHAFT, HEAD = (1.0, 0.0435), (0.3043, 0.1304)
 """Length and diameter of shaft and head, by the length of the shaft."""
@@ -37,30 +29,17 @@ Particles = tuple[Floats, Floats, Floats]
 """Rotations, (N, 4), positions, (N, 3) [m], and weights, (N,)."""
 
 
-class ParticleCloudDisplay(NewestMessageDisplay[Particles]):
+class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
     """The particles of nav2_msgs/ParticleCloud; the newest message alone."""
 
     kind = "nav2_rviz_plugins/ParticleCloud"
     help = "The particles of Nav2's localisation; those with more weight are longer."
     types = frozenset({"nav2_msgs/msg/ParticleCloud"})
     properties = (
-        topic_property(),
-        EnumProperty(
-            "Shape",
-            default=FLAT_ARROW,
-            options=(FLAT_ARROW, SOLID_ARROW, AXES),
-            help="How each particle is drawn.",
-        ),
-        color_property(shape=_IF_ARROW),
-        alpha_property(hidden_unless=_IF_ARROW),
+        *many_poses_properties("particle"),
         metres(SHORTEST, 0.02, "Length of a particle without weight."),
         metres(LONGEST, 0.3, "Length of a particle with the weight 1."),
     )
-
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._shapes = PoseShapes(context.scene, f"/{key}")
 
     def read(self, message: Any) -> Particles:
         """Return the rotations, the positions and the weights of the particles."""
@@ -86,11 +65,3 @@ class ParticleCloudDisplay(NewestMessageDisplay[Particles]):
             1.0,
         )
         self._shapes.draw(look, turns, places, wxyz, position, sizes=lengths)
-
-    def placed(self) -> Iterator[Placed]:
-        """Yield the particles, which cannot be selected."""
-        yield from self._shapes.placed(None)
-
-    def remove(self) -> None:
-        """Take the particles out of the scene."""
-        self._shapes.remove()
