@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -104,10 +104,28 @@ def lines_glb(
     return glb_file(document, points.tobytes())
 
 
-class LineNode(GlbNode):
-    """Lines that are one pixel wide at any distance, in one node."""
+class LinesNode(GlbNode):
+    """Lines in one node, of which those that derive from it say where they are."""
 
-    _drawn: Floats | None = None
+    _lines: Callable[[], tuple[Floats, float]]
+    """Returns those that were drawn last, (N, 2, 3) [m], and how wide they are [m]."""
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedLines]:
+        """Yield the lines for rays, if there are any.
+
+        Args:
+            T_fixed_above: (4, 4), of the node above.
+            item: what they are to a selection.
+        """
+        if self.is_drawn:
+            segments, width = self._lines()
+            yield PlacedLines(item, segments, self.place(T_fixed_above), width)
+
+
+class LineNode(LinesNode):
+    """Lines that are one pixel wide at any distance, in one node."""
 
     def draw(
         self,
@@ -138,7 +156,7 @@ class LineNode(GlbNode):
         if not len(points):
             self.remove()
             return
-        self._drawn = points
+        self._lines = lambda: (np.reshape(points, (-1, 2, 3)), 0.0)
         self.show(
             (points, colors),
             lambda: drawn_glb(
@@ -150,19 +168,6 @@ class LineNode(GlbNode):
             wxyz,
             position,
         )
-
-    def placed(
-        self, T_fixed_above: Matrix, item: Selectable | None
-    ) -> Iterator[PlacedLines]:
-        """Yield the lines for rays, if there are any.
-
-        Args:
-            T_fixed_above: (4, 4), of the node above.
-            item: what they are to a selection.
-        """
-        if self._drawn is not None and self.is_drawn:
-            segments = np.reshape(self._drawn, (-1, 2, 3))
-            yield PlacedLines(item, segments, self.place(T_fixed_above))
 
 
 def chain_segments(points: npt.ArrayLike, closed: bool = False) -> npt.NDArray[Any]:

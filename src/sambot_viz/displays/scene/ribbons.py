@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.picking.placed_lines import PlacedLines
-from sambot_viz.displays.picking.selectable import Selectable
-from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
+from sambot_viz.displays.scene.glb_node import drawn_glb, rgba_rows, single
+from sambot_viz.displays.scene.lines import LinesNode
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
+from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM
 
 Points = npt.NDArray[np.float32]
 
 
-class RibbonNode(GlbNode):
+class RibbonNode(LinesNode):
     """Ribbons through chains of points, all of one width, in one node."""
-
-    _drawn: tuple[Points, npt.NDArray[np.int64], float] | None = None
 
     def draw(
         self,
@@ -59,7 +56,7 @@ class RibbonNode(GlbNode):
         if len(at) < 2 or not np.any(chain[1:] == chain[:-1]) or not width > 0:
             self.remove()
             return
-        self._drawn = at, chain, float(width)
+        self._lines = lambda: (_parts(at, chain), float(width))
         self.show(
             (at, chain, rgba, float(width)),
             lambda: ribbon_glb(at, chain, rgba, float(width)),
@@ -67,20 +64,11 @@ class RibbonNode(GlbNode):
             position,
         )
 
-    def placed(
-        self, T_fixed_above: Matrix, item: Selectable | None
-    ) -> Iterator[PlacedLines]:
-        """Yield the ribbons for rays, if there are any.
 
-        Args:
-            T_fixed_above: (4, 4), of the node above.
-            item: what they are to a selection.
-        """
-        if self._drawn is not None and self.is_drawn:
-            at, chain, width = self._drawn
-            goes_on = chain[1:] == chain[:-1]
-            segments = np.stack([at[:-1][goes_on], at[1:][goes_on]], axis=1)
-            yield PlacedLines(item, segments, self.place(T_fixed_above), width)
+def _parts(at: Points, chain: npt.NDArray[np.int64]) -> Points:
+    """Return the lines from each point to the next one of its chain, (N, 2, 3)."""
+    goes_on = chain[1:] == chain[:-1]
+    return np.stack([at[:-1][goes_on], at[1:][goes_on]], axis=1)
 
 
 def segment_ribbons(segments: Points, width: float, color: Rgb, alpha: float) -> bytes:
