@@ -122,6 +122,18 @@ def test_a_mesh_in_millimetres_is_reported_when_the_picture_has_read_it(
         assert codes(viz) == ["mesh-size"]
 
 
+def test_what_the_files_around_the_model_contradict_is_listed(
+    model: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>r</name></package>")
+    (tmp_path / "nav2_params.yaml").write_text(
+        "amcl:\n  ros__parameters:\n    base_frame_id: base_footprint\n"
+    )
+    with Visualizer(model, port=0) as viz:
+        wait_for_workers()
+        assert codes(viz) == ["limit-in-degrees", "frame-unknown"]
+
+
 def test_what_was_checked_late_does_not_replace_what_is_newer(
     model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -25,9 +25,18 @@ _ACCEPTED = """\
 ## What ROS accepts and what causes trouble later
 """
 
+_AROUND = """\
+## Names that must meet
+
+These are about two places that contradict each other: the model and another file of its
+package, or two of these files.
+"""
+
 _REST = """\
 ## What ROS or its tools refuse, lose or misread
 """
+
+_HEADER = ("| code | severity | what | what to do |", "|---|---|---|---|")
 
 
 def problem_page() -> str:
@@ -35,8 +44,10 @@ def problem_page() -> str:
     samples = all_samples()
     lines = [_HEAD, _ACCEPTED]
     lines += [_section(sample) for sample in samples if sample.why]
-    lines += [_REST, "| code | severity | what | what to do |", "|---|---|---|---|"]
-    lines += [_row(sample) for sample in samples if not sample.why]
+    lines += [_AROUND, *_HEADER]
+    lines += [_row(sample) for sample in samples if sample.around]
+    lines += ["", _REST, *_HEADER]
+    lines += [_row(s) for s in samples if not s.why and not s.around]
     return "\n".join(lines) + "\n"
 
 

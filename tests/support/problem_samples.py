@@ -37,6 +37,7 @@ class Sample:
         stated: what is said of it, for codes without a model.
         line: where the mistake is.
         says: words that name the cause.
+        around: it is about the model and the files around it.
     """
 
     code: str
@@ -48,6 +49,7 @@ class Sample:
     stated: Problem | None = None
     line: int | None = None
     says: str = ""
+    around: bool = False
 
     @property
     def problem(self) -> Problem:
@@ -116,4 +118,5 @@ def _sample(entry: dict[str, Any]) -> Sample:
         bool(entry.get("trusted", True)),
         line=entry.get("line"),
         says=str(entry.get("says", "")),
+        around=bool(entry.get("around", False)),
     )

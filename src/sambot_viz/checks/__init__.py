@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.mesh_files import (
     MeshFiles,
@@ -37,7 +38,7 @@ from sambot_viz.robot.model import Robot
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
 
-__all__ = ["check", "check_folder", "check_robot", "check_unloadable"]
+__all__ = ["check", "check_around", "check_folder", "check_robot", "check_unloadable"]
 
 RULES: tuple[Rule, ...] = (
     limits_in_degrees,
@@ -101,6 +102,7 @@ def check_robot(
     path: str | os.PathLike[str] | None = None,
     *,
     mesh: Callable[[Path], Mesh | Problem | None] | None = None,
+    around: bool = True,
 ) -> list[Problem]:
     """Find everything that is wrong with a robot that is already loaded.
 
@@ -109,24 +111,46 @@ def check_robot(
         path: the model as the user wrote it; default the robot's first file.
         mesh: gives the mesh in a file, why it cannot be drawn, or None to leave it
             out; default reads the file.
+        around: with what `check_around` finds.
     """
+    subject = _subject(robot, path, mesh)
+    rules = (*RULES, names_that_must_meet) if around else RULES
+    return _in_order([*robot.problems, *_found(subject, rules)])
+
+
+def check_around(
+    robot: Robot, path: str | os.PathLike[str] | None = None
+) -> list[Problem]:
+    """Find names that differ between a model and the files of its package.
+
+    Args:
+        robot: the robot.
+        path: as for `check_robot`.
+    """
+    return _in_order(_found(_subject(robot, path, None), [names_that_must_meet]))
+
+
+def _subject(
+    robot: Robot,
+    path: str | os.PathLike[str] | None,
+    mesh: Callable[[Path], Mesh | Problem | None] | None,
+) -> Subject:
     files = [str(file) for file in robot.files]
     if path is not None and Path(path).is_file():
         files[:1] = [os.fspath(path)]
-    subject = Subject(robot, tuple(files), mesh or MeshFiles(robot.file_roots))
-    found = [problem for rule in RULES for problem in rule(subject)]
-    return _in_order([*robot.problems, *_without_follow_ups(found, subject)])
+    return Subject(robot, tuple(files), mesh or MeshFiles(robot.file_roots))
 
 
-def _without_follow_ups(found: list[Problem], subject: Subject) -> list[Problem]:
-    """Leave out what is only wrong because of a misspelt name, which is reported."""
+def _found(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
+    """Run rules; what is only wrong because of a misspelt name is left out."""
     from sambot_viz.robot.corrected import corrected_robot
 
-    better = corrected_robot(subject.robot)
+    found = [problem for rule in rules for problem in rule(subject)]
+    better = corrected_robot(subject.robot) if found else None
     if better is None:
         return found
     other = replace(subject, robot=better)
-    codes = {problem.code for rule in RULES for problem in rule(other)}
+    codes = {problem.code for rule in rules for problem in rule(other)}
     return [problem for problem in found if problem.code in codes]
 
 

@@ -34,8 +34,9 @@ def parser() -> Parser:
         prog="sambot-viz check",
         groups=("model",),
         description="List what is wrong with a model and its mesh files, where, and "
-        "how to fix it; of a package folder also what is wrong with its .rviz, launch "
-        "files and setup.py. "
+        "how to fix it, and names that differ between it and the other files of its "
+        "package; of a package folder also what is wrong with its .rviz, launch files "
+        "and setup.py. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
     made.add_format()

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.follow_ups import report_slips
+from sambot_viz.robot.gazebo import gazebo_parts
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -56,6 +57,7 @@ class LoadedModel(NamedTuple):
     files: tuple[Path, ...]
     file_roots: tuple[Path, ...] | None
     language: Language
+    gazebo: tuple[Element, ...]
 
 
 def load_model(
@@ -163,6 +165,7 @@ class _Loader:
             tuple(dict.fromkeys((*own, *read))),
             files.roots,
             "sdf" if root.tag == "sdf" else "urdf",
+            gazebo_parts(root),
         )
 
     def _tree(

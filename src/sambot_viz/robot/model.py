@@ -20,6 +20,7 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.parts import Joint, Language, Link, MeshFile, Shape
+from sambot_viz.robot.xml.element import Element
 
 if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
@@ -48,6 +49,7 @@ class Robot:
         file_roots: folders that its meshes and textures may be read from (resolved);
             None for a trusted model, whose files may be anywhere.
         language: what the description is written in.
+        gazebo: its parts for Gazebo and ros2_control; see `gazebo_parts`.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Robot:
     files: tuple[Path, ...] = field(default=(), compare=False, repr=False)
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
     language: Language = field(default="urdf", compare=False, repr=False)
+    gazebo: tuple[Element, ...] = field(default=(), compare=False, repr=False)
 
     @cached_property
     def urdf(self) -> str:

@@ -184,6 +184,7 @@ class Checks:
         self._problems = problems
         self._change = change
         self._of_robot: tuple[Problem, ...] = ()
+        self._of_files: tuple[Robot | None, tuple[Problem, ...]] = (None, ())
         self._checked: tuple[object, ...] | None = None
         facts = [document.replaced, document.options, document.displays]
         connect([*facts, scene.frames, scene.statuses], self._follow)
@@ -197,12 +198,7 @@ class Checks:
             before, state = self._checked, self._state()
             self._checked = state
             of_joints, of_config = joints.problems, self._of_config(robot)
-        of_robot: tuple[Problem, ...] | None = None
-        if before != state:
-            # The import is late so that the first page does not wait for the rules.
-            from sambot_viz.checks import check_robot
-
-            of_robot = tuple(check_robot(robot, mesh=self._mesh))
+        of_robot = self._of_rules(robot) if before != state else None
         with self._change.lock:
             if self._checked != state:
                 # Meanwhile another thread has begun to check what is newer.
@@ -212,6 +208,17 @@ class Checks:
             found = (*self._of_robot, *of_joints, *of_config)
             if self._problems.of_model != found:
                 self._problems.set_model(found)
+
+    def _of_rules(self, robot: Robot) -> tuple[Problem, ...]:
+        """What the rules find; the files around the model are read once for it."""
+        # The import is late so that the first page does not wait for the rules.
+        from sambot_viz.checks import check_around, check_robot
+
+        of, found = self._of_files
+        if of is not robot:
+            found = tuple(check_around(robot))
+            self._of_files = (robot, found)
+        return (*check_robot(robot, mesh=self._mesh, around=False), *found)
 
     def _mesh(self, path: Path) -> Mesh | None:
         """A mesh that has been read for the picture; the rules read none themselves.

@@ -1,0 +1,34 @@
+"""Names that must meet: the model against the files around it.
+
+The files are those of the model's package: parameters of robot_localization and Nav2,
+the bridge to Gazebo, launch files, CMakeLists.txt and setup.py. They are read as text;
+nothing is run. A finding is about two places that contradict each other, and names
+both: a name alone may be right for a robot or a node that is not looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.package_files import package_of
+from sambot_viz.checks.rule import Subject
+from sambot_viz.errors import Problem
+
+__all__ = ["names_that_must_meet"]
+
+
+def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
+    """Report names and sizes that are written twice and differ."""
+    files = package_of(subject)
+    if files is None and not subject.robot.gazebo:
+        return
+    # The import is late: most models have nothing for these rules.
+    from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE
+    from sambot_viz.checks.around.surroundings import Surroundings
+
+    for rule in IN_MODEL:
+        yield from rule(subject.robot)
+    if files is not None:
+        around = Surroundings(subject.robot, files)
+        for check in IN_PACKAGE:
+            yield from check(around)

@@ -1,0 +1,268 @@
+"""What a bridge between Gazebo and ROS carries, against what the model sends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Problem, nearest
+
+_TO_ROS, _TO_GZ, _BOTH = "GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL"
+_ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
+_BRIDGE = "parameter_bridge"
+_SCOPED = ("world/", "model/")
+
+_PAIRS: dict[str, tuple[str, ...]] = {
+    "geometry_msgs/msg/Pose": ("Pose",),
+    "geometry_msgs/msg/PoseArray": ("Pose_V",),
+    "geometry_msgs/msg/PoseStamped": ("Pose",),
+    "geometry_msgs/msg/PoseWithCovariance": ("PoseWithCovariance",),
+    "geometry_msgs/msg/PoseWithCovarianceStamped": ("PoseWithCovariance",),
+    "geometry_msgs/msg/TransformStamped": ("Pose",),
+    "geometry_msgs/msg/Twist": ("Twist",),
+    "geometry_msgs/msg/TwistStamped": ("Twist",),
+    "geometry_msgs/msg/Wrench": ("Wrench",),
+    "geometry_msgs/msg/WrenchStamped": ("Wrench",),
+    "nav_msgs/msg/Odometry": ("Odometry", "OdometryWithCovariance"),
+    "rosgraph_msgs/msg/Clock": ("Clock",),
+    "sensor_msgs/msg/BatteryState": ("BatteryState",),
+    "sensor_msgs/msg/CameraInfo": ("CameraInfo",),
+    "sensor_msgs/msg/FluidPressure": ("FluidPressure",),
+    "sensor_msgs/msg/Image": ("Image",),
+    "sensor_msgs/msg/Imu": ("IMU",),
+    "sensor_msgs/msg/JointState": ("Model",),
+    "sensor_msgs/msg/LaserScan": ("LaserScan",),
+    "sensor_msgs/msg/MagneticField": ("Magnetometer",),
+    "sensor_msgs/msg/NavSatFix": ("NavSat",),
+    "sensor_msgs/msg/PointCloud2": ("PointCloudPacked",),
+    "tf2_msgs/msg/TFMessage": ("Pose_V",),
+}
+"""ROS type → the types of Gazebo that ros_gz_bridge turns it into, as of Jazzy."""
+
+_GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
+
+_SENSORS: dict[str, tuple[tuple[str, str], ...]] = {
+    "imu": (("IMU", ""),),
+    "camera": (("Image", ""),),
+    "depth_camera": (("Image", ""), ("PointCloudPacked", "/points")),
+    "rgbd_camera": (
+        ("Image", "/image"),
+        ("Image", "/depth_image"),
+        ("PointCloudPacked", "/points"),
+    ),
+    "navsat": (("NavSat", ""),),
+    "magnetometer": (("Magnetometer", ""),),
+    "air_pressure": (("FluidPressure", ""),),
+    "force_torque": (("Wrench", ""),),
+    **dict.fromkeys(
+        ("gpu_lidar", "gpu_ray", "lidar", "ray"),
+        (("LaserScan", ""), ("PointCloudPacked", "/points")),
+    ),
+}
+"""Type of a sensor → the types that it sends, and what is added to its topic."""
+
+_SENDS = (
+    ("diff-drive-system", "odom_topic", "Odometry"),
+    ("ackermann-steering-system", "odom_topic", "Odometry"),
+    ("odometry-publisher-system", "odom_topic", "Odometry"),
+    ("mecanum-drive-system", "odom_topic", "Odometry"),
+    ("joint-state-publisher-system", "topic", "Model"),
+)
+_TAKES = ("diff-drive-system", "ackermann-steering-system", "mecanum-drive-system")
+
+
+@dataclass(frozen=True, slots=True)
+class BridgeEntry:
+    """One topic that a bridge carries.
+
+    Attributes:
+        ros: its name in ROS.
+        gz: its name in Gazebo.
+        ros_type: its type in ROS.
+        gz_type: its type in Gazebo, with the name of the package gz.msgs.
+        direction: GZ_TO_ROS, ROS_TO_GZ or BIDIRECTIONAL.
+    """
+
+    ros: Fact
+    gz: Fact
+    ros_type: Fact
+    gz_type: Fact
+    direction: Fact
+
+    @property
+    def kind(self) -> str:
+        """The type in Gazebo, without its package."""
+        return self.gz_type.value.rpartition(".")[2]
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboTopic:
+    """A topic of Gazebo that the model sends or takes.
+
+    Attributes:
+        name: the topic.
+        kind: its type.
+        what: what sends or takes it.
+        wanted: a bridge probably carries it; few want the points of a lidar.
+    """
+
+    name: Fact
+    kind: str
+    what: str
+    wanted: bool = True
+
+
+def bare(topic: str) -> str:
+    """Return a topic as a whole name without the first slash."""
+    return topic.strip().strip("/")
+
+
+def entries(around: Surroundings) -> list[BridgeEntry]:
+    """Return all topics that bridges carry, as files and arguments name them."""
+    found = [e for file in around.yaml_files for e in _listed(file.entries())]
+    for launch in around.launches:
+        for node in launch.nodes:
+            names = dict(node.remappings)
+            for topic, ros_type, arrow, gz_type in launch.bridged(node):
+                ros = next((names[n] for n in names if bare(n) == bare(topic)), topic)
+                found.append(
+                    BridgeEntry(
+                        *(
+                            Fact(text, node.place)
+                            for text in (ros, topic, ros_type, gz_type, _ARROWS[arrow])
+                        )
+                    )
+                )
+    return found
+
+
+def _listed(mappings: Iterator[dict[str, Fact]]) -> Iterator[BridgeEntry]:
+    for given in mappings:
+        both = given.get("topic_name")
+        ros = given.get("ros_topic_name", both)
+        gz = given.get("gz_topic_name", given.get("ign_topic_name", both))
+        ros, gz = ros or gz, gz or ros
+        ros_type = given.get("ros_type_name")
+        gz_type = given.get("gz_type_name", given.get("ign_type_name"))
+        if ros is None or gz is None or ros_type is None or gz_type is None:
+            continue
+        yield BridgeEntry(
+            ros, gz, ros_type, gz_type, given.get("direction", Fact(_BOTH, ros.place))
+        )
+
+
+def sent(around: Surroundings) -> list[GazeboTopic]:
+    """Return the topics of Gazebo that the model sends, where it names them."""
+    found: list[GazeboTopic] = []
+    for _, sensor in sensors(around.robot.gazebo):
+        kind = (sensor.get("type") or "").removesuffix("_sensor")
+        classic = any(
+            "libgazebo_" in (p.get("filename") or "") for p in sensor.children
+        )
+        for fact in [] if classic else facts(sensor, "topic")[:1]:
+            for gz_type, more in _SENSORS.get(kind, ()):
+                name = Fact(fact.value + more, fact.place)
+                what = f"the sensor {sensor.get('name')}"
+                wanted = not more or "camera" in kind
+                found.append(GazeboTopic(name, gz_type, what, wanted))
+    found += _of_plugins(around.plugins, _SENDS)
+    return found
+
+
+def taken(around: Surroundings) -> list[GazeboTopic]:
+    """Return the topics for velocities that the model takes, where it names them."""
+    rows = tuple((part, "topic", "Twist") for part in _TAKES)
+    return list(_of_plugins(around.plugins, rows))
+
+
+def _of_plugins(
+    found: Sequence[Plugin], rows: Sequence[tuple[str, str, str]]
+) -> Iterator[GazeboTopic]:
+    for plugin in found:
+        for part, tag, kind in rows:
+            fact = plugin.one(tag) if part in plugin.filename else None
+            if fact is not None:
+                yield GazeboTopic(fact, kind, f"the plugin {plugin.filename}")
+
+
+def bridge_types(around: Surroundings) -> Iterator[Problem]:
+    """Report entries whose two types do not belong together."""
+    for entry in entries(around):
+        fitting = _PAIRS.get(entry.ros_type.value)
+        if fitting is None or entry.kind in fitting or entry.kind not in _GZ_TYPES:
+            continue
+        place = entry.gz_type.place
+        package = entry.gz_type.value.rpartition(".")[0]
+        yield Problem.at(
+            place,
+            "warning",
+            "bridge-types",
+            f"the bridge cannot turn {entry.gz_type.value} into {entry.ros_type.value} "
+            f"({where(entry.ros_type.place, place)}): nothing arrives on "
+            f"{entry.ros.value}",
+            f"write {package}.{fitting[0]}",
+        )
+
+
+def bridge_directions(around: Surroundings) -> Iterator[Problem]:
+    """Report entries that carry a topic of the model the wrong way."""
+    ways = [(t, _TO_ROS, "sends") for t in sent(around)]
+    ways += [(t, _TO_GZ, "takes") for t in taken(around)]
+    every = entries(around)
+    for topic, right, verb in ways:
+        for entry in every:
+            said = entry.direction
+            same = bare(entry.gz.value) == bare(topic.name.value)
+            if same and entry.kind == topic.kind and said.value not in (right, _BOTH):
+                yield Problem.at(
+                    said.place,
+                    "warning",
+                    "bridge-direction",
+                    f"the bridge carries {entry.gz.value} {said.value}, but "
+                    f"{topic.what} {verb} it ({where(topic.name.place, said.place)})",
+                    f"write direction: {right}",
+                )
+
+
+def bridge_topics(around: Surroundings) -> Iterator[Problem]:
+    """Report entries for a topic that the model calls otherwise."""
+    nodes = [node for launch in around.launches for node in launch.nodes]
+    if any(n.executable == _BRIDGE and not n.arguments_known for n in nodes):
+        return
+    every = entries(around)
+    yield from _misnamed(every, sent(around), (_TO_ROS, _BOTH), "sends")
+    yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes")
+
+
+def _misnamed(
+    every: Sequence[BridgeEntry],
+    topics: Sequence[GazeboTopic],
+    ways: Sequence[str],
+    verb: str,
+) -> Iterator[Problem]:
+    carried = {bare(entry.gz.value) for entry in every}
+    for entry in every:
+        alike = {bare(t.name.value): t for t in topics if t.kind == entry.kind}
+        name = bare(entry.gz.value)
+        if name in alike or entry.direction.value not in ways:
+            continue
+        if name.startswith(_SCOPED):
+            # The names that Gazebo makes itself.
+            continue
+        left = {k: t for k, t in alike.items() if t.wanted and k not in carried}
+        likeness = 0.3 if len(alike) == 1 else 0.7
+        near = nearest(name, left, likeness)
+        if near is not None:
+            topic, place = left[near], entry.gz.place
+            yield Problem.at(
+                place,
+                "warning",
+                "bridge-topic",
+                f"the bridge carries {entry.gz.value}, but {topic.what} {verb} "
+                f"{topic.name.value} ({where(topic.name.place, place)}), which no "
+                "bridge carries",
+                f"write {near if place.file.endswith('.py') else '/' + near}",
+            )

@@ -1,0 +1,106 @@
+"""Simulated time: who uses it, who does not, and whether it reaches ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.gazebo import Fact
+from sambot_viz.checks.around.launch import LaunchFile
+from sambot_viz.checks.around.launch_values import SHARE
+from sambot_viz.checks.around.parameters import flag
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem
+
+_ENTRY = (
+    "{ros_topic_name: /clock, gz_topic_name: /clock, "
+    "ros_type_name: rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock, "
+    "direction: GZ_TO_ROS}"
+)
+_ARGUMENT = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"
+_WITHOUT_TIME = frozenset({"parameter_bridge", "create", "spawn_entity.py", "spawner"})
+_WITHOUT_CLOCK = frozenset({"ros_gz_sim", "nav2_bringup", "slam_toolbox"})
+"""Their launch files bring no clock."""
+
+
+def different_clocks(around: Surroundings) -> Iterator[Problem]:
+    """Report nodes without simulated time in a launch file that starts Gazebo."""
+    for launch in around.launches:
+        simulators = [start for start in launch.starts if start.simulates]
+        for node in launch.nodes if simulators else ():
+            start, fact = simulators[0], node.sim_time
+            if fact is None or flag(fact.value) is not False:
+                continue
+            if node.executable in _WITHOUT_TIME:
+                continue
+            yield Problem.at(
+                fact.place,
+                "warning",
+                "sim-time-off",
+                f"{node.executable or 'this node'} uses the time of the computer "
+                f"(use_sim_time is false), but {where(start.place, fact.place)} "
+                f"starts Gazebo ({start.what}), whose time begins at 0: its transforms "
+                "never fit",
+                "write True for use_sim_time",
+            )
+
+
+def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
+    """Report a bridge without /clock where nodes wait for simulated time."""
+    user = _first_user(around)
+    if user is None or any(
+        _may_bring_clock(launch, around) for launch in around.launches
+    ):
+        return
+    bridges = [
+        file
+        for file in around.yaml_files
+        if any("ros_type_name" in entry for entry in file.entries())
+    ]
+    texts = [fact.value for f in bridges for e in f.entries() for fact in e.values()]
+    if any("clock" in text for text in texts):
+        return
+    place: Place | None = None
+    if bridges:
+        place, hint = Place(bridges[0].shown, 1), f"add - {_ENTRY}"
+    else:
+        hint = f"add '{_ARGUMENT}' to the arguments of parameter_bridge"
+        place = next((p for la in around.launches for p in _bridging(la)), None)
+    if place is not None:
+        yield Problem.at(
+            place,
+            "warning",
+            "clock-not-bridged",
+            f"the bridge does not bring /clock to ROS, but nodes use simulated time "
+            f"({where(user, place)}): their time stays at 0",
+            hint,
+        )
+
+
+def _first_user(around: Surroundings) -> Place | None:
+    """Where the first node is told to use simulated time by a file with a bridge."""
+    for launch in around.launches:
+        if any(start.generation == "gz" for start in launch.starts):
+            for node in launch.nodes:
+                if node.sim_time is not None and flag(node.sim_time.value):
+                    return node.sim_time.place
+    return None
+
+
+def _bridging(launch: LaunchFile) -> Iterator[Place]:
+    for node in launch.nodes:
+        if node.executable == "parameter_bridge" and node.arguments:
+            yield node.place
+
+
+def _may_bring_clock(launch: LaunchFile, around: Surroundings) -> bool:
+    if any("clock" in text for text in launch.strings):
+        return True
+    return any(_is_foreign(fact, around) for fact in launch.paths)
+
+
+def _is_foreign(fact: Fact, around: Surroundings) -> bool:
+    """True for a launch file of a package whose content is not known."""
+    package = fact.value.removeprefix(SHARE).partition("/")[0]
+    ours = package in (around.files.name, *_WITHOUT_CLOCK)
+    return fact.value.endswith("launch.py") and not ours

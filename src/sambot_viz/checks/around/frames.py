@@ -1,0 +1,213 @@
+"""Frames in the files around a model, against its links and against each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.gazebo import Fact, facts, sensors
+from sambot_viz.checks.around.navigation import (
+    StateFilter,
+    bare_frame,
+    drive_tf,
+    filters,
+    is_open,
+)
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem, nearest
+
+_BASES: dict[str, tuple[str, ...]] = {
+    "robot_base_frame": ("",),
+    "base_frame_id": ("amcl", "collision_monitor"),
+    "base_frame": ("slam_toolbox",),
+}
+"""Parameter for a frame of the robot → the nodes that have it; "" for any."""
+
+_ODOMS: dict[str, tuple[str, ...]] = {
+    "odom_frame_id": ("amcl", "collision_monitor"),
+    "odom_frame": ("slam_toolbox",),
+    "global_frame": ("local_costmap",),
+    "local_frame": ("behavior_server",),
+}
+"""Parameter for the frame of odometry → the nodes that have it."""
+
+_DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
+_DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
+_SENSOR_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
+_NO_BASE = frozenset({"map", "odom", "world"})
+
+
+def unknown_frames(around: Surroundings) -> Iterator[Problem]:
+    """Report frames of the robot that it does not have."""
+    if around.namespaced:
+        return
+    links = around.robot.links
+    prefixed = {link.rpartition("/")[2] for link in links}
+    for fact, user, meant in _robot_frames(around):
+        name = bare_frame(fact.value)
+        if (
+            name in prefixed
+            or is_open(name)
+            or "/" in name
+            or around.said_elsewhere(name)
+        ):
+            continue
+        near = meant or nearest(name, links) or around.robot.root
+        near = near if near in links else around.robot.root
+        yield Problem.at(
+            fact.place,
+            "warning",
+            "frame-unknown",
+            f"{user} uses the frame {name}, which is not a link of the model: it has "
+            f"{near} ({where(links[near].place, fact.place)})",
+            f"write {near}",
+        )
+
+
+def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
+    """Give each frame of the robot, who names it, and the link it probably is."""
+    for plugin in around.plugins:
+        tags = _DRIVE_BASES if plugin.is_drive else ()
+        for fact in plugin.all(*tags, *(_SENSOR_FRAMES if plugin.sensor else ())):
+            yield fact, f"the plugin {plugin.filename}", plugin.link
+    for link, sensor in sensors(around.robot.gazebo):
+        for fact in facts(sensor, *_SENSOR_FRAMES):
+            yield fact, f"the sensor {sensor.get('name')}", link
+    for one in filters(around):
+        if "base_link_frame" in one.given:
+            yield one.given["base_link_frame"].fact, one.node, ""
+    for parameter in around.parameters:
+        if _has(_BASES, parameter.node, parameter.name):
+            yield parameter.fact, parameter.node, ""
+
+
+def _has(table: dict[str, tuple[str, ...]], node: str, name: str) -> bool:
+    return any(not n or n in node.split("/") for n in table.get(name, ()))
+
+
+def two_parents(around: Surroundings) -> Iterator[Problem]:
+    """Report a base frame that has a parent in the model and one in odometry."""
+    parents = {joint.child: joint for joint in around.robot.joints.values()}
+    if around.namespaced or around.robot.root in _NO_BASE:
+        return
+    for fact, user in _moved_bases(around):
+        joint = parents.get(bare_frame(fact.value))
+        if joint is not None:
+            yield Problem.at(
+                fact.place,
+                "warning",
+                "frame-two-parents",
+                f"{user} publishes the transform from odometry to "
+                f"{joint.child}, but in the model {joint.child} hangs at "
+                f"{joint.parent} ({where(joint.place, fact.place)}): a frame has only "
+                "one parent, and the robot flickers between both",
+                f"write {around.robot.root}, the root of the model",
+            )
+
+
+def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str]]:
+    for one in filters(around):
+        base = one.given.get("base_link_frame")
+        if base is not None and one.moves_base:
+            yield base.fact, one.node
+    for plugin in around.plugins:
+        fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
+        if fact is not None and drive_tf(around, plugin) is not None:
+            yield fact, f"the plugin {plugin.filename}"
+
+
+def moved_twice(around: Surroundings) -> Iterator[Problem]:
+    """Report a base that both Gazebo and robot_localization move."""
+    moving = [one for one in filters(around) if one.started and one.moves_base]
+    for plugin in around.plugins if moving else ():
+        told = drive_tf(around, plugin) if plugin.is_drive else None
+        base = plugin.one(*_DRIVE_BASES)
+        if told is None or base is None:
+            continue
+        for one in moving:
+            if one.frame("base_link_frame", "base_link") != bare_frame(base.value):
+                continue
+            other = _line_of(one)
+            yield Problem.at(
+                told.place,
+                "warning",
+                "transform-twice",
+                f"the transform from {one.world_frame} to {base.value} is published "
+                f"twice: by {plugin.filename} because of this line, and by {one.node} "
+                f"({where(other, told.place)}): the robot jumps between both",
+                "write false"
+                if plugin.generation == "classic"
+                else "delete this entry of the bridge",
+            )
+
+
+def _line_of(one: StateFilter) -> Place:
+    """The line that makes a filter publish its transform."""
+    for name in ("publish_tf", "base_link_frame", "world_frame"):
+        if name in one.given:
+            return one.given[name].place
+    return next(iter(one.given.values())).place
+
+
+def odometry_frames(around: Surroundings) -> Iterator[Problem]:
+    """Report frames of odometry that are not the one that is published."""
+    published = list(_published_odoms(around))
+    names = {bare_frame(fact.value): fact for fact, _ in reversed(published)}
+    if around.namespaced or not names:
+        return
+    for fact, user in _used_odoms(around):
+        name = bare_frame(fact.value)
+        if name in names or is_open(name) or around.said_elsewhere(name):
+            continue
+        right, source = published[0]
+        yield Problem.at(
+            fact.place,
+            "warning",
+            "frame-odom",
+            f"{user} takes {name} for the frame of odometry, but {source} publishes "
+            f"it as {bare_frame(right.value)} ({where(right.place, fact.place)})",
+            f"write {bare_frame(right.value)}",
+        )
+
+
+def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
+    for one in filters(around):
+        if one.moves_base and "odom_frame" in one.given:
+            yield one.given["odom_frame"].fact, one.node
+    for plugin in around.plugins:
+        fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+        if fact is not None and drive_tf(around, plugin) is not None:
+            yield fact, f"the plugin {plugin.filename}"
+
+
+def _used_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
+    maps = {one.map_frame for one in filters(around)} | {"map"}
+    for parameter in around.parameters:
+        if _has(_ODOMS, parameter.node, parameter.name):
+            if bare_frame(parameter.fact.value) not in maps:
+                yield parameter.fact, parameter.node
+    for one in filters(around):
+        fused = (p for p in one.inputs("odom") if one.fuses(p, range(6)))
+        for plugin in around.plugins if any(fused) else ():
+            fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+            if fact is not None and one.started:
+                yield fact, f"the plugin {plugin.filename}"
+
+
+def world_frames(around: Surroundings) -> Iterator[Problem]:
+    """Report a world_frame of a filter that is neither its odom nor its map frame."""
+    for one in filters(around):
+        world = one.given.get("world_frame")
+        if world is None or one.world_frame in (one.odom_frame, one.map_frame):
+            continue
+        other = one.given.get("odom_frame")
+        what = where(other.place, world.place) if other else "the default"
+        yield Problem.at(
+            world.place,
+            "warning",
+            "ekf-world-frame",
+            f"world_frame is {one.world_frame}, but it has to be the odom_frame "
+            f"{one.odom_frame} ({what}) or the map_frame {one.map_frame}: {one.node} "
+            "publishes no transform",
+            f"write {one.odom_frame}",
+        )

@@ -1,0 +1,120 @@
+"""The joints, frames, topics and sizes in the Gazebo plugins of a model."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from sambot_viz.errors import Place
+from sambot_viz.robot.xml.element import Element
+
+Generation = Literal["gz", "classic"]
+"""Gazebo since Fortress (gz-sim, Ignition), and Gazebo Classic."""
+
+_GZ = re.compile(r"(lib)?(gz-sim|ignition-gazebo|gz_|ign_)")
+_DRIVES = ("diff-drive-system", "diff_drive.so", "skid_steer_drive.so")
+_OPEN = re.compile(r"\$\(|\$\{")
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """A name or a number that a file says, and where.
+
+    Attributes:
+        value: the text, without blanks around it.
+        place: its line.
+    """
+
+    value: str
+    place: Place
+
+    @property
+    def number(self) -> float | None:
+        """The value as a finite number, or None."""
+        try:
+            number = float(self.value)
+        except ValueError:
+            return None
+        return number if math.isfinite(number) else None
+
+
+@dataclass(frozen=True, slots=True)
+class Plugin:
+    """A <plugin> of a model.
+
+    Attributes:
+        filename: as written.
+        element: the <plugin>.
+        link: the link it belongs to; empty for the whole model.
+        sensor: the <sensor> around it, or None.
+    """
+
+    filename: str
+    element: Element
+    link: str
+    sensor: Element | None
+
+    @property
+    def generation(self) -> Generation | None:
+        """The Gazebo that it is made for; None when its name does not tell."""
+        if "libgazebo_" in self.filename:
+            return "classic"
+        if _GZ.match(self.filename):
+            return "gz"
+        return None
+
+    @property
+    def is_drive(self) -> bool:
+        """True for a differential drive."""
+        return any(name in self.filename for name in _DRIVES)
+
+    def all(self, *tags: str) -> list[Fact]:
+        """Return what the elements with these tags say; those with $( … ) are left out.
+
+        Args:
+            tags: different names of the same element.
+        """
+        return facts(self.element, *tags)
+
+    def one(self, *tags: str) -> Fact | None:
+        """Return what the first element with one of these tags says, or None."""
+        return next(iter(self.all(*tags)), None)
+
+
+def facts(element: Element, *tags: str) -> list[Fact]:
+    """Return what the child elements with these tags say, in document order."""
+    return [
+        Fact(child.text.strip(), child.place)
+        for child in element.children
+        if child.tag in tags and child.text.strip() and not _OPEN.search(child.text)
+    ]
+
+
+def plugins(parts: Sequence[Element]) -> Iterator[Plugin]:
+    """Give all plugins of a model.
+
+    Args:
+        parts: `Robot.gazebo`.
+    """
+    for part in parts:
+        link = part.get("reference") or ""
+        for child in part.children:
+            if child.tag == "plugin":
+                yield Plugin(child.get("filename") or "", child, link, None)
+            elif child.tag == "sensor":
+                for inner in child.find_all("plugin"):
+                    yield Plugin(inner.get("filename") or "", inner, link, child)
+
+
+def sensors(parts: Sequence[Element]) -> Iterator[tuple[str, Element]]:
+    """Give all sensors of a model, each with the name of its link.
+
+    Args:
+        parts: `Robot.gazebo`.
+    """
+    for part in parts:
+        for sensor in part.find_all("sensor"):
+            yield part.get("reference") or "", sensor

@@ -1,0 +1,130 @@
+"""Names of Gazebo Classic, of Gazebo and of ROS 1 that do not work together."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.gazebo import Generation, Plugin
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem
+
+_NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
+_PLUGINS: dict[str, tuple[str, str]] = {
+    "diff": ("libgazebo_ros_diff_drive.so", "gz-sim-diff-drive-system"),
+    "joint": (
+        "libgazebo_ros_joint_state_publisher.so",
+        "gz-sim-joint-state-publisher-system",
+    ),
+    "imu": ("libgazebo_ros_imu_sensor.so", "gz-sim-imu-system"),
+    "sensor": ("libgazebo_ros_ray_sensor.so", "gz-sim-sensors-system"),
+}
+_ELEMENTS = {
+    "wheel_diameter": ("wheel_radius", "half of it"),
+    "odometry_topic": ("odom_topic", "the same"),
+    "odometry_frame": ("frame_id", "the same"),
+    "robot_base_frame": ("child_frame_id", "the same"),
+    "command_topic": ("topic", "the same"),
+}
+"""Elements of Classic's differential drive, and what Gazebo's reads instead."""
+
+_XACRO_PY = re.compile(r"(^|[\s/])xacro\.py\b")
+_BUILD_TYPE = re.compile(r"<build_type>\s*(ament_\w+)")
+
+
+def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
+    """Report plugins for the Gazebo that no launch file starts, in one finding."""
+    starts = [start for launch in around.launches for start in launch.starts]
+    started = {kind for launch in around.launches for kind in launch.may_start}
+    made_for = {plugin.generation: plugin for plugin in reversed(around.plugins)}
+    kinds = made_for.keys() - {None}
+    if len(started) != 1 or not starts or not kinds or kinds & started:
+        return
+    plugin = made_for[next(iter(kinds))]
+    start = next((start for start in starts if start.simulates), starts[0])
+    other = plugin.generation or "classic"
+    yield Problem.at(
+        plugin.element.place,
+        "warning",
+        "gazebo-generation",
+        f"the plugin {plugin.filename} is for {_NAMES[other]}, but "
+        f"{where(start.place, plugin.element.place)} starts {_NAMES[start.generation]} "
+        f"({start.what}), which cannot load it",
+        _replacement(plugin, start.generation),
+    )
+
+
+def _replacement(plugin: Plugin, wanted: Generation) -> str:
+    """Name the plugin that does the same in the other Gazebo."""
+    column = 1 if wanted == "gz" else 0
+    for mark, names in _PLUGINS.items():
+        if mark in plugin.filename:
+            return f'write filename="{names[column]}", and the elements that it reads'
+    return f"use the plugin of {_NAMES[wanted]}, or start the other one"
+
+
+def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
+    """Report elements of Classic's differential drive in that of Gazebo."""
+    for plugin in around.plugins:
+        if plugin.generation != "gz" or not plugin.is_drive:
+            continue
+        present = {child.tag for child in plugin.element.children}
+        for child in plugin.element.children:
+            better, value = _ELEMENTS.get(child.tag, ("", ""))
+            if better and better not in present:
+                yield Problem.at(
+                    child.place,
+                    "warning",
+                    "gazebo-element",
+                    f"<{child.tag}> is of Gazebo Classic: {plugin.filename} "
+                    f"({where(plugin.element.place, child.place)}) does not read it "
+                    "and uses its own default",
+                    f"write <{better}>, with {value} as its value",
+                )
+
+
+def started_twice(around: Surroundings) -> Iterator[Problem]:
+    """Report a launch file that starts parts of both."""
+    for launch in around.launches:
+        first: dict[Generation, Place] = {}
+        whats: dict[Generation, str] = {}
+        for start in launch.starts:
+            first.setdefault(start.generation, start.place)
+            whats.setdefault(start.generation, start.what)
+        if len(first) == 2:
+            place, other = first["classic"], first["gz"]
+            yield Problem.at(
+                place,
+                "warning",
+                "gazebo-both",
+                f"this starts a part of Gazebo Classic ({whats['classic']}), and "
+                f"{where(other, place)} one of Gazebo ({whats['gz']}): they do not "
+                "find each other",
+                "start gazebo.launch.py and spawn_entity.py of gazebo_ros for Classic, "
+                "or gz_sim.launch.py and create of ros_gz_sim for Gazebo",
+            )
+
+
+def xacro_py(around: Surroundings) -> Iterator[Problem]:
+    """Report xacro.py, which only ROS 1 has, in a package of ROS 2."""
+    manifest = around.files.text("package.xml") or ""
+    build = _BUILD_TYPE.search(manifest)
+    if build is None:
+        return
+    line = manifest.count("\n", 0, build.start()) + 1
+    other = Place(around.files.shown("package.xml"), line)
+    for launch in around.launches:
+        for node in ast.walk(launch.tree):
+            text = node.value if isinstance(node, ast.Constant) else None
+            if isinstance(text, str) and "\n" not in text and _XACRO_PY.search(text):
+                place = launch.place(node) if isinstance(node, ast.expr) else other
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-xacro-py",
+                    f"xacro.py is of ROS 1, but this package is for ROS 2 "
+                    f"({build[1]} in {where(other, place)}): it does not exist there",
+                    "write xacro",
+                )

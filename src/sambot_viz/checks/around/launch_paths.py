@@ -1,0 +1,160 @@
+"""Files, worlds and parameter files that launch files name."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import PurePosixPath
+
+from sambot_viz.checks.around.gazebo import Fact
+from sambot_viz.checks.around.launch import LaunchFile, LaunchNode
+from sambot_viz.checks.around.launch_values import keyword
+from sambot_viz.checks.around.parameters import YamlFile
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.errors import Place, Problem, nearest
+
+_OWN_NAMES = {
+    "ekf_node": "ekf_filter_node",
+    "ukf_node": "ukf_filter_node",
+    "navsat_transform_node": "navsat_transform",
+    "async_slam_toolbox_node": "slam_toolbox",
+    "sync_slam_toolbox_node": "slam_toolbox",
+    "ros2_control_node": "controller_manager",
+}
+"""Programs whose nodes have other names than the programs."""
+
+_WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
+_WORLDS = (".sdf", ".world", ".wbt")
+_SPAWNS = "gz_spawn_model.launch.py"
+
+
+def missing_files(around: Surroundings) -> Iterator[Problem]:
+    """Report files that a launch file names otherwise than they are called."""
+    paths = frozenset(around.files.paths)
+    for launch in around.launches:
+        known: set[str] = set()
+        for fact in launch.paths:
+            below = around.own(fact.value)
+            if below is None or below in known or "*" in below:
+                continue
+            known.add(below)
+            near = _near(below, paths) if _is_missing(below, paths, around) else None
+            if near is not None:
+                yield Problem.at(
+                    fact.place,
+                    "warning",
+                    "launch-file-missing",
+                    f"the launch file uses {below}, which the package does not have; "
+                    f"it has {near}",
+                    f"write {near}",
+                )
+
+
+def _is_missing(below: str, paths: frozenset[str], around: Surroundings) -> bool:
+    folder, slash, _ = below.partition("/")
+    if not slash or below in paths or any(p.startswith(f"{below}/") for p in paths):
+        return False
+    if (around.files.folder / below).exists():
+        # Such as a mesh or a test, which are not listed.
+        return False
+    if any(path.startswith(f"{folder}/") for path in paths):
+        return True
+    # The build may give a folder another name.
+    build = (around.files.text(name) for name in ("CMakeLists.txt", "setup.py"))
+    return not any(text is not None and folder in text for text in build)
+
+
+def _near(below: str, paths: frozenset[str]) -> str | None:
+    """The file that is probably meant: of the same kind, with a similar name."""
+    wanted = PurePosixPath(below)
+    if not wanted.suffix:
+        return None
+    alike = [p for p in paths if "/" in p and p.endswith(wanted.suffix)]
+    same = [p for p in alike if PurePosixPath(p).name == wanted.name]
+    if len(same) == 1:
+        return same[0]
+    beside = [p for p in alike if PurePosixPath(p).parent == wanted.parent]
+    if len(beside) == 1:
+        return beside[0]
+    return nearest(below, sorted(beside), likeness=0.75)
+
+
+def unread_parameters(around: Surroundings) -> Iterator[Problem]:
+    """Report parameter files in which a node does not find its name."""
+    files = {file.path: file for file in around.yaml_files}
+    for launch in around.launches:
+        for node in launch.nodes:
+            name = node.name or _OWN_NAMES.get(node.executable)
+            for given in node.files if node.complete and name else ():
+                file = files.get(around.own(given.value) or "")
+                if file is not None and name and not _has(file, name):
+                    yield _unread(node, name, given, file)
+
+
+def _has(file: YamlFile, name: str) -> bool:
+    parts = {part for key in file.nodes for part in key.split("/")}
+    return not parts or name in parts or any("*" in part for part in parts)
+
+
+def _unread(node: LaunchNode, name: str, given: Fact, file: YamlFile) -> Problem:
+    near = nearest(name, file.nodes, likeness=0.0) or next(iter(file.nodes))
+    place = file.nodes[near]
+    bare = near.rpartition("/")[2]
+    return Problem.at(
+        given.place,
+        "warning",
+        "launch-parameters-unread",
+        f"the node {name} reads none of these parameters: they are for {near} "
+        f"({where(place, given.place)})",
+        f"write name='{bare}' for the node, or {name}: in the file",
+    )
+
+
+def world_names(around: Surroundings) -> Iterator[Problem]:
+    """Report a robot that is put into a world with another name than the file says."""
+    for launch in around.launches:
+        worlds = dict(_worlds(launch, around))
+        named = list(_spawned_into(launch)) if len(worlds) == 1 else []
+        for fact in named:
+            (name, place), *_ = worlds.items()
+            if fact.value != name:
+                yield Problem.at(
+                    fact.place,
+                    "warning",
+                    "launch-world-name",
+                    f"the robot is put into the world {fact.value}, but the world is "
+                    f"called {name} ({where(place, fact.place)}): it does not appear",
+                    f"write {name}",
+                )
+
+
+def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Place]]:
+    for fact in launch.paths:
+        below = around.own(fact.value) or ""
+        text = around.files.text(below) if below.endswith(_WORLDS) else None
+        for match in _WORLD.finditer(text or ""):
+            line = (text or "").count("\n", 0, match.start()) + 1
+            yield match[1], Place(around.files.shown(below), line)
+
+
+def _spawned_into(launch: LaunchFile) -> Iterator[Fact]:
+    """The names of worlds that are given to what puts a robot into one."""
+    for call in launch.actions:
+        source = launch.values.text(keyword(call, "launch_description_source", 0))
+        if call_name(call.func) == "IncludeLaunchDescription":
+            if source is not None and source.endswith(_SPAWNS):
+                yield from _world_argument(launch, keyword(call, "launch_arguments"))
+
+
+def _world_argument(launch: LaunchFile, given: ast.expr | None) -> Iterator[Fact]:
+    inner = given.func if isinstance(given, ast.Call) else None
+    table = inner.value if isinstance(inner, ast.Attribute) else given
+    if not isinstance(table, ast.Dict):
+        return
+    for key, value in zip(table.keys, table.values, strict=True):
+        text = launch.values.text(value)
+        if isinstance(key, ast.Constant) and key.value == "world" and text:
+            yield Fact(text, launch.place(value))

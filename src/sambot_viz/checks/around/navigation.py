@@ -1,0 +1,121 @@
+"""The nodes of robot_localization and Nav2 that a package has parameters for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from sambot_viz.checks.around.gazebo import Fact, Plugin
+from sambot_viz.checks.around.parameters import Parameter
+from sambot_viz.checks.around.surroundings import Surroundings
+
+_INPUT = re.compile(r"(odom|imu|pose|twist)\d+")
+_OPEN = re.compile(r"[$<{}]")
+
+
+@dataclass(frozen=True, slots=True)
+class StateFilter:
+    """An ekf_node or ukf_node with its parameters.
+
+    Attributes:
+        node: its name.
+        given: its parameters, by name.
+        started: a launch file of the package always starts it.
+    """
+
+    node: str
+    given: Mapping[str, Parameter]
+    started: bool
+
+    def frame(self, name: str, default: str) -> str:
+        """Return a frame, or what robot_localization takes without it."""
+        parameter = self.given.get(name)
+        return bare_frame(parameter.fact.value) if parameter else default
+
+    @property
+    def odom_frame(self) -> str:
+        """The frame of odometry."""
+        return self.frame("odom_frame", "odom")
+
+    @property
+    def map_frame(self) -> str:
+        """The frame of the map."""
+        return self.frame("map_frame", "map")
+
+    @property
+    def world_frame(self) -> str:
+        """The frame that it estimates the pose in."""
+        return self.frame("world_frame", self.odom_frame)
+
+    @property
+    def moves_base(self) -> bool:
+        """True when it publishes the transform to base_link_frame."""
+        publishes = self.given.get("publish_tf")
+        told_not = publishes is not None and publishes.flag is False
+        return not told_not and self.world_frame != self.map_frame
+
+    def inputs(self, kind: str) -> Iterator[Parameter]:
+        """Give the topics that it reads: kind is "odom", "imu", "pose" or "twist"."""
+        for name, parameter in self.given.items():
+            match = _INPUT.fullmatch(name)
+            if match is not None and match[1] == kind:
+                yield parameter
+
+    def fuses(self, parameter: Parameter, values: range) -> bool:
+        """Tell whether one of these values of an input is used, by their numbers."""
+        config = self.given.get(f"{parameter.name}_config")
+        used = config.values if config else ()
+        return any(used[i].lower() == "true" for i in values if i < len(used))
+
+
+def filters(around: Surroundings) -> list[StateFilter]:
+    """Return the filters of robot_localization that have parameters in the package."""
+    nodes = [node for launch in around.launches for node in launch.nodes]
+    named = {
+        node.name or "ekf_filter_node"
+        for node in nodes
+        if node.executable in ("ekf_node", "ukf_node")
+    }
+    found: list[StateFilter] = []
+    for file in around.yaml_files:
+        for node in file.nodes:
+            given = file.of(node)
+            if any(_INPUT.fullmatch(name) for name in given):
+                started = node.rpartition("/")[2] in named
+                found.append(StateFilter(node, given, started))
+    return found
+
+
+def bare_frame(name: str) -> str:
+    """Return a frame without the slash that ROS 1 allowed before it."""
+    return name.strip().lstrip("/")
+
+
+def is_open(name: str) -> bool:
+    """True for a name with a substitution, which is not the final one."""
+    return not name or _OPEN.search(name) is not None
+
+
+_ODOM_TF = ("publish_odom_tf", "publishOdomTF", "publishTf")
+
+
+def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
+    """Return where a drive is told to publish the transform of the base to ROS.
+
+    A drive of Gazebo does when a bridge carries its tf_topic.
+    """
+    if plugin.generation == "classic":
+        told = plugin.one(*_ODOM_TF)
+        return told if told and told.value.lower() in ("true", "1") else None
+    # The bridge imports this module.
+    from sambot_viz.checks.around.bridges import bare, entries
+
+    topic = plugin.one("tf_topic")
+    if topic is None:
+        return None
+    for entry in entries(around):
+        if bare(entry.gz.value) == bare(topic.value) and entry.kind == "Pose_V":
+            if bare(entry.ros.value) == "tf" and entry.direction.value != "ROS_TO_GZ":
+                return entry.ros
+    return None

@@ -1,0 +1,154 @@
+"""The parameters in the YAML files of a package, each with its line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import yaml
+
+from sambot_viz.checks.around.gazebo import Fact
+from sambot_viz.errors import Place
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_MOST_NODES = 20_000
+_DEEPEST = 20
+_TRUE, _FALSE = frozenset({"true", "yes", "on"}), frozenset({"false", "no", "off"})
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of a node.
+
+    Attributes:
+        node: the keys above ros__parameters, joined with slashes.
+        name: its name, with dots.
+        values: the text of the value, or of each item of a list.
+        place: its line.
+    """
+
+    node: str
+    name: str
+    values: tuple[str, ...]
+    place: Place
+
+    @property
+    def fact(self) -> Fact:
+        """The value, as a name with its place."""
+        return Fact(self.values[0] if self.values else "", self.place)
+
+    @property
+    def flag(self) -> bool | None:
+        """The value as true or false; None when it is neither."""
+        return flag(self.fact.value)
+
+
+def flag(text: str) -> bool | None:
+    """Read true or false as YAML and launch files write it; None for other text."""
+    low = text.strip().lower()
+    return True if low in _TRUE else False if low in _FALSE else None
+
+
+@dataclass(frozen=True)
+class YamlFile:
+    """A YAML file.
+
+    Attributes:
+        path: relative to the package.
+        shown: the path as the user would write it.
+        root: its first node, not expanded: an alias is the same node again.
+    """
+
+    path: str
+    shown: str
+    root: yaml.Node
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """All parameters below ros__parameters, in the order of the file."""
+        return tuple(self._parameters(self.root, (), _Budget()))
+
+    @cached_property
+    def nodes(self) -> dict[str, Place]:
+        """The names of nodes that have parameters here, and the lines of these."""
+        found: dict[str, Place] = {}
+        for parameter in self.parameters:
+            found.setdefault(parameter.node, parameter.place)
+        return found
+
+    def of(self, node: str) -> dict[str, Parameter]:
+        """Return the parameters of a node, by their names."""
+        return {p.name: p for p in self.parameters if p.node == node}
+
+    def _parameters(
+        self, node: yaml.Node, keys: tuple[str, ...], budget: _Budget
+    ) -> Iterator[Parameter]:
+        for key, value in pairs(node):
+            if not budget.spend() or len(keys) > _DEEPEST:
+                return
+            if key.value == "ros__parameters":
+                yield from self._below(value, "/".join(keys), (), budget)
+            else:
+                yield from self._parameters(value, (*keys, key.value), budget)
+
+    def _below(
+        self, node: yaml.Node, owner: str, keys: tuple[str, ...], budget: _Budget
+    ) -> Iterator[Parameter]:
+        for key, value in pairs(node):
+            if not budget.spend() or len(keys) > _DEEPEST:
+                return
+            names = (*keys, key.value)
+            if isinstance(value, yaml.MappingNode):
+                yield from self._below(value, owner, names, budget)
+            else:
+                place = Place(self.shown, key.start_mark.line + 1)
+                yield Parameter(owner, ".".join(names), _texts(value), place)
+
+    def entries(self) -> Iterator[dict[str, Fact]]:
+        """Give the mappings of a list, such as those of a bridge, key → value."""
+        if not isinstance(self.root, yaml.SequenceNode):
+            return
+        items: list[yaml.Node] = self.root.value
+        for item in items[:1000]:
+            yield {
+                key.value: Fact(value.value, Place(self.shown, key.start_mark.line + 1))
+                for key, value in pairs(item)
+                if isinstance(value, yaml.ScalarNode)
+            }
+
+
+class _Budget:
+    """Limits how many nodes are visited: aliases can make a small file endless."""
+
+    def __init__(self) -> None:
+        self._left = _MOST_NODES
+
+    def spend(self) -> bool:
+        self._left -= 1
+        return self._left >= 0
+
+
+def pairs(node: yaml.Node) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
+    """Give the keys and values of a mapping; nothing for other nodes."""
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            if isinstance(key, yaml.ScalarNode):
+                yield key, value
+
+
+def _texts(node: yaml.Node) -> tuple[str, ...]:
+    if isinstance(node, yaml.ScalarNode):
+        return (node.value,)
+    items: list[yaml.Node] = node.value if isinstance(node, yaml.SequenceNode) else []
+    return tuple(item.value for item in items if isinstance(item, yaml.ScalarNode))
+
+
+def read_yaml(text: str, path: str, shown: str) -> YamlFile | None:
+    """Read a YAML file; None when it is empty or not YAML, which ROS itself reports."""
+    try:
+        root: yaml.Node | None = _LOADER(text).get_single_node()
+    except (yaml.YAMLError, RecursionError):
+        return None
+    return None if root is None else YamlFile(path, shown, root)

@@ -1,0 +1,72 @@
+"""The rules about a model and the files around it, in the order in which they run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from sambot_viz.checks.around.bridges import (
+    bridge_directions,
+    bridge_topics,
+    bridge_types,
+)
+from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.drive import (
+    unknown_joints,
+    unknown_references,
+    wheel_sizes,
+)
+from sambot_viz.checks.around.footprint import footprints
+from sambot_viz.checks.around.frames import (
+    moved_twice,
+    odometry_frames,
+    two_parents,
+    unknown_frames,
+    world_frames,
+)
+from sambot_viz.checks.around.generations import (
+    elements_of_the_other,
+    plugins_of_the_other,
+    started_twice,
+    xacro_py,
+)
+from sambot_viz.checks.around.installed import not_installed
+from sambot_viz.checks.around.launch_paths import (
+    missing_files,
+    unread_parameters,
+    world_names,
+)
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.topics import unknown_topics
+from sambot_viz.errors import Problem
+from sambot_viz.robot.model import Robot
+
+IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
+    unknown_joints,
+    unknown_references,
+    wheel_sizes,
+)
+"""The rules that need only the model."""
+
+IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
+    unknown_frames,
+    two_parents,
+    moved_twice,
+    odometry_frames,
+    world_frames,
+    unknown_topics,
+    bridge_types,
+    bridge_directions,
+    bridge_topics,
+    clock_not_bridged,
+    different_clocks,
+    plugins_of_the_other,
+    elements_of_the_other,
+    started_twice,
+    xacro_py,
+    missing_files,
+    unread_parameters,
+    world_names,
+    not_installed,
+    footprints,
+)
+"""The rules that need the files around it."""

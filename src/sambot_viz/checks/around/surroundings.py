@@ -1,0 +1,110 @@
+"""A model with the files around it, each read once when a rule asks for it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from sambot_viz.checks.around.gazebo import Plugin, plugins
+from sambot_viz.checks.around.launch import LaunchFile, read_launch
+from sambot_viz.checks.around.launch_values import SHARE
+from sambot_viz.checks.around.package_files import PackageFiles
+from sambot_viz.checks.around.parameters import Parameter, YamlFile, read_yaml
+from sambot_viz.robot.model import Robot
+
+_SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
+_MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")
+_YAML = (".yaml", ".yml")
+_WITHOUT_PARAMETERS = re.compile(r"(^|/)(maps?|meshes)/")
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """A robot, and the package that its model is in.
+
+    Attributes:
+        robot: the robot.
+        files: the files of its package.
+    """
+
+    robot: Robot
+    files: PackageFiles
+
+    @cached_property
+    def plugins(self) -> tuple[Plugin, ...]:
+        """The Gazebo plugins of the model."""
+        return tuple(plugins(self.robot.gazebo))
+
+    @cached_property
+    def launches(self) -> tuple[LaunchFile, ...]:
+        """The Python launch files."""
+        return tuple(self._launches())
+
+    def _launches(self) -> Iterator[LaunchFile]:
+        for path in self.files.ending("launch.py"):
+            text = self.files.text(path)
+            read = read_launch(text, path, self.files.shown(path)) if text else None
+            if read is not None:
+                yield read
+
+    @cached_property
+    def yaml_files(self) -> tuple[YamlFile, ...]:
+        """The YAML files."""
+        return tuple(self._yaml_files())
+
+    def _yaml_files(self) -> Iterator[YamlFile]:
+        for path in self.files.ending(*_YAML):
+            text = None if _WITHOUT_PARAMETERS.search(path) else self.files.text(path)
+            read = read_yaml(text, path, self.files.shown(path)) if text else None
+            if read is not None:
+                yield read
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """All parameters in all YAML files."""
+        return tuple(p for file in self.yaml_files for p in file.parameters)
+
+    @cached_property
+    def namespaced(self) -> bool:
+        """True when launch files or the model put names below others.
+
+        Names of topics and frames in the files are then not the final ones.
+        """
+        marks = {"frame_prefix", "namespace", "tf_prefix"}
+        return any(
+            not marks.isdisjoint(launch.strings)
+            or any(
+                "namespace" in (k.arg or "") for c in launch.calls for k in c.keywords
+            )
+            for launch in self.launches
+        )
+
+    def own(self, path: str) -> str | None:
+        """Return a path below the share folder of this package; None for others."""
+        head = f"{SHARE}{self.files.name}/"
+        below = path.removeprefix(head).strip("/")
+        return below if path.startswith(head) and below else None
+
+    def said_elsewhere(self, name: str) -> bool:
+        """Tell whether a launch file, a program or another model says this name.
+
+        A node or a robot that is not looked at may then have it.
+        """
+        bare = name.strip("/")
+        if any(
+            bare in (word.strip("/") for word in text.split())
+            for launch in self.launches
+            for text in launch.strings
+        ):
+            return True
+        quoted = re.compile(rf"[\"'>/ ]{re.escape(bare)}[\"'< ]")
+        own = {file.name for file in self.robot.files}
+        for path in self.files.ending(*_SOURCES, *_MODELS):
+            other = not path.endswith(_MODELS) or path.rpartition("/")[2] not in own
+            if other and not path.endswith("launch.py"):
+                text = self.files.text(path)
+                if text is not None and quoted.search(text):
+                    return True
+        return False

@@ -1,0 +1,158 @@
+"""Topics that robot_localization and Nav2 read, against what is published in ROS."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from sambot_viz.checks.around.bridges import bare, entries
+from sambot_viz.checks.around.gazebo import Fact, Plugin
+from sambot_viz.checks.around.navigation import filters, is_open
+from sambot_viz.checks.around.parameters import Parameter
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Problem, nearest
+
+_ODOMETRY, _IMU, _SCAN = "Odometry", "Imu", "LaserScan"
+_FILTERED = "odometry/filtered"
+_CLASSIC: dict[str, tuple[str, str]] = {
+    "libgazebo_ros_imu_sensor.so": (_IMU, "~/out"),
+    "libgazebo_ros_ray_sensor.so": ("", "~/out"),
+    "libgazebo_ros_diff_drive.so": (_ODOMETRY, "odom"),
+}
+"""Plugin of Gazebo Classic → the type that it publishes, and its own topic.
+
+The type of a ray sensor is in its <output_type>.
+"""
+
+_USED: tuple[tuple[str, str, str], ...] = (
+    ("bt_navigator", "odom_topic", _ODOMETRY),
+    ("controller_server", "odom_topic", _ODOMETRY),
+    ("velocity_smoother", "odom_topic", _ODOMETRY),
+    ("amcl", "scan_topic", _SCAN),
+    ("slam_toolbox", "scan_topic", _SCAN),
+)
+
+
+class _Published(NamedTuple):
+    """A topic in ROS: its name with its place, its type, and who publishes it."""
+
+    topic: Fact
+    kind: str
+    what: str
+
+
+class _Used(NamedTuple):
+    """A topic that a node reads, and its type."""
+
+    parameter: Parameter
+    kind: str
+
+
+def unknown_topics(around: Surroundings) -> Iterator[Problem]:
+    """Report topics that are read under another name than they are published."""
+    published = list(_published(around))
+    if around.namespaced:
+        return
+    used = list(_used(around))
+    for parameter, kind in used:
+        name = bare(parameter.fact.value)
+        known = {bare(p.topic.value): p for p in published if p.kind == kind}
+        if not known or name in known or is_open(name) or name == _FILTERED:
+            continue
+        others = [u for u in used if _same(u.parameter, parameter)]
+        if any(bare(u.parameter.fact.value) in known for u in others):
+            # Another file fits this simulation; this one is for another robot.
+            continue
+        if around.said_elsewhere(name) or _of_a_node(around, name):
+            continue
+        near = _meant(name, known)
+        if near is None:
+            continue
+        source, place = known[near], parameter.place
+        yield Problem.at(
+            place,
+            "warning",
+            "topic-unknown",
+            f"{parameter.node} reads {parameter.fact.value}, but {source.what} "
+            f"publishes this {kind} as {source.topic.value} "
+            f"({where(source.topic.place, place)})",
+            f"write {source.topic.value}",
+        )
+
+
+def _of_a_node(around: Surroundings, topic: str) -> bool:
+    """True for a topic below the name of a node or controller of the package."""
+    owner = topic.rpartition("/")[0]
+    nodes = {
+        part for file in around.yaml_files for n in file.nodes for part in n.split("/")
+    }
+    return bool(owner) and (owner in nodes or around.said_elsewhere(owner))
+
+
+def _same(one: Parameter, other: Parameter) -> bool:
+    """The same setting of the same node in another file."""
+    return (one.node, one.name) == (other.node, other.name) and one is not other
+
+
+def _meant(name: str, known: dict[str, _Published]) -> str | None:
+    """The topic that is meant: the same below another name, or a similar one."""
+    last = name.rpartition("/")[2]
+    same = [k for k in known if k.rpartition("/")[2] == last]
+    return same[0] if same else nearest(name, known)
+
+
+def _used(around: Surroundings) -> Iterator[_Used]:
+    for one in filters(around):
+        if one.started:
+            for kind, message in (("odom", _ODOMETRY), ("imu", _IMU)):
+                for parameter in one.inputs(kind):
+                    yield _Used(parameter, message)
+    kinds = {
+        (p.node, p.name.removesuffix(".data_type")): p.fact.value
+        for p in around.parameters
+        if p.name.endswith(".data_type")
+    }
+    for parameter in around.parameters:
+        for node, name, kind in _USED:
+            if parameter.name == name and node in parameter.node.split("/"):
+                yield _Used(parameter, kind)
+        if parameter.name.endswith(".topic"):
+            source = (parameter.node, parameter.name.removesuffix(".topic"))
+            if kinds.get(source) == _SCAN:
+                yield _Used(parameter, _SCAN)
+
+
+def _published(around: Surroundings) -> Iterator[_Published]:
+    for entry in entries(around):
+        if entry.direction.value != "ROS_TO_GZ":
+            kind = entry.ros_type.value.rpartition("/")[2]
+            yield _Published(entry.ros, kind, "the bridge")
+    for plugin in around.plugins:
+        yield from _of_classic(plugin)
+
+
+def _of_classic(plugin: Plugin) -> Iterator[_Published]:
+    kind, topic = _CLASSIC.get(plugin.filename, ("", ""))
+    output = plugin.one("output_type")
+    if output is not None:
+        kind = output.value.rpartition("/")[2]
+    if not kind or not topic:
+        return
+    ros = plugin.element.find("ros")
+    place, namespace = plugin.element.place, ""
+    for child in ros.children if ros is not None else ():
+        text = child.text.strip()
+        old, becomes, new = text.partition(":=")
+        if child.tag == "remap":
+            old, becomes, new = child.get("from") or "", ":=", child.get("to") or ""
+        if child.tag == "namespace":
+            namespace, place = bare(text), child.place
+        elif becomes and old in (topic, topic.removeprefix("~/")):
+            topic, place = new, child.place
+    name = plugin.element.get("name") or ""
+    topic = topic.replace("~", name)
+    whole = topic if topic.startswith("/") or not namespace else f"{namespace}/{topic}"
+    if not is_open(whole):
+        fact = Fact(f"/{bare(whole)}", place)
+        yield _Published(fact, kind, f"the plugin {plugin.filename}")

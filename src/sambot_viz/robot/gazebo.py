@@ -1,0 +1,56 @@
+"""The parts of a model that are for Gazebo and ros2_control, which ROS does not draw.
+
+Rules compare the names in them with the links and joints of the robot.
+"""
+
+from __future__ import annotations
+
+from sambot_viz.robot.xml.element import Element
+
+_DEEPEST = 40
+_OUTER = frozenset({"robot", "model", "world"})
+
+
+def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
+    """Copy the <gazebo> and <ros2_control> elements of a model.
+
+    Plugins and sensors of an SDF model come in the form that a URDF gives them: a
+    <gazebo> around each, whose `reference` names the link of a sensor.
+
+    Args:
+        document: the root element, expanded by xacro.
+        depth: how deep in another document that element is.
+
+    Returns:
+        Elements without parents, so that the rest of the document is not kept.
+    """
+    found: list[Element] = []
+    for child in document.children:
+        if child.tag in ("gazebo", "ros2_control"):
+            found.append(_copy(child))
+        elif child.tag == "plugin":
+            found.append(_wrapped(child))
+        elif child.tag in _OUTER and depth < _DEEPEST:
+            found += gazebo_parts(child, depth + 1)
+        elif child.tag == "link":
+            found += (_wrapped(s, child) for s in child.find_all("sensor"))
+    return tuple(found)
+
+
+def _wrapped(element: Element, link: Element | None = None) -> Element:
+    """Put a part of an SDF model into the <gazebo> that a URDF has around it."""
+    attributes = {} if link is None else {"reference": link.get("name") or ""}
+    return Element("gazebo", attributes, element.place, [_copy(element)])
+
+
+def _copy(element: Element, depth: int = 0) -> Element:
+    children = element.children if depth < _DEEPEST else []
+    copied = [_copy(child, depth + 1) for child in children]
+    return Element(
+        element.tag,
+        dict(element.attributes),
+        element.place,
+        copied,
+        element.text.strip(),
+        call=element.call,
+    )

@@ -1,0 +1,321 @@
+"""What is not certain is not reported, and no file can do harm."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+MODEL = "urdf/cart.urdf.xacro"
+LAUNCH = "launch/display.launch.py"
+EKF = "config/ekf.yaml"
+NAV2 = "config/nav2_params.yaml"
+BRIDGE = "config/bridge_config.yaml"
+
+Copied = Callable[[str], Path]
+
+
+def edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+def codes(package: Path, trusted: bool = True) -> list[str]:
+    return [p.code for p in check(package / MODEL, trusted=trusted)]
+
+
+def test_a_frame_that_a_launch_file_publishes_is_known(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / NAV2, "robot_base_frame: base_link", "robot_base_frame: cart_base")
+    assert codes(package) == ["frame-unknown"] * 3
+    edit(
+        package / LAUNCH,
+        "            spawn,",
+        '            spawn,\n            Node(package="tf2_ros", '
+        'executable="static_transform_publisher", '
+        'arguments=["0", "0", "0", "0", "0", "0", "base_link", "cart_base"]),',
+    )
+    assert codes(package) == []
+
+
+def test_a_topic_that_a_program_of_the_package_publishes_is_known(
+    copied: Copied,
+) -> None:
+    package = copied("gz")
+    edit(package / EKF, "odom0: demo/odom", "odom0: wheel/odom")
+    assert codes(package) == ["topic-unknown"]
+    (package / "src").mkdir()
+    (package / "src" / "driver.cpp").write_text('advertise("wheel/odom");\n')
+    assert codes(package) == []
+
+
+def test_the_topic_of_a_controller_with_parameters_is_known(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / EKF, "odom0: demo/odom", "odom0: diff_cont/odom")
+    (package / "config" / "controllers.yaml").write_text(
+        "diff_cont:\n  ros__parameters:\n    publish_rate: 50.0\n"
+    )
+    assert codes(package) == []
+
+
+def test_below_a_namespace_names_are_not_the_final_ones(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / EKF, "base_link_frame: base_link", "base_link_frame: cart1/base")
+    edit(package / EKF, "imu0: demo/imu", "imu0: imu")
+    assert codes(package) == ["topic-unknown"]
+    edit(
+        package / LAUNCH,
+        'executable="ekf_node",',
+        'executable="ekf_node",\n        namespace="cart1",',
+    )
+    assert codes(package) == []
+
+
+def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
+    package = copied("gz")
+    classic = 'Node(package="gazebo_ros", executable="spawn_entity.py"'
+    edit(package / LAUNCH, "            spawn,", f"            spawn,\n    {classic}),")
+    assert codes(package) == ["gazebo-both"]
+    edit(
+        package / LAUNCH,
+        classic,
+        f'{classic}, condition=IfCondition(LaunchConfiguration("classic"))',
+    )
+    assert codes(package) == []
+
+
+def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')
+    assert codes(package) == ["launch-parameters-unread"]
+    edit(package / LAUNCH, "            robot_localization,\n", "")
+    assert codes(package) == []
+
+
+def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None:
+    package = copied("gz")
+    (package / BRIDGE).unlink()
+    topics = [
+        "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock",
+        "/demo/imu@sensor_msgs/msg/Imu[gz.msgs.IMU",
+        "/demo/odom@nav_msgs/msg/Odometry[gz.msgs.Odometry",
+        "/demo/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twist",
+        "/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan",
+    ]
+    launch = (package / LAUNCH).read_text()
+    start = launch.index("    bridge = RosGzBridge(")
+    end = launch.index("    spawn = ")
+    bridge = (
+        '    bridge = Node(package="ros_gz_bridge", executable="parameter_bridge",\n'
+        f"        arguments={topics})\n"
+    )
+    (package / LAUNCH).write_text(launch[:start] + bridge + launch[end:])
+    assert codes(package) == []
+    edit(package / LAUNCH, "/scan@", "/laser/scan@")
+    assert codes(package) == ["topic-unknown"] * 2 + ["bridge-topic"]
+    edit(package / LAUNCH, "/laser/scan@", "/scan@")
+    edit(package / LAUNCH, "'/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock', ", "")
+    found = check(package / MODEL)
+    assert [p.code for p in found] == ["clock-not-bridged"]
+    assert found[0].hint == f"add '{topics[0]}' to the arguments of parameter_bridge"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "foreach(d urdf launch)\ninstall(DIRECTORY ${d} DESTINATION share/x)\n"
+        "endforeach()",
+        "install(DIRECTORY . DESTINATION share/${PROJECT_NAME})",
+        "ament_auto_package(INSTALL_TO_SHARE urdf launch rviz config world)",
+        "install(DIRECTORY urdf launch rviz config world\n  DESTINATION "
+        "share/cart_description\n"
+        '  PATTERN "*.orig" EXCLUDE)',
+        "install(DIRECTORY urdf launch rviz DESTINATION share/cart_description)\n"
+        "install(FILES config/ekf.yaml DESTINATION share/${PROJECT_NAME}/config)\n"
+        'install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/world" DESTINATION\n'
+        "  ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})",
+    ],
+)
+def test_a_folder_may_be_installed_in_many_ways(text: str, copied: Copied) -> None:
+    package = copied("gz")
+    ending = "" if "ament_auto" in text else "ament_package()\n"
+    (package / "CMakeLists.txt").write_text(f"project(x)\n{text}\n{ending}")
+    assert codes(package) == []
+
+
+def test_a_python_package_installs_with_setup_py(copied: Copied) -> None:
+    package = copied("classic")
+    (package / "CMakeLists.txt").unlink()
+    (package / "setup.py").write_text(
+        "import os\nfrom glob import glob\nfrom setuptools import setup\n"
+        "package_name = 'cart_description'\n"
+        "setup(\n"
+        "    name=package_name,\n"
+        "    data_files=[\n"
+        "        (os.path.join('share', package_name, 'launch'), glob('launch/*')),\n"
+        "        (os.path.join('share', package_name, 'urdf'), glob('urdf/*')),\n"
+        "        (os.path.join('share', package_name, 'rviz'), glob('rviz/*')),\n"
+        "    ],\n)\n"
+    )
+    found = check(package / MODEL)
+    assert [p.code for p in found] == ["folder-not-installed"]
+    assert found[0].file == str(package / "setup.py")
+    assert found[0].line == 7
+    added = found[0].hint.removeprefix("add ").removesuffix(" to data_files")
+    edit(package / "setup.py", "    ],\n)", f"        {added},\n    ],\n)")
+    assert codes(package) == []
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"\xff\xfe\x00a",
+        b"a: [",
+        b"[" * 100_000,
+        b"- " * 100_000,
+        b"ekf: &e {ros__parameters: &p {odom0: *e, x: *p}}",
+        b"a0: &a0 {x: 1}\n"
+        + b"".join(
+            b"a%d: &a%d {p: *a%d, q: *a%d, r: *a%d}\n" % (n, n, n - 1, n - 1, n - 1)
+            for n in range(1, 40)
+        )
+        + b"n: {ros__parameters: *a39}\n",
+        b"n:\n  ros__parameters:\n    footprint: '[[nan, inf], [1, 2], [1e999, 3]]'\n",
+        b"x" * 1_000_000,
+    ],
+    ids=["empty", "utf16", "open", "deep", "deeper", "ring", "bomb", "nan", "large"],
+)
+@pytest.mark.parametrize("name", [EKF, NAV2, BRIDGE])
+def test_a_yaml_file_that_is_none_does_no_harm(
+    name: str, data: bytes, copied: Copied
+) -> None:
+    package = copied("gz")
+    (package / name).write_bytes(data)
+    begin = time.process_time()
+    assert set(codes(package)) <= {"clock-not-bridged", "launch-parameters-unread"}
+    assert time.process_time() - begin < 3
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\0",
+        "def f(:",
+        "x = " + "(" * 5000,
+        "\n".join(f"a{n} = [a{n + 1}, a{n + 1}]" for n in range(200)) + "\na200 = 'x'",
+        "a = b\nb = a\nos.path.join(a, b)",
+        "Node(package=1, parameters=[*x, **y], arguments=f())",
+    ],
+    ids=["nul", "syntax", "deep", "bomb", "ring", "odd"],
+)
+@pytest.mark.parametrize("name", [LAUNCH, "setup.py"])
+def test_a_python_file_that_is_none_does_no_harm(
+    name: str, text: str, copied: Copied
+) -> None:
+    package = copied("classic")
+    (package / name).write_text(text)
+    begin = time.process_time()
+    assert codes(package) == []
+    assert time.process_time() - begin < 3
+
+
+def test_links_out_of_the_package_are_not_followed_for_an_untrusted_model(
+    copied: Copied, tmp_path: Path
+) -> None:
+    package = copied("gz")
+    outside = tmp_path / "outside.yaml"
+    edit(package / NAV2, 'base_frame_id: "base_footprint"', "base_frame_id: secret")
+    (package / NAV2).rename(outside)
+    (package / NAV2).symlink_to(outside)
+    assert codes(package) == ["frame-unknown"]
+    assert codes(package, trusted=False) == []
+
+
+def test_another_package_in_a_folder_of_this_one_is_not_read(copied: Copied) -> None:
+    package = copied("gz")
+    inner = package / "other"
+    inner.mkdir()
+    (inner / "package.xml").write_text("<package><name>other</name></package>")
+    (inner / "nav2_params.yaml").write_text(
+        "amcl:\n  ros__parameters:\n    base_frame_id: nowhere\n"
+    )
+    assert codes(package) == []
+
+
+def test_a_model_outside_of_any_package_is_compared_with_nothing(
+    copied: Copied, tmp_path: Path
+) -> None:
+    package = copied("gz")
+    edit(package / EKF, "base_link_frame: base_link", "base_link_frame: nowhere")
+    assert codes(package) == ["frame-unknown"]
+    (package / "package.xml").unlink()
+    assert codes(package) == []
+
+
+def test_the_shape_of_an_arm_does_not_count_for_the_footprint(copied: Copied) -> None:
+    package = copied("gz")
+    arm = (
+        '<link name="arm"><collision><origin xyz="0.5 0 0"/><geometry>'
+        '<box size="1 0.1 0.1"/></geometry></collision><inertial><mass value="1"/>'
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>\n'
+        '<joint name="arm_joint" type="{}"><parent link="base_link"/>'
+        '<child link="arm"/>{}</joint>\n</robot>'
+    )
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    edit(package / MODEL, "</robot>", arm.format("revolute", limit))
+    assert codes(package) == []
+    edit(package / MODEL, 'type="revolute"', 'type="fixed"')
+    assert codes(package) == ["footprint-size"] * 2
+
+
+def test_wheels_that_skid_may_have_a_larger_separation(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / MODEL, "separation>0.4<", "separation>0.6<")
+    assert codes(package) == ["drive-wheel-separation"]
+    edit(
+        package / MODEL,
+        "      <left_joint>left_wheel_joint</left_joint>",
+        "      <left_joint>left_wheel_joint</left_joint>\n"
+        "      <left_joint>left_wheel_joint</left_joint>\n"
+        "      <right_joint>right_wheel_joint</right_joint>",
+    )
+    assert codes(package) == []
+
+
+def test_the_robots_of_others_have_only_the_findings_that_are_true(
+    shared: Path,
+) -> None:
+    models = [
+        path
+        for path in sorted((shared / "data" / "robots").rglob("*"))
+        if path.suffix in (".urdf", ".xacro", ".URDF")
+        and b"<plugin" in path.read_bytes()
+    ]
+    assert len(models) > 20
+    wrong = {
+        (path.parent.name, problem.code)
+        for path in models
+        for problem in check(path)
+        if problem.code in NAMES_THAT_MUST_MEET
+    }
+    # Its drive still has the sizes of another robot.
+    assert wrong == {
+        ("alphabot2", "drive-wheel-separation"),
+        ("alphabot2", "drive-wheel-radius"),
+    }
+
+
+NAMES_THAT_MUST_MEET = frozenset(
+    "gazebo-joint gazebo-reference gazebo-generation gazebo-element gazebo-both "
+    "drive-wheel-separation drive-wheel-radius frame-unknown frame-two-parents "
+    "frame-odom ekf-world-frame transform-twice topic-unknown bridge-topic "
+    "bridge-types bridge-direction clock-not-bridged sim-time-off launch-xacro-py "
+    "launch-file-missing launch-parameters-unread launch-world-name "
+    "folder-not-installed footprint-size".split()
+)

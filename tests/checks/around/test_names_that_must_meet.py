@@ -1,0 +1,587 @@
+"""Each mistake in the files around a model is found, named at both places, and fixed.
+
+A small package in the style of the Nav2 guide gets one mistake at a time. The fix is
+what the finding says, and leaves nothing to report.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+MODEL = "urdf/cart.urdf.xacro"
+LAUNCH = "launch/display.launch.py"
+EKF = "config/ekf.yaml"
+NAV2 = "config/nav2_params.yaml"
+BRIDGE = "config/bridge_config.yaml"
+
+Copied = Callable[[str], Path]
+
+Edit = tuple[str, str, str]
+"""File, text, and what is written instead; an empty text means the end of the file."""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake.
+
+    Attributes:
+        code: of the finding.
+        package: the package that gets it: "gz" or "classic".
+        made: the edits that make it.
+        at: the file and the text of the line of the finding, after the edits.
+        other: the file and the text of the second line that the finding names.
+        advice: words of the hint.
+        fixed: the edits that follow the hint.
+        count: so many findings of that code.
+    """
+
+    code: str
+    made: tuple[Edit, ...]
+    at: tuple[str, str]
+    other: tuple[str, str]
+    advice: str
+    fixed: tuple[Edit, ...]
+    package: str = "gz"
+    count: int = 1
+    name: str = field(default="", compare=False)
+
+
+def one(
+    code: str,
+    file: str,
+    old: str,
+    new: str,
+    other: tuple[str, str],
+    advice: str,
+    better: str = "",
+    package: str = "gz",
+    count: int = 1,
+    name: str = "",
+) -> Mistake:
+    """A mistake in one line, whose fix is in the same line; `better` is not `old`."""
+    at = (file, new.strip().splitlines()[-1].strip())
+    fixed = ((file, new, better or old),)
+    return Mistake(
+        code, ((file, old, new),), at, other, advice, fixed, package, count, name
+    )
+
+
+SPLIT = "<wheel_separation>0.4<"
+RADIUS = "<wheel_radius>${wheel_radius}<"
+EKF_BASE = "base_link_frame: base_link"
+
+MISTAKES = [
+    one(
+        "gazebo-joint",
+        MODEL,
+        "<left_joint>left_wheel_joint<",
+        "<left_joint>left_whel_joint<",
+        (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
+        "write left_wheel_joint",
+    ),
+    one(
+        "gazebo-joint",
+        MODEL,
+        "<left_joint>left_wheel_joint<",
+        "<left_joint>imu_joint<",
+        (MODEL, '<joint name="imu_joint" type="fixed">'),
+        'write type="continuous"',
+        name="fixed",
+    ),
+    one(
+        "gazebo-joint",
+        MODEL,
+        "<topic>joint_states</topic>",
+        "<topic>joint_states</topic><joint_name>right_whel_joint</joint_name>",
+        (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
+        "write right_wheel_joint",
+        "<topic>joint_states</topic><joint_name>right_wheel_joint</joint_name>",
+        name="of a joint state publisher",
+    ),
+    one(
+        "gazebo-reference",
+        MODEL,
+        '<gazebo reference="lidar_link">',
+        '<gazebo reference="lidar_lnk">',
+        (MODEL, '<link name="lidar_link"/>'),
+        "write lidar_link",
+    ),
+    one(
+        "drive-wheel-separation",
+        MODEL,
+        SPLIT,
+        "<wheel_separation>0.6<",
+        (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
+        "write 0.36",
+        "<wheel_separation>0.36<",
+    ),
+    one(
+        "drive-wheel-radius",
+        MODEL,
+        RADIUS,
+        "<wheel_radius>0.2<",
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.1",
+        "<wheel_radius>0.1<",
+    ),
+    one(
+        "drive-wheel-radius",
+        MODEL,
+        "<wheel_diameter>0.2<",
+        "<wheel_diameter>0.1<",
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.2",
+        package="classic",
+        name="diameter",
+    ),
+    one(
+        "frame-unknown",
+        EKF,
+        EKF_BASE,
+        "base_link_frame: base_lnk",
+        (MODEL, '<link name="base_link">'),
+        "write base_link",
+    ),
+    one(
+        "frame-unknown",
+        NAV2,
+        'base_frame_id: "base_footprint"',
+        'base_frame_id: "base_footprnt"',
+        (MODEL, '<link name="base_footprint"/>'),
+        "write base_footprint",
+        name="of amcl",
+    ),
+    one(
+        "frame-unknown",
+        MODEL,
+        "<gz_frame_id>lidar_link<",
+        "<gz_frame_id>laser_link<",
+        (MODEL, '<link name="lidar_link"/>'),
+        "write lidar_link",
+        name="of a sensor",
+    ),
+    one(
+        "frame-unknown",
+        MODEL,
+        "<frame_name>lidar_link<",
+        "<frame_name>lidar<",
+        (MODEL, '<link name="lidar_link"/>'),
+        "write lidar_link",
+        package="classic",
+        name="of a plugin",
+    ),
+    one(
+        "frame-unknown",
+        MODEL,
+        "<child_frame_id>base_link<",
+        "<child_frame_id>base_lnk<",
+        (MODEL, '<link name="base_link">'),
+        "write base_link",
+        name="of the drive",
+    ),
+    one(
+        "frame-two-parents",
+        EKF,
+        EKF_BASE,
+        "base_link_frame: base_footprint",
+        (MODEL, '<joint name="base_joint" type="fixed">'),
+        "write base_link",
+    ),
+    one(
+        "frame-odom",
+        NAV2,
+        'odom_frame_id: "odom"',
+        'odom_frame_id: "odometry"',
+        (EKF, "odom_frame: odom"),
+        "write odom",
+    ),
+    one(
+        "frame-odom",
+        NAV2,
+        "      global_frame: odom",
+        "      global_frame: odm",
+        (EKF, "odom_frame: odom"),
+        "write odom",
+        name="of the local costmap",
+    ),
+    one(
+        "frame-odom",
+        MODEL,
+        "<frame_id>odom<",
+        "<frame_id>odometry<",
+        (EKF, "odom_frame: odom"),
+        "write odom",
+        name="of the drive",
+    ),
+    one(
+        "ekf-world-frame",
+        EKF,
+        "world_frame: odom",
+        "world_frame: world",
+        (EKF, "odom_frame: odom"),
+        "write odom",
+    ),
+    Mistake(
+        "transform-twice",
+        (
+            (
+                BRIDGE,
+                "",
+                '\n- ros_topic_name: "/tf"\n  gz_topic_name: "/tf"\n'
+                '  ros_type_name: "tf2_msgs/msg/TFMessage"\n'
+                '  gz_type_name: "gz.msgs.Pose_V"\n  direction: GZ_TO_ROS\n',
+            ),
+        ),
+        (BRIDGE, '- ros_topic_name: "/tf"'),
+        (EKF, "publish_tf: true"),
+        "delete this entry",
+        (
+            (
+                BRIDGE,
+                '\n- ros_topic_name: "/tf"\n  gz_topic_name: "/tf"\n'
+                '  ros_type_name: "tf2_msgs/msg/TFMessage"\n'
+                '  gz_type_name: "gz.msgs.Pose_V"\n  direction: GZ_TO_ROS\n',
+                "",
+            ),
+        ),
+    ),
+    one(
+        "transform-twice",
+        MODEL,
+        "<publish_odom_tf>false<",
+        "<publish_odom_tf>true<",
+        (EKF, "publish_tf: true"),
+        "write false",
+        package="classic",
+        name="of Classic",
+    ),
+    one(
+        "topic-unknown",
+        EKF,
+        "odom0: demo/odom",
+        "odom0: odom",
+        (BRIDGE, '- ros_topic_name: "/demo/odom"'),
+        "write /demo/odom",
+    ),
+    one(
+        "topic-unknown",
+        EKF,
+        "imu0: demo/imu",
+        "imu0: demo/imu_data",
+        (BRIDGE, '- ros_topic_name: "/demo/imu"'),
+        "write /demo/imu",
+        name="of the imu",
+    ),
+    one(
+        "topic-unknown",
+        EKF,
+        "imu0: demo/imu",
+        "imu0: imu",
+        (MODEL, "<remapping>~/out:=imu</remapping>"),
+        "write /demo/imu",
+        package="classic",
+        name="of Classic",
+    ),
+    one(
+        "topic-unknown",
+        NAV2,
+        "odom_topic: /demo/odom",
+        "odom_topic: /odom",
+        (BRIDGE, '- ros_topic_name: "/demo/odom"'),
+        "write /demo/odom",
+        name="of Nav2",
+    ),
+    one(
+        "topic-unknown",
+        NAV2,
+        "topic: /scan\n",
+        "topic: /demo/scan\n",
+        (MODEL, "<remapping>~/out:=scan</remapping>"),
+        "write /scan",
+        package="classic",
+        name="of a costmap",
+    ),
+    one(
+        "bridge-topic",
+        BRIDGE,
+        'gz_topic_name: "/scan"',
+        'gz_topic_name: "/lidar/scan"',
+        (MODEL, "<topic>scan</topic>"),
+        "write /scan",
+    ),
+    one(
+        "bridge-topic",
+        BRIDGE,
+        'gz_topic_name: "/demo/cmd_vel"',
+        'gz_topic_name: "/cmd_vel"',
+        (MODEL, "<topic>/demo/cmd_vel</topic>"),
+        "write /demo/cmd_vel",
+        name="of the velocity",
+    ),
+    one(
+        "bridge-types",
+        BRIDGE,
+        'gz_type_name: "gz.msgs.IMU"',
+        'gz_type_name: "gz.msgs.Odometry"',
+        (BRIDGE, 'ros_type_name: "sensor_msgs/msg/Imu"'),
+        "write gz.msgs.IMU",
+    ),
+    Mistake(
+        "bridge-direction",
+        ((BRIDGE, "direction: ROS_TO_GZ", "direction:  GZ_TO_ROS"),),
+        (BRIDGE, "direction:  GZ_TO_ROS"),
+        (MODEL, "<topic>/demo/cmd_vel</topic>"),
+        "write direction: ROS_TO_GZ",
+        ((BRIDGE, "direction:  GZ_TO_ROS", "direction: ROS_TO_GZ"),),
+    ),
+    Mistake(
+        "clock-not-bridged",
+        (
+            (
+                BRIDGE,
+                '- ros_topic_name: "/clock"\n  gz_topic_name: "/clock"\n'
+                '  ros_type_name: "rosgraph_msgs/msg/Clock"\n'
+                '  gz_type_name: "gz.msgs.Clock"\n  direction: GZ_TO_ROS\n',
+                "",
+            ),
+        ),
+        (BRIDGE, "---"),
+        (LAUNCH, '{"use_sim_time": use_sim_time},'),
+        "add - {ros_topic_name: /clock, gz_topic_name: /clock, ros_type_name: "
+        "rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock, direction: GZ_TO_ROS}",
+        (
+            (
+                BRIDGE,
+                "",
+                "- {ros_topic_name: /clock, gz_topic_name: /clock, ros_type_name: "
+                "rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock, direction: "
+                "GZ_TO_ROS}\n",
+            ),
+        ),
+    ),
+    one(
+        "sim-time-off",
+        LAUNCH,
+        'os.path.join(share, "config/ekf.yaml"),\n            {"use_sim_time": '
+        "use_sim_time},",
+        'os.path.join(share, "config/ekf.yaml"),\n            {"use_sim_time": False},',
+        (LAUNCH, 'ExecuteProcess(cmd=["gz", "sim", "-g"]),'),
+        "write True",
+        'os.path.join(share, "config/ekf.yaml"),\n            {"use_sim_time": True},',
+    ),
+    Mistake(
+        "sim-time-off",
+        ((LAUNCH, 'default_value="True"', 'default_value="False"'),),
+        (LAUNCH, '{"use_sim_time": use_sim_time},'),
+        (LAUNCH, 'ExecuteProcess(cmd=["gazebo", "-s", "libgazebo_ros_factory.so"]),'),
+        "write True",
+        ((LAUNCH, 'default_value="False"', 'default_value="True"'),),
+        "classic",
+        count=2,
+        name="by default",
+    ),
+    one(
+        "gazebo-element",
+        MODEL,
+        RADIUS + "/wheel_radius>",
+        "<wheel_diameter>0.2</wheel_diameter>",
+        (MODEL, '<plugin filename="gz-sim-diff-drive-system" name='),
+        "write <wheel_radius>, with half of it",
+        "<wheel_radius>0.1</wheel_radius>",
+    ),
+    Mistake(
+        "gazebo-generation",
+        (
+            (
+                LAUNCH,
+                'cmd=["gazebo", "-s", "libgazebo_ros_factory.so"]',
+                'cmd=["gz sim"]',
+            ),
+            (LAUNCH, 'package="gazebo_ros"', 'package="ros_gz_sim"'),
+            (LAUNCH, 'executable="spawn_entity.py"', 'executable="create"'),
+        ),
+        (MODEL, '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu_plugin">'),
+        (LAUNCH, 'ExecuteProcess(cmd=["gz sim"]),'),
+        'write filename="gz-sim-imu-system"',
+        ((MODEL, "libgazebo_ros_imu_sensor.so", "gz-sim-imu-system"),),
+        "classic",
+    ),
+    Mistake(
+        "gazebo-both",
+        (
+            (
+                LAUNCH,
+                "GzServer(world_sdf_file=world),",
+                'Node(package="gazebo_ros", executable="spawn_entity.py"),',
+            ),
+        ),
+        (LAUNCH, 'Node(package="gazebo_ros", executable="spawn_entity.py"),'),
+        (LAUNCH, "bridge = RosGzBridge("),
+        "or gz_sim.launch.py and create of ros_gz_sim",
+        (
+            (
+                LAUNCH,
+                'Node(package="gazebo_ros", executable="spawn_entity.py"),',
+                'Node(package="ros_gz_sim", executable="create"),',
+            ),
+        ),
+    ),
+    one(
+        "launch-xacro-py",
+        LAUNCH,
+        'Command(["xacro ", model])',
+        'Command(["xacro.py ", model])',
+        ("package.xml", "<build_type>ament_cmake</build_type>"),
+        "write xacro",
+        package="classic",
+    ),
+    one(
+        "launch-file-missing",
+        LAUNCH,
+        'os.path.join(share, "rviz", "cart.rviz")',
+        'os.path.join(share, "rviz", "urdf_config.rviz")',
+        ("rviz/cart.rviz", ""),
+        "write rviz/cart.rviz",
+    ),
+    one(
+        "launch-file-missing",
+        LAUNCH,
+        'os.path.join(share, "config/ekf.yaml")',
+        'os.path.join(share, "params/ekf.yaml")',
+        (EKF, ""),
+        "write config/ekf.yaml",
+        package="classic",
+        name="folder",
+    ),
+    Mistake(
+        "launch-parameters-unread",
+        ((LAUNCH, 'name="ekf_filter_node"', 'name="ekf_filter_node_odom"'),),
+        (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
+        (EKF, "frequency: 30.0"),
+        "write name='ekf_filter_node'",
+        ((LAUNCH, 'name="ekf_filter_node_odom"', 'name="ekf_filter_node"'),),
+    ),
+    one(
+        "launch-world-name",
+        LAUNCH,
+        '"world": "room"',
+        '"world": "my_world"',
+        ("world/room.sdf", '<world name="room">'),
+        "write room",
+    ),
+    Mistake(
+        "folder-not-installed",
+        (("CMakeLists.txt", "launch rviz config world", "launch rviz world"),),
+        ("CMakeLists.txt", "ament_package()"),
+        (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
+        "add install(DIRECTORY config DESTINATION share/${PROJECT_NAME})",
+        (
+            (
+                "CMakeLists.txt",
+                "ament_package()",
+                "install(DIRECTORY config DESTINATION share/${PROJECT_NAME})\n"
+                "ament_package()",
+            ),
+        ),
+    ),
+    Mistake(
+        "folder-not-installed",
+        (("CMakeLists.txt", "launch rviz config", "rviz config"),),
+        ("CMakeLists.txt", "ament_package()"),
+        (LAUNCH, "import os"),
+        "add install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})",
+        (
+            (
+                "CMakeLists.txt",
+                "ament_package()",
+                "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
+                "ament_package()",
+            ),
+        ),
+        name="launch",
+    ),
+    one(
+        "footprint-size",
+        NAV2,
+        "robot_radius: 0.3",
+        "robot_radius: 0.22",
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.3",
+    ),
+    one(
+        "footprint-size",
+        NAV2,
+        '"[ [0.21, 0.195], [0.21, -0.195], [-0.21, -0.195], [-0.21, 0.195] ]"',
+        '"[ [0.1, 0.1], [0.1, -0.1], [-0.1, -0.1], [-0.1, 0.1] ]"',
+        (MODEL, '<link name="${prefix}_link">'),
+        'write "[ [0.21, 0.2], [0.21, -0.2], [-0.22, -0.2], [-0.22, 0.2] ]"',
+        '"[ [0.21, 0.2], [0.21, -0.2], [-0.22, -0.2], [-0.22, 0.2] ]"',
+        name="polygon",
+    ),
+    one(
+        "footprint-size",
+        NAV2,
+        "robot_radius: 0.3",
+        "robot_radius: 30",
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.3",
+        name="in centimetres",
+    ),
+]
+
+
+def names() -> Iterator[str]:
+    for mistake in MISTAKES:
+        yield f"{mistake.code} {mistake.name}".strip().replace(" ", "-")
+
+
+def apply(folder: Path, edits: Iterable[Edit]) -> None:
+    for name, old, new in edits:
+        file = folder / name
+        text = file.read_text()
+        assert old in text, (name, old)
+        file.write_text(text.replace(old, new, 1) if old else text + new)
+
+
+def line_of(file: Path, text: str) -> int:
+    """The first line that ends or begins with a text; 0 when the text is empty."""
+    lines = file.read_text().splitlines()
+    return next((n for n, line in enumerate(lines, 1) if text and text in line), 0)
+
+
+def found(folder: Path) -> list[Problem]:
+    return check(folder / MODEL)
+
+
+@pytest.mark.parametrize("name", ["gz", "classic"])
+def test_a_correct_package_has_no_findings(name: str, copied: Copied) -> None:
+    assert found(copied(name)) == []
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=names())
+def test_a_mistake_is_found_at_both_places_and_its_fix_leaves_nothing(
+    mistake: Mistake, copied: Copied
+) -> None:
+    package = copied(mistake.package)
+    apply(package, mistake.made)
+    problems = found(package)
+    assert [p.code for p in problems] == [mistake.code] * mistake.count
+    problem = problems[0]
+    file, text = mistake.at
+    assert problem.file == str(package / file)
+    assert problem.line == line_of(package / file, text)
+    file, text = mistake.other
+    line = line_of(package / file, text)
+    same = problem.file == str(package / file)
+    name = f"line {line}" if same else f"{Path(file).name} line {line}"
+    assert (name if line else file) in problem.message
+    assert mistake.advice in problem.hint
+    apply(package, mistake.fixed)
+    assert found(package) == []
