@@ -71,6 +71,17 @@ def test_a_topic_is_shown_by_the_displays_of_its_type(
                 "Description Topic/Durability Policy": "Volatile",
             },
         ),
+        (
+            "Map",
+            "/map",
+            "nav_msgs/msg/OccupancyGrid",
+            {
+                "Topic": "/map",
+                "Topic/Reliability Policy": "Best Effort",
+                "Topic/Durability Policy": "Volatile",
+                "Update Topic": "/map_updates",
+            },
+        ),
         # Its quality of service is not below the topic.
         (
             "DepthCloud",

@@ -72,9 +72,10 @@ class ConfigItem(ItemMap):
         path = prop.name if parent is None else f"{parent.path}/{prop.name}"
         declared = Declared(path, (*above, key), prop, parent)
         self._declared[path] = declared
-        if prop.has_value and not prop.read_only:
-            value = prop.read(found, self._report)
-            self._note(path, prop, found, value)
+        if prop.has_value:
+            found_here = None if prop.read_only else found
+            value = prop.read(found_here, self._report)
+            self._note(path, prop, found_here, value)
         for child in prop.children:
             self._read(child, declared.keys, found, declared)
 
@@ -145,7 +146,7 @@ class ConfigItem(ItemMap):
             UnknownPropertyError: no such property is declared.
             PropertyError: the value is of another type, or not one of the options.
         """
-        if path not in self._values:
+        if path not in self._values or self._declared[path].property.read_only:
             raise self._unknown(path)
         declared = self._declared[path]
         prop, new = declared.property, declared.property.coerce(value)
@@ -220,7 +221,9 @@ class ConfigItem(ItemMap):
         return value in wanted if isinstance(wanted, tuple) else value == wanted
 
     def _unknown(self, path: str) -> UnknownPropertyError:
-        return UnknownPropertyError(self.label, path, list(self._values))
+        declared = self._declared
+        known = [one for one in self._values if not declared[one].property.read_only]
+        return UnknownPropertyError(self.label, path, known)
 
 
 def _kept(prop: Property) -> KeptProperty:

@@ -8,6 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 from inside import session_of
+from panel_rows import panel_of
+
+from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.rviz import UnknownPropertyError
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
@@ -52,7 +56,38 @@ def test_a_map_says_what_rviz_says(messages: Open) -> None:
         "Map": ("Ok", "Map OK"),
         "Transform": ("Ok", "Transform OK"),
     }
-    assert "2 × 2 cells of 0.5 m" in shown.display.notes()["Topic"]
+
+
+INFO = ("Resolution", "Width", "Height", "Position", "Orientation")
+NOTHING = ["0", "0", "0", "0; 0; 0", "0; 0; 0; 1"]
+
+
+def test_rows_say_what_a_map_is_like_and_are_not_saved(messages: Open) -> None:
+    shown = messages("Map", grid(2, 2, [0, 50, 100, -1]), grid(3, 1, [0, 0, 0], 0.25))
+    session = session_of(shown.viz)
+    panel = panel_of(DisplaysPanel, session)
+
+    def rows() -> list[Any]:
+        found = [row for row in panel.rows() if row.name in INFO]
+        assert [row.name for row in found] == list(INFO)
+        assert not any(row.set for row in found)
+        return [row.value for row in found]
+
+    assert rows() == ["0.25", "3", "1", "0; 0; 0", "0; 0; 0; 1"]
+    shown.viz.player.jump(0.05)
+    assert rows() == ["0.5", "2", "2", "0; 0; 0", "0; 0; 0; 1"]
+    with pytest.raises(UnknownPropertyError):
+        shown.display.config.set("Width", 3)
+    shown.set("Topic", "/b")
+    assert rows() == NOTHING
+    saved = session.document.config.to_yaml()
+    assert not any(f"{name}:" in saved for name in INFO)
+
+
+def test_a_file_without_the_topic_of_updates_has_rvizs_own(messages: Open) -> None:
+    shown = messages("Map", grid(2, 2, [0, 0, 0, 0]))
+    assert shown.display.config.get("Update Topic") == "/a_updates"
+    assert "Update Topic" not in session_of(shown.viz).document.config.to_yaml()
 
 
 def test_the_topic_of_updates_follows_that_of_the_map(messages: Open) -> None:

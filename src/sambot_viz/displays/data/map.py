@@ -3,35 +3,38 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.displays.data.map_properties import (
+    HEIGHT,
+    MAP_PROPERTIES,
+    ORIENTATION,
+    POSITION,
+    RESOLUTION,
+    UPDATE_TOPIC,
+    WIDTH,
+)
 from sambot_viz.displays.data.message_filter import TRANSFORM
 from sambot_viz.displays.data.message_numbers import point_of, require_finite, wxyz_of
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
-from sambot_viz.displays.data.topic_display import TOPIC, TopicDisplay, topic_property
+from sambot_viz.displays.data.topic_display import TOPIC, TopicDisplay
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
-from sambot_viz.displays.scene.maps import SCHEMES, MapNode, palette
+from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.displays.scene.maps import MapNode, palette
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
-from sambot_viz.rviz import (
-    BoolProperty,
-    DisplayConfig,
-    EnumProperty,
-    FloatProperty,
-    IntProperty,
-)
+from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
 
 MAP, UPDATE = "Map", "Update"
 """Keys of statuses."""
-UPDATE_TOPIC = "Update Topic"
 MOST_CELLS = 100_000_000
 """A map of more cells is not drawn."""
 MOST_UPDATES = 2000
@@ -59,46 +62,7 @@ class MapDisplay(TopicDisplay):
     kind = "rviz_default_plugins/Map"
     help = "An occupancy grid, such as a map or a costmap."
     types = frozenset({"nav_msgs/msg/OccupancyGrid"})
-    properties = (
-        topic_property(),
-        topic_property(UPDATE_TOPIC, is_filtered=False),
-        FloatProperty(
-            "Alpha",
-            default=0.7,
-            minimum=0.0,
-            maximum=1.0,
-            help="How opaque the map is.",
-        ),
-        EnumProperty(
-            "Color Scheme",
-            default="map",
-            options=SCHEMES,
-            help="The colours of the values.",
-        ),
-        BoolProperty(
-            "Draw Behind",
-            default=False,
-            help="Draw everything else over the map, as if it were far below.",
-        ),
-        BoolProperty(
-            "Use Timestamp",
-            default=False,
-            help="Place the map where its frame was at its stamp, not where it is now.",
-        ),
-        BoolProperty(
-            "Binary representation",
-            default=False,
-            help="Tell apart only what is less than the threshold, and what is not.",
-        ),
-        IntProperty(
-            "Binary threshold",
-            default=100,
-            minimum=0,
-            maximum=100,
-            help="The least value that is occupied.",
-            hidden_unless=("Binary representation", True),
-        ),
-    )
+    properties = MAP_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
@@ -110,6 +74,15 @@ class MapDisplay(TopicDisplay):
         self._T_frame_map: Matrix = np.eye(4)
         self._frame = ""
         self._stamp_ns: int | None = None
+        config.assume(UPDATE_TOPIC, updates_of(self.topic))
+
+    @classmethod
+    def topic_values(
+        cls, topic: str, type_name: str, qos: WantedQos | None
+    ) -> Mapping[str, object] | None:
+        """Return the values of a new display that draws a topic and its updates."""
+        found = super().topic_values(topic, type_name, qos)
+        return None if found is None else {**found, UPDATE_TOPIC: updates_of(topic)}
 
     @property
     def update_topic(self) -> str:
@@ -145,6 +118,8 @@ class MapDisplay(TopicDisplay):
         """Take the map out of the scene."""
         self._remove()
         self._cells = None
+        for path in (RESOLUTION, WIDTH, HEIGHT, POSITION, ORIENTATION):
+            self.config.assume(path, self.config.declared[path].property.default)
         for key in (MAP, MESSAGE, TRANSFORM, UPDATE):
             self.status.remove(key)
 
@@ -201,18 +176,6 @@ class MapDisplay(TopicDisplay):
         T_fixed_above = self.context.pose(above)
         if T_fixed_above is not None and float(self.config.get("Alpha")) > 0.0:
             yield from self._node.placed(T_fixed_above)
-
-    def notes(self) -> dict[str, str]:
-        """Return what is known of the map."""
-        notes = dict(super().notes())
-        if self._cells is not None:
-            rows, columns = self._cells.shape
-            x, y, _ = position_of(self._T_frame_map)
-            notes[TOPIC] = (
-                f"{columns} × {rows} cells of {self._resolution:.4g} m; the first one "
-                f"is at {x:.4g}; {y:.4g} in {self._frame}"
-            )
-        return notes
 
     def _place(self) -> tuple[str, Matrix] | None:
         """Return the node to hang below and the pose there; None without a place."""
@@ -274,6 +237,14 @@ class MapDisplay(TopicDisplay):
         self._T_frame_map = T
         self._cells = unsigned(data, height, width)
         self._resolution = resolution
+        for path, value in (
+            (RESOLUTION, resolution),
+            (WIDTH, width),
+            (HEIGHT, height),
+            (POSITION, (x, y, z)),
+            (ORIENTATION, (qx, qy, qz, w)),
+        ):
+            self.config.assume(path, value)
         self.status.set(MESSAGE, "Ok", "Map received")
         self.status.set(MAP, "Ok", "Map OK")
 

@@ -43,6 +43,8 @@ def kind_of(prop: Property) -> Kind:
     """Return how a property's row is drawn."""
     if not prop.has_value:
         return "group"
+    if prop.read_only:
+        return "readonly"
     for cls, kind in _KINDS:
         if isinstance(prop, cls):
             return kind
@@ -99,12 +101,13 @@ def property_row(
     """Return the row of one property."""
     prop, path, above = declared.property, declared.path, declared.above
     kind = kind_of(prop)
+    value = item.get(path) if prop.has_value else None
     return Row(
         id=f"{parent}/{path}",
         parent=parent if above is None else f"{parent}/{above.path}",
         kind=kind,
         name=prop.name,
-        value=item.get(path) if prop.has_value else None,
+        value=prop.show(value) if kind == "readonly" else value,
         unit=prop.unit,
         least=prop.minimum,
         most=prop.maximum,
