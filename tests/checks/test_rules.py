@@ -407,3 +407,43 @@ def test_an_include_without_its_prefix_is_a_warning(checked: Checked) -> None:
     (problem,) = checked('<include filename="b.xacro"/>\n<link name="a"/>')
 
     assert problem.code == "xacro-prefix-missing"
+
+
+@pytest.mark.parametrize(
+    ("shape", "better"),
+    [
+        ('<box size="420 310 180"/>', "0.42 0.31 0.18"),
+        ('<cylinder radius="35" length="20"/>', "0.035 0.02"),
+        ('<sphere radius="30"/>', "0.03"),
+        ('<box size="100 100 0.1"/>', None),
+        ('<box size="30 0.2 3"/>', None),
+        ('<box size="2 2 2"/>', None),
+    ],
+)
+def test_shapes_in_millimetres_are_as_large_as_a_house(
+    checked: Checked, shape: str, better: str | None
+) -> None:
+    found = checked(visual(f"<geometry>{shape}</geometry>"), "shape-size")
+
+    assert [p.hint for p in found] == ([f"write metres: {better}"] if better else [])
+
+
+def test_the_one_wheel_that_floats_is_to_be_moved(checked: Checked) -> None:
+    def robot(height: str) -> str:
+        sphere = '<visual><geometry><sphere radius="0.1"/></geometry></visual>'
+        return '<link name="base_footprint"/>\n' + "\n".join(
+            f'<link name="{side}">{sphere}</link>\n<joint name="{side}_joint" '
+            f'type="continuous"><parent link="base_footprint"/><child link="{side}"/>'
+            f'<origin xyz="0 {y} {z}"/><axis xyz="0 1 0"/></joint>'
+            for side, y, z in (("left", "0.2", "0.1"), ("right", "-0.2", height))
+        )
+
+    (problem,) = checked(robot("0.15"))
+
+    assert problem.message == (
+        "the wheel right ends 0.05 m above the ground, which left touches"
+    )
+    assert problem.hint == (
+        "lower the origin of joint right_joint by 0.05 m, or correct the radius"
+    )
+    assert checked(robot("0.1")) == []

@@ -29,6 +29,7 @@ from sambot_viz.checks.slips import (
     names_that_differ_in_case,
     names_with_spaces,
     rpy_in_degrees,
+    shapes_in_millimetres,
     sizes_not_positive,
     unused_macros,
 )
@@ -44,6 +45,7 @@ RULES: tuple[Rule, ...] = (
     limits_in_degrees,
     rpy_in_degrees,
     sizes_not_positive,
+    shapes_in_millimetres,
     unusable_meshes,
     meshes_of_wrong_size,
     wheels_off_the_ground,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -132,14 +132,20 @@ def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     poses = robot.forward_kinematics()
     T_footprint_root = np.linalg.inv(poses[footprint])
     gaps: dict[str, float] = {}
+    standing: list[str] = []
     first: Joint | None = None
     for joint in robot.joints.values():
         link = robot.links[joint.child]
         gap = _gap(joint, link, T_footprint_root @ poses[link.name])
-        if gap is not None:
+        if gap == 0.0:
+            standing.append(link.name)
+        elif gap is not None:
             gaps[link.name] = gap
             first = first or joint
     if first is None:
+        return
+    if len(gaps) == 1 and standing:
+        yield _one_wheel(first, gaps[first.child], standing)
         return
     worst = max(gaps.values(), key=abs)
     ends, touch = ("ends", "it touches") if len(gaps) == 1 else ("end", "they touch")
@@ -155,11 +161,26 @@ def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     )
 
 
+def _one_wheel(joint: Joint, gap: float, standing: Sequence[str]) -> Problem:
+    """Report the only wheel that does not touch the floor."""
+    above, move = ("above", "lower") if gap > 0 else ("below", "raise")
+    touch = "touches" if len(standing) == 1 else "touch"
+    return Problem.at(
+        joint.place,
+        "warning",
+        "wheel-not-on-ground",
+        f"the wheel {joint.child} ends {abs(gap):.3g} m {above} the ground, which "
+        f"{listed(standing)} {touch}",
+        f"{move} the origin of joint {joint.name} by {abs(gap):.3g} m, or correct the "
+        "radius",
+    )
+
+
 def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
-    """Height of a wheel's lowest point [m]; None for a wheel that is all right.
+    """Height of a wheel's lowest point [m]; 0 when it touches the floor.
 
     A wheel turns without end about a level axis, and is a sphere or a cylinder
-    about that axis. Other links, and wheels that are meshes, are not judged.
+    about that axis. Other links, and wheels that are meshes, give None.
     """
     if joint.limit is not None and joint.limit.ends != (None, None):
         return None
@@ -179,5 +200,5 @@ def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
         ):
             lowest = float(T[2, 3]) - geometry.radius
             tolerance = max(_SMALLEST_GAP, _SHARE_OF_RADIUS * geometry.radius)
-            return lowest if abs(lowest) > tolerance else None
+            return lowest if abs(lowest) > tolerance else 0.0
     return None

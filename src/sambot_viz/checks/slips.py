@@ -28,6 +28,7 @@ from sambot_viz.robot.xml.element import Element, parse_xml
 _FULL_TURN = 2 * math.pi + 1e-3
 _SMALLEST_LIMIT = 15.0
 _LARGEST_LIMIT = 720.0
+_HOUSE, _ROOM = 15.0, 4.0
 
 
 def _is_round(value: float) -> bool:
@@ -114,6 +115,33 @@ def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
             f"link {link.name}: the {what} ({written}) contains a {kind} number, so "
             "nothing useful can be drawn",
             "give full lengths in metres, each larger than 0",
+        )
+
+
+def shapes_in_millimetres(subject: Subject) -> Iterator[Problem]:
+    """Report boxes, cylinders and spheres that are as large as a house on all sides.
+
+    One finding for those of the same size. Floors and walls are thin.
+    """
+    seen: set[tuple[str, tuple[float, ...]]] = set()
+    for link, shape in subject.shapes():
+        what, values = _lengths(shape.geometry)
+        if isinstance(shape.geometry, MeshFile) or (what, values) in seen:
+            continue
+        seen.add((what, values))
+        is_box = isinstance(shape.geometry, Box)
+        sides = values if is_box else (2 * values[0], *values[1:])
+        if not (max(sides) > _HOUSE and min(sides) > _ROOM):
+            continue
+        written = " ".join(number(v) for v in values)
+        better = " ".join(number(v / 1000) for v in values)
+        yield Problem.at(
+            shape.geometry_place or shape.place,
+            "warning",
+            "shape-size",
+            f"link {link.name}: the {what} ({written}) makes it {max(sides):.3g} m "
+            "large: it is probably given in millimetres",
+            f"write metres: {better}",
         )
 
 

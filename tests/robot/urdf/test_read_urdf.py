@@ -1,5 +1,7 @@
 """URDF is read as ROS reads it, and each mistake is reported."""
 
+from pathlib import Path
+
 import pytest
 
 from sambot_viz.errors import Problem, RobotError
@@ -460,3 +462,98 @@ def test_a_forgotten_dollar_is_named():
     problems = load(visual('<box size="{length} 1 2"/>')).problems
 
     assert problems[0].hint == 'write "${length} 1 2"'
+
+
+CHAIN = """<link name="base"/><link name="arm_link"/><link name="hand"/>
+<joint name="j1" type="fixed"><parent link="base"/><child link="arm_link"/></joint>
+<joint name="j2" type="fixed"><parent link="arm_link"/><child link="hand"/></joint>
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "code"),
+    [
+        (
+            '<parent link="arm_link"/>',
+            '<parent link="arm_lnk"/>',
+            "joint-parent-unknown",
+        ),
+        ('<child link="arm_link"/>', '<child link="armlink"/>', "joint-child-unknown"),
+        ('<child link="hand"/>', '<child link="hand "/>', "joint-child-unknown"),
+        ('<link name="hand"/>', '<link name="hand "/>', "link-name-blank"),
+        ('<link name="hand"/>', '<link name=" hand"/>', "link-name-blank"),
+        ('<link name="hand"/>', '<link name="base"/>', "link-duplicate"),
+        ('<link name="hand"/>', "<link/>", "link-without-name"),
+        ('type="fixed"', 'type="fixd"', "joint-type-unknown"),
+    ],
+)
+def test_the_advice_for_a_wrong_name_is_the_right_one_and_the_only_problem(
+    right: str, wrong: str, code: str
+):
+    assert load(CHAIN).problems == ()
+
+    (problem,) = refused(CHAIN.replace(right, wrong, 1))
+
+    words = right.split()[-1].strip("/>")
+    assert problem.code == code
+    assert (
+        problem.hint.removeprefix("write <link ")
+        .removeprefix("write ")
+        .startswith(words)
+    )
+
+
+@pytest.mark.parametrize("gone", ['type="fixed"', '<parent link="base"/>'])
+def test_a_link_without_its_joint_is_not_called_another_root(gone: str):
+    text = CHAIN.replace(gone, "", 1)
+
+    assert len(refused(text)) == 1
+
+
+def test_a_link_that_is_not_connected_gets_the_joint_that_does_it():
+    text = CHAIN.replace('<link name="hand"/>', '<link name="hand"/><link name="cup"/>')
+
+    (problem,) = refused(text)
+
+    _, _, written = problem.hint.partition(": ")
+    assert load(f"{text}{written}").problems == ()
+
+
+def test_links_that_one_macro_call_repeats_are_one_problem(tmp_path: Path):
+    model = tmp_path / "r.xacro"
+    model.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        '<xacro:macro name="part" params="name">\n<link name="${name}"/>\n'
+        '<joint name="${name}_joint" type="fixed"><parent link="base"/>\n'
+        '<child link="${name}"/></joint>\n</xacro:macro>\n<link name="base"/>\n'
+        '<xacro:part name="left"/>\n<xacro:part name="left"/>\n</robot>\n'
+    )
+    with pytest.raises(RobotError) as caught:
+        load_robot(model)
+
+    (problem,) = caught.value.problems
+    assert problem.code == "link-duplicate"
+    assert problem.hint == "give the macro call on line 9 another name"
+
+
+@pytest.mark.parametrize(
+    "inertial",
+    [
+        '<mass>15</mass><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>',
+        "<mass><value>15</value></mass>"
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>',
+    ],
+)
+def test_a_value_as_text_is_written_as_an_attribute(inertial: str):
+    (problem,) = load(link(f"<inertial>{inertial}</inertial>")).problems
+
+    assert problem.hint == 'write <mass value="15"/>'
+
+
+def test_the_material_that_was_meant_comes_first():
+    materials = '<material name="blue"><color rgba="0 0 1 1"/></material>'
+    text = materials + visual("<box size='1 1 1'/>", '<material name="bleu"/>')
+
+    (problem,) = load(text).problems
+
+    assert problem.hint.startswith('write <material name="blue"/>, or ')

@@ -140,6 +140,13 @@ def _value_of(part: str) -> str:
     return f" {'-' if match[1] == '-' else ''}{value:.4f}"
 
 
+def _text_inside(element: Element, name: str) -> str:
+    """Return the value that was written as text, or in an element of that name."""
+    child = element.find(name)
+    text = element.text if child is None else child.text
+    return " ".join(text.split())
+
+
 Report = Callable[[str, str, str, Element, "str | None"], None]
 """`ModelFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
@@ -188,10 +195,14 @@ class AttributeReader:
         """
         text = element.get(name)
         if text is None:
+            inside = _text_inside(element, name)
+            as_text = " but has its value as text, as in SDF" if inside else ""
             raise self.fail(
                 "attribute-missing",
-                f"<{element.tag}> of {self.owner} has no {name}",
-                f'write {name}="{example}"',
+                f"<{element.tag}> of {self.owner} has no {name}{as_text}",
+                f'write <{element.tag} {name}="{inside}"/>'
+                if inside
+                else f'write {name}="{example}"',
                 element,
             )
         return text

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import get_args
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
@@ -62,7 +62,9 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         hint = f'write type="{plain}"'
     else:
         why = did_you_mean(text, JOINT_TYPES)
+        near = nearest(text, JOINT_TYPES)
         hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
+        hint = f'write type="{near}"' if near else hint
     findings.reject(
         "joint-type-unknown",
         f"joint {name} has the unknown type '{text}' ({why}); {_REFUSED}",
@@ -209,12 +211,17 @@ def check_mimics(
         element = elements[name].find("mimic") or elements[name]
         leader = joints.get(joint.mimic.joint)
         if leader is None:
-            near = did_you_mean(joint.mimic.joint, joints)
+            others = [name for name, one in joints.items() if one.movable]
+            others = [other for other in others if other != name]
+            near = did_you_mean(joint.mimic.joint, others)
+            one = nearest(joint.mimic.joint, others)
             findings.error(
                 "mimic-joint-unknown",
                 f"joint {name} mimics '{joint.mimic.joint}', which does not exist "
                 f"({near}); joint_state_publisher would crash",
-                "correct the name, or delete <mimic>",
+                f'write joint="{one}", or delete <mimic>'
+                if one
+                else "correct the name, or delete <mimic>",
                 element,
                 "joint",
                 cause=f"joint {joint.mimic.joint}",

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
     children_of,
@@ -18,6 +17,7 @@ from sambot_viz.robot.joint_graph import (
     rings_of,
 )
 from sambot_viz.robot.parts import Joint, Link
+from sambot_viz.robot.urdf.joint_ends import check_ends
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 
 
@@ -42,7 +42,7 @@ def build_tree(parts: RobotParts, findings: ModelFindings) -> Tree | None:
     fragment = parts.is_fragment
     if fragment:
         parts = _with_missing_links(parts, findings)
-    parts = _check_ends(parts, findings)
+    parts = check_ends(parts, findings)
     _check_self_joints(parts, findings)
     holder = _parent_joints(parts, findings)
     rings = rings_of(parts.links, holder)
@@ -79,40 +79,6 @@ def _with_missing_links(parts: RobotParts, findings: ModelFindings) -> RobotPart
                 "link",
             )
     return replace(parts, links={**added, **parts.links})
-
-
-def _check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
-    """Report parent and child links that do not exist; excuses links that need one."""
-    unknown = [
-        (joint, tag, link)
-        for joint in parts.joints.values()
-        for tag, link in (("parent", joint.parent), ("child", joint.child))
-        if link not in parts.links
-    ]
-    if parts.nameless and len({link for _, _, link in unknown}) <= parts.nameless:
-        # The link exists but lost its name; that has been reported.
-        unknown = []
-    roots = parts.links.keys() | {link for _, _, link in unknown}
-    roots -= {joint.child for joint in parts.joints.values()}
-    # With more roots than one, ROS would refuse the robot with these links as well.
-    is_whole = len(roots) == 1
-    for joint, tag, link in unknown:
-        element = parts.joint_elements[joint.name]
-        near = did_you_mean(link, [name for name in parts.links if name])
-        findings.reject(
-            f"joint-{tag}-unknown",
-            f"joint {joint.name} names the {tag} link '{link}', which does not exist "
-            f"({near}); ROS refuses the model",
-            f'correct the name, or add <link name="{link}"/>'
-            if is_whole
-            else f"name a link of this robot as the {tag}",
-            element.find(tag) or element,
-            "link",
-            cause=f"link {link}",
-        )
-    if any(tag == "child" for _, tag, _ in unknown):
-        return replace(parts, excused=parts.excused | parts.links.keys())
-    return parts
 
 
 def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
@@ -175,9 +141,20 @@ def _report_roots(
             "root-not-unique",
             f"link {root} is not connected to {main}: no joint has it as child, so "
             "there is more than one root link; ROS refuses the model",
-            f"add a joint whose child is {root}",
+            f"add a joint whose child is {root}: {_joint_between(main, root, parts)}",
             parts.link_elements.get(root, parts.robot),
         )
+
+
+def _joint_between(parent: str, child: str, parts: RobotParts) -> str:
+    """Write a joint that connects two links."""
+    name = f"{child}_joint"
+    while name in parts.joints:
+        name = f"{name}_2"
+    return (
+        f'<joint name="{name}" type="fixed"><parent link="{parent}"/>'
+        f'<child link="{child}"/></joint>'
+    )
 
 
 def _report_rings(

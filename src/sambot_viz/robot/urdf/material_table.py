@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.geometry import Rgba
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Material
@@ -112,13 +112,15 @@ class MaterialTable:
         if element.find("color") is not None or name in self._undefined:
             return
         self._undefined.add(name)
-        near = did_you_mean(name, [other for other in self._known if other])
+        known = [other for other in self._known if other]
+        near, one = did_you_mean(name, known), nearest(name, known, likeness=0.75)
+        meant = f'write <material name="{one}"/>, or ' if one else ""
         self._findings.warn(
             "material-undefined",
             f"material '{name}' is not defined up to here ({near}); RViz shows shapes "
             "with it red",
-            f'write <material name="{name}"><color rgba="{_guess(name)}"/></material>, '
-            "here or at the top of the file",
+            f'{meant}write <material name="{name}"><color rgba="{_guess(name)}"/>'
+            "</material>, here or at the top of the file",
             element,
         )
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+from sambot_viz.errors import Place
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.joints import read_joint
@@ -24,6 +26,7 @@ class RobotParts:
         excused: links that are unconnected only because a joint was rejected.
         nameless: number of links without a name, which a joint may refer to.
         duplicates: link names that are used twice, so that a joint may mean either.
+        repeated_calls: macro calls that made links of a name that was used.
     """
 
     robot: Element
@@ -34,6 +37,7 @@ class RobotParts:
     excused: set[str] = field(default_factory=set[str])
     nameless: int = 0
     duplicates: set[str] = field(default_factory=set[str])
+    repeated_calls: set[Place] = field(default_factory=set[Place])
 
     @property
     def is_fragment(self) -> bool:
@@ -76,16 +80,8 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: ModelFindings) 
             parts.nameless += 1
             _report_nameless(parts.robot, element, findings)
             continue
-        first = parts.link_elements.get(name)
-        if first is not None:
-            findings.reject(
-                "link-duplicate",
-                f"the link name {name} is used on line {first.place.line} and again "
-                "here; names must be unique and ROS refuses the model",
-                "give one of the two another name",
-                element,
-            )
-            parts.duplicates.add(name)
+        if name in parts.link_elements:
+            _report_duplicate(parts, name, element, findings)
             continue
         _check_leading_slash(name, element, findings)
         parts.link_elements[name] = element
@@ -94,21 +90,49 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: ModelFindings) 
 
 
 def _report_nameless(robot: Element, element: Element, findings: ModelFindings) -> None:
-    named = {link.get("name") for link in robot.find_all("link")}
-    wanted: list[str] = []
-    for joint in robot.find_all("joint"):
-        for tag in ("parent", "child"):
-            end = joint.find(tag)
-            link = end.get("link") if end is not None else None
-            if link and link not in named:
-                wanted.append(f"joint {joint.get('name')} expects one called {link}")
-    more = f"; {wanted[0]}" if wanted else ""
+    joint, wanted = next(_wanted(robot), ("", "…"))
+    more = f"; joint {joint} expects one called {wanted}" if joint else ""
     findings.reject(
         "link-without-name",
         f"this <link> has no name{more}; ROS refuses the model",
-        'write <link name="…">',
+        f'write <link name="{wanted}">',
         element,
     )
+
+
+def _wanted(
+    robot: Element, ends: Sequence[str] = ("parent", "child")
+) -> Iterator[tuple[str, str]]:
+    """Yield joints and the links that they name and that do not exist."""
+    named = {link.get("name") for link in robot.find_all("link")}
+    for joint in robot.find_all("joint"):
+        for tag in ends:
+            end = joint.find(tag)
+            link = end.get("link") if end is not None else None
+            if link and link not in named:
+                yield joint.get("name") or "", link
+
+
+def _report_duplicate(
+    parts: RobotParts, name: str, element: Element, findings: ModelFindings
+) -> None:
+    wanted = {link: joint for joint, link in _wanted(parts.robot, ("child",))}
+    hint = "give one of the two another name"
+    if len(wanted) == 1:
+        link, joint = wanted.popitem()
+        hint = f'write name="{link}" for one of the two: joint {joint} expects it'
+    elif element.call is not None:
+        hint = f"give the macro call on line {element.call.line} another name"
+    findings.reject(
+        "link-duplicate",
+        f"the link name {name} is used on line {parts.link_elements[name].place.line} "
+        "and again here; names must be unique and ROS refuses the model",
+        hint,
+        element,
+    )
+    parts.duplicates.add(name)
+    if element.call is not None:
+        parts.repeated_calls.add(element.call)
 
 
 def _check_leading_slash(name: str, element: Element, findings: ModelFindings) -> None:
@@ -150,7 +174,8 @@ def _read_joints(parts: RobotParts, findings: ModelFindings) -> None:
     for element in parts.robot.find_all("joint"):
         joint = read_joint(element, findings)
         first = elements.get(element.get("name") or "")
-        if joint is not None and first is not None:
+        repeated = element.call is not None and element.call in parts.repeated_calls
+        if joint is not None and first is not None and not repeated:
             findings.reject(
                 "joint-duplicate",
                 f"the joint name {joint.name} is used on line {first.place.line} and "
@@ -160,9 +185,10 @@ def _read_joints(parts: RobotParts, findings: ModelFindings) -> None:
             )
         if joint is None or first is not None:
             # A link without this joint is not reported as unconnected.
-            child = element.find("child")
-            link = child.get("link") if child is not None else None
-            parts.excused.update([link] if link else parts.links)
+            ends = [element.find(tag) for tag in ("child", "parent")]
+            links = [end.get("link") for end in ends if end is not None]
+            known = [link for link in links if link]
+            parts.excused.update(known if len(known) == len(ends) else parts.links)
             continue
         parts.joints[joint.name] = joint
         elements[joint.name] = element

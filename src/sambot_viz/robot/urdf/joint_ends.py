@@ -1,0 +1,96 @@
+"""Joints whose parent or child link does not exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.urdf.robot_parts import RobotParts
+
+
+class _Unknown(NamedTuple):
+    """A joint whose parent or child (the tag) is a link that does not exist."""
+
+    joint: Joint
+    tag: str
+    link: str
+
+
+def check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
+    """Report parent and child links that do not exist; excuse links that need one."""
+    unknown = [
+        _Unknown(joint, tag, link)
+        for joint in parts.joints.values()
+        for tag, link in (("parent", joint.parent), ("child", joint.child))
+        if link not in parts.links
+    ]
+    missing = {link for _, _, link in unknown}
+    if len(missing) <= max(parts.nameless, len(parts.duplicates)):
+        # The link exists but lost its name, which has been reported.
+        unknown = []
+    _report_unknown(parts, findings, _without_blanks(parts, findings, unknown))
+    if any(tag == "child" for _, tag, _ in unknown):
+        return replace(parts, excused=parts.excused | parts.links.keys())
+    return parts
+
+
+def _without_blanks(
+    parts: RobotParts, findings: ModelFindings, unknown: list[_Unknown]
+) -> list[_Unknown]:
+    """Report links whose names have a blank at an end; return the other joints."""
+    with_blank = {name.strip(): name for name in parts.links if name != name.strip()}
+    reported: set[str] = set()
+    for joint, _, link in unknown:
+        name = with_blank.get(link)
+        if name is None or name in reported:
+            continue
+        reported.add(name)
+        begins = "begins" if name[0].isspace() else "ends"
+        findings.reject(
+            "link-name-blank",
+            f'the link name "{name}" {begins} with a blank, so joint {joint.name} does '
+            f"not find the link {link}; ROS refuses the model",
+            f'write name="{link}"',
+            parts.link_elements.get(name, parts.robot),
+            "name",
+        )
+    return [one for one in unknown if one.link not in with_blank]
+
+
+def _report_unknown(
+    parts: RobotParts, findings: ModelFindings, unknown: list[_Unknown]
+) -> None:
+    children = {joint.child for joint in parts.joints.values()}
+    roots = (parts.links.keys() | {link for _, _, link in unknown}) - children
+    # With more roots than one, ROS would refuse the robot with these links as well.
+    is_whole = len(roots) == 1
+    for joint, tag, link in unknown:
+        element = parts.joint_elements[joint.name]
+        other = joint.child if tag == "parent" else joint.parent
+        possible = [name for name in parts.links if name and name != other]
+        if tag == "child":
+            possible = [name for name in possible if name not in children]
+        near = f" ({did_you_mean(link, possible)})" if possible else ""
+        findings.reject(
+            f"joint-{tag}-unknown",
+            f"joint {joint.name} names the {tag} link '{link}', which does not exist"
+            f"{near}; ROS refuses the model",
+            _advice(link, tag, possible, is_whole),
+            element.find(tag) or element,
+            "link",
+            cause=f"link {link}",
+        )
+
+
+def _advice(link: str, tag: str, possible: Iterable[str], is_whole: bool) -> str:
+    near = nearest(link, possible)
+    ways = [f'write link="{near}"' if near else "correct the name"]
+    if is_whole:
+        ways.append(f'add <link name="{link}"/>')
+    elif not near:
+        return f"name a link of this robot as the {tag}"
+    return ", or ".join(ways)
