@@ -286,6 +286,7 @@ def test_a_robot_object_and_korean_folders_work(
         encoding="utf-8",
     )
     with Visualizer(model=load_robot(model), port=0) as viz:
+        viz.displays["TF"].enabled = True
         client = protocol(port_of(viz))
         assert [m.fields["props"]["text"] for m in labels(client)] == ["몸"]
         client.settle(viz.viser)

@@ -212,7 +212,8 @@ def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was
     )
     model = tmp_path / "r.urdf"
     mesh = '<visual><geometry><mesh filename="m.obj"/></geometry></visual>'
-    model.write_text(f'<robot name="r"><link name="a">{mesh}</link></robot>')
+    # With this name its frame is shown, until the mesh is.
+    model.write_text(f'<robot name="sam_bot"><link name="a">{mesh}</link></robot>')
     try:
         with Visualizer(model) as viz:
             client = opened(viz, protocol)

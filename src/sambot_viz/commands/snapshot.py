@@ -53,7 +53,7 @@ def run(words: list[str]) -> int:
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.document_view.camera
-            if given.fit:
+            if given.fit or session.document.config.fits_robot:
                 viz.server.sessions.wait_for_meshes(LONGEST_WAIT)
                 camera = session.document_view.camera_on_robot(width, height)
             picture = snapshot(viz.server, chromium, width, height, camera)
@@ -82,7 +82,7 @@ def parser() -> Parser:
         "--fit",
         action="store_true",
         help="show the whole robot, whatever distance the config says (RViz's default "
-        "is 10 m)",
+        "is 10 m); so does a robot without a config",
     )
     return made
 

@@ -37,11 +37,14 @@ class RvizConfig(DisplayList, ViewList):
     Attributes:
         global_options: Fixed Frame, Background Color, Frame Rate.
         tools: the tools of the toolbar.
+        fits_robot: whether its sizes are to be those of the robot that is shown,
+            because it is no user's; it is not saved.
     """
 
     def __init__(self, document: Document, declarations: Declarations):
         """Read a document; use `load` or `parse`."""
         super().__init__(document, declarations)
+        self.fits_robot = False
         _report_duplicates(document.root, self._findings)
         self.global_options = GlobalOptions(
             ConfigItem(document.root, (), self._findings),
@@ -85,7 +88,9 @@ class RvizConfig(DisplayList, ViewList):
 
     def copy(self) -> RvizConfig:
         """Return the same document once more, with the edits that are not saved."""
-        return RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
+        made = RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
+        made.fits_robot = self.fits_robot
+        return made
 
     @property
     def file(self) -> str | None:

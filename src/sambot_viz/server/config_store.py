@@ -14,8 +14,8 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.session.clients.clients import Clients
-from sambot_viz.session.config_file import fit_own_config
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.own_config import fit_own_config
 
 _MANAGER = "Visualization Manager"
 

@@ -19,7 +19,7 @@ from sambot_viz.server.live_model import LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
-from sambot_viz.session.config_file import take_root
+from sambot_viz.session.own_config import fit_own_config, make_plain
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
 
@@ -111,8 +111,10 @@ class ShownInputs:
         if sessions.robot is None and self._stand_in is self.configs.current:
             self._fit_fixed_frame(self.configs.current, robot)
             for session in sessions.all():
-                with session.change(session.document.options):
+                shown = session.document
+                with session.change(shown.options, shown.displays):
                     self._fit_fixed_frame(session.document.config, robot)
+                    session.scene.apply_enabled()
         sessions.show_robot(robot)
 
     def _follow_live(self, live: LiveRobot) -> None:
@@ -140,10 +142,12 @@ class ShownInputs:
         sessions.set_reload_problems("model", (*missing, *self._start_problems(robot)))
         if self._stand_in is self.configs.current:
             for session in sessions.all():
-                with session.change(session.document.options, session.document.views):
-                    self._fit_view(session.document.config, top, root)
+                shown = session.document
+                with session.change(shown.options, shown.displays, shown.views):
+                    self._fit_live(session.document.config, robot, top, root)
                     _name_description(session.document.config, topics)
-            self._fit_view(self.configs.current, top, root)
+                    session.scene.apply_enabled()
+            self._fit_live(self.configs.current, robot, top, root)
             _name_description(self.configs.current, topics)
         sessions.show_robot(robot)
         # Pages that were opened before it came look at where nothing was.
@@ -162,15 +166,18 @@ class ShownInputs:
     def _refuse_live(self, error: RobotError) -> None:
         self.server.sessions.set_reload_problems("model", error.problems)
 
-    def _fit_view(self, document: RvizConfig, top: str, root: str) -> None:
+    def _fit_live(
+        self, document: RvizConfig, robot: Robot, top: str, root: str
+    ) -> None:
         """Fit a config to a live robot, unless a user has chosen a frame."""
         if document.global_options.get("Fixed Frame") in (STAND_IN_LINK, root):
             _show_motion(document, top, root)
+            make_plain(document, robot)
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
-            take_root(document, robot)
+            fit_own_config(document, robot)
             recorded = self._inputs.recorded
             if recorded is not None:
                 _name_description(document, recorded.topics)

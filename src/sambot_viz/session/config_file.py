@@ -14,9 +14,6 @@ from pathlib import Path
 from sambot_viz import bundled
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.files import is_below
-from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.robot.model import Robot
-from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.limits import require_room
 from sambot_viz.session.robot.robot_state import RobotState
@@ -198,18 +195,6 @@ class ConfigFile:
                 "another name, or download it"
             ) from error
         return target
-
-
-def take_root(document: RvizConfig, robot: Robot) -> None:
-    """Take the root of a robot as the fixed frame, if it has none of that name."""
-    if document.global_options.get("Fixed Frame") not in robot.links:
-        document.global_options.set("Fixed Frame", plain_name(robot.root))
-
-
-def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
-    """Let the config that comes with the program, which is sam_bot's, fit a robot."""
-    if robot is not None and bundled.is_bundled(document.file):
-        take_root(document, robot)
 
 
 def _of_the_program() -> list[str]:

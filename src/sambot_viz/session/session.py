@@ -35,6 +35,7 @@ from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
+from sambot_viz.session.own_config import SizeOfRobot
 from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.problems import Checks, Problems
 from sambot_viz.session.robot.drive import Drive, DriveTrail
@@ -118,6 +119,9 @@ class Session:
             tree, added, data_frames, scene, history, change, worker, clock
         )
         self.robot = robot
+        self._size = SizeOfRobot(
+            document, scene, robot, picker, self.display_edits, history
+        )
         self.data: RobotData | None = None
         if isinstance(moved_by, LiveRobot) and frames is not None:
             self.data = LiveData(

@@ -1,0 +1,147 @@
+"""The config of a robot that has none: plain, and of the size of the robot."""
+
+from __future__ import annotations
+
+import shutil
+import struct
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of
+
+from sambot_viz import Visualizer, bundled, load_robot
+from sambot_viz.inputs import load_config
+from sambot_viz.rviz import DisplayConfig, RvizConfig
+from sambot_viz.session import Session
+from sambot_viz.session.own_config import round_size
+
+BOX = """
+<robot name="{name}">
+  <link name="hull">
+    <visual><geometry>{geometry}</geometry></visual>
+  </link>
+</robot>
+"""
+
+
+def write(folder: Path, side: float = 0.1, name: str = "r") -> Path:
+    """Write a model of one box, with a side that differs from the others."""
+    path = folder / "r.urdf"
+    path.write_text(BOX.format(name=name, geometry=f"<box size='0.01 {side} 0.02'/>"))
+    return path
+
+
+def displays(config: RvizConfig) -> dict[str, DisplayConfig]:
+    return {display.name: display for display in config.displays}
+
+
+def look(config: RvizConfig) -> dict[str, Any]:
+    """What the config says of the look of a robot."""
+    shown = displays(config)
+    return {
+        "alpha": shown["RobotModel"].get("Alpha"),
+        "frames": shown["TF"].enabled,
+        "cell": shown["Grid"].get("Cell Size"),
+        "scale": shown["TF"].get("Marker Scale"),
+    }
+
+
+def shown(session: Session) -> dict[str, Any]:
+    return look(session.document.config)
+
+
+TUTORIAL = {"alpha": 0.6, "frames": True, "cell": 1.0, "scale": 0.3}
+
+
+@pytest.mark.parametrize(
+    ("side", "cell"), [(0.1, 0.05), (0.45, 0.2), (2.1, 1.0), (30.0, 20.0)]
+)
+def test_a_robot_without_a_config_is_opaque_on_a_grid_of_its_size(
+    side: float, cell: float, tmp_path: Path
+) -> None:
+    with Visualizer(write(tmp_path, side), port=0) as viz:
+        session = session_of(viz)
+        expected = {"alpha": 1.0, "frames": False, "cell": cell, "scale": cell}
+        assert shown(session) == expected
+        assert displays(session.document.config)["TF"].get("Show Names") is True
+        assert session.scene.context.fixed_frame == "hull"
+        assert not session.history.modified.value
+
+        saved = tmp_path / "saved.rviz"
+        session.document.save(saved)
+    # RViz has numbers of 32 bits.
+    assert look(load_config(saved)) == pytest.approx(expected)
+    assert load_config(saved).problems == ()
+    with Visualizer(write(tmp_path, 10.0), saved, port=0) as viz:
+        assert shown(session_of(viz)) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("name", ["sam_bot.urdf.xacro", "sam_bot_collision.urdf.xacro"])
+def test_the_tutorials_robot_keeps_its_config(name: str) -> None:
+    with Visualizer(bundled.model_path(name), port=0) as viz:
+        assert shown(session_of(viz)) == TUTORIAL
+
+
+def test_a_copy_of_the_tutorials_robot_that_is_changed_keeps_it_too(
+    tmp_path: Path,
+) -> None:
+    with Visualizer(write(tmp_path, name="sam_bot"), port=0) as viz:
+        assert shown(session_of(viz)) == TUTORIAL
+
+
+def test_a_config_that_is_given_is_shown_as_it_is(tmp_path: Path) -> None:
+    with Visualizer(write(tmp_path), bundled.config_path(), port=0) as viz:
+        assert shown(session_of(viz)) == TUTORIAL
+
+
+def test_the_config_of_a_package_is_shown_as_it_is(tmp_path: Path) -> None:
+    write(tmp_path)
+    (tmp_path / "package.xml").write_text("<package><name>r</name></package>")
+    (tmp_path / "rviz").mkdir()
+    shutil.copy(bundled.config_path(), tmp_path / "rviz" / "view.rviz")
+    with Visualizer(tmp_path, port=0) as viz:
+        assert shown(session_of(viz)) == TUTORIAL
+
+
+def test_a_robot_of_frames_alone_keeps_them(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    path.write_text('<robot name="r"><link name="only"/></robot>')
+    with Visualizer(path, port=0) as viz:
+        assert shown(session_of(viz)) == TUTORIAL
+
+
+def test_the_size_is_that_of_the_meshes(tmp_path: Path) -> None:
+    corners = ((0, 0, 0), (0.3, 0, 0), (0, 4.2, 0))
+    triangle = struct.pack("<12fH", 0, 0, 1, *(n for c in corners for n in c), 0)
+    (tmp_path / "t.stl").write_bytes(bytes(80) + struct.pack("<I", 1) + triangle)
+    model = tmp_path / "r.urdf"
+    model.write_text(BOX.format(name="r", geometry="<mesh filename='t.stl'/>"))
+    with Visualizer(model, port=0) as viz:
+        viz.server.sessions.wait_for_meshes(20)
+        assert shown(session_of(viz))["cell"] == 2.0
+
+
+def test_another_size_of_the_robot_is_followed_until_a_user_chooses(
+    tmp_path: Path,
+) -> None:
+    with Visualizer(write(tmp_path, 0.1), port=0) as viz:
+        session = session_of(viz)
+        session.show_robot(load_robot(write(tmp_path, 0.4)))
+        assert shown(session)["cell"] == 0.2
+        session.display_edits.set_property(session.scene.displays[0], "Cell Size", 0.25)
+        session.show_robot(load_robot(write(tmp_path, 4.0)))
+        assert shown(session) == {
+            "alpha": 1.0,
+            "frames": False,
+            "cell": 0.25,
+            "scale": 2.0,
+        }
+
+
+@pytest.mark.parametrize(
+    ("size", "rounded"),
+    [(0.0, 1e-4), (0.13, 0.1), (0.15, 0.2), (0.33, 0.5), (0.8, 1.0), (70, 50)],
+)
+def test_sizes_are_round(size: float, rounded: float) -> None:
+    assert round_size(size) == pytest.approx(rounded)
