@@ -124,6 +124,34 @@ def place(viewer: ViewerPage, point: tuple[float, float, float]) -> tuple[float,
     return left + column, top + row
 
 
+def test_a_key_looks_from_a_side_and_the_mouse_goes_on_without_perspective(
+    desk: Desk,
+) -> None:
+    session, viewer = desk.session, desk.viewer
+    mouse, keyboard = viewer.page.mouse, viewer.page.keyboard
+    keyboard.press("3")
+    until(viewer, lambda: value(session, "Orthographic"))
+    viewer.wait_for("__viserMutable.camera.fov < 1")
+    desk.settle()
+    # The same height of the picture above two points, one of them nearer by a metre.
+    rows = [
+        place(viewer, (0.0, -y, 0.1))[1] - place(viewer, (0.0, -y, 0.0))[1]
+        for y in (0.0, 1.0)
+    ]
+    assert rows[0] == pytest.approx(rows[1], rel=0.02)
+    distance = value(session, "Distance")
+    mouse.wheel(*SKY, dy=-100.0)
+    until(viewer, lambda: abs(value(session, "Distance") - 0.88 * distance) < 0.01)
+    mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
+    yaw = 3 * np.pi / 2 + 0.1
+    until(viewer, lambda: abs(value(session, "Yaw") - yaw) < 1e-4)
+    assert value(session, "Orthographic")
+    assert value(session, "Distance") == pytest.approx(0.88 * distance, rel=0.01)
+    keyboard.press("z")
+    until(viewer, lambda: not value(session, "Orthographic"))
+    viewer.wait_for("__viserMutable.camera.fov > 40")
+
+
 def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(desk: Desk) -> None:
     session, viewer = desk.session, desk.viewer
     mouse = viewer.page.mouse

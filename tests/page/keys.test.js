@@ -48,8 +48,15 @@ test("the digits of a number pad drive the robot, in the Drive panel only", () =
     assert.deepEqual(pad(key), { act: "drive/press", with: [key] });
     assert.equal(press(key), undefined, key);
   }
-  assert.equal(pad("7"), undefined);
+  for (const key of "1379") assert.equal(pad(key), undefined, key);
   assert.equal(pad("F8"), undefined);
+});
+
+test("1, 3 and 7 look from the front, the right side and the top", () => {
+  assert.deepEqual(press("1"), { act: "views/press_side", with: ["front"] });
+  assert.deepEqual(press("3"), { act: "views/press_side", with: ["right"] });
+  assert.deepEqual(press("7"), { act: "views/press_side", with: ["top"] });
+  assert.equal(press("9"), undefined);
 });
 
 test("5 stops the robot from anywhere", () => {

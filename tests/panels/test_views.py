@@ -165,3 +165,70 @@ def test_a_target_frame_that_does_not_exist_is_repaired_by_the_nearest_name(
         assert said.extra == {"repair": [f"Use {right}", "view/Target Frame", right]}
         edit(panel, "view/Target Frame", right)
         assert status() is None
+
+
+SIDES = {"front": (1, 0), "left": (0, 1), "back": (-1, 0), "right": (0, -1)}
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_a_side_is_looked_at_without_perspective_and_whole(
+    side: str, panel: ViewsPanel, client: Client, session: Session
+) -> None:
+    edit(panel, "view/type", ABOVE)
+    edit(panel, "views/side", [side])
+    rows = rows_of(panel)
+    assert rows["view/type"].value == ORBIT
+    assert rows["view/Orthographic"].value is True
+    camera = client.view.camera
+    assert -camera.forward == pytest.approx((*SIDES[side], 0), abs=1e-9)
+    box = session.picker.robot_box()
+    assert box is not None
+    assert camera.look_at == pytest.approx((box[0] + box[1]) / 2)
+
+
+def test_the_top_is_rvizs_own_view(panel: ViewsPanel, client: Client) -> None:
+    edit(panel, "views/side", ["top"])
+    assert rows_of(panel)["view/type"].value == ABOVE
+    assert rows_of(panel)["view/Angle"].value == 0.0
+    assert rows_of(panel)["view/Scale"].value > 100.0
+
+
+def test_the_key_of_a_side_looks_from_the_opposite_one_when_it_is_pressed_again(
+    panel: ViewsPanel, client: Client
+) -> None:
+    for seen in ("right", "left", "right"):
+        edit(panel, "views/press_side", ["right"])
+        assert -client.view.camera.forward[:2] == pytest.approx(SIDES[seen], abs=1e-9)
+    # From the menu, the side that is said.
+    edit(panel, "views/side", ["right"])
+    assert -client.view.camera.forward[:2] == pytest.approx(SIDES["right"], abs=1e-9)
+
+
+def test_looking_from_a_side_is_one_edit_to_undo(
+    panel: ViewsPanel, session: Session, client: Client
+) -> None:
+    before = {row_id: row.value for row_id, row in rows_of(panel).items()}
+    with session.history.acting(client.client_id):
+        edit(panel, "views/side", ["front"])
+    assert session.history.undo(client.client_id) == "View: front"
+    assert {row_id: row.value for row_id, row in rows_of(panel).items()} == before
+
+
+def test_a_side_that_does_not_exist_is_refused(panel: ViewsPanel) -> None:
+    with pytest.raises(UsageError, match="there is no side 'inside'"):
+        edit(panel, "views/side", ["inside"])
+
+
+def test_an_orthographic_view_is_saved_as_an_orbit_that_rviz_can_show(
+    panel: ViewsPanel, client: Client, session: Session, tmp_path: Path
+) -> None:
+    edit(panel, "views/side", ["left"])
+    client.view.store()
+    path = tmp_path / "side.rviz"
+    session.document.save(path)
+    view = load_config(path).view
+    assert view.kind == "rviz_default_plugins/Orbit"
+    assert view.get("Orthographic") is True
+    assert view.get("Yaw") == pytest.approx(1.5708, abs=1e-4)
+    assert 0.3 < view.get("Distance") < 3.0
+    assert load_config(path).problems == ()

@@ -377,3 +377,67 @@ def test_a_camera_shows_what_is_in_its_picture(orthographic: bool) -> None:
                 vector(sign * 2.02 * part * half, 0, 0), 800, 400, part
             )
     assert not camera.shows(vector(0, 0, 2000), 800, 400)
+
+
+def half_height(camera: Camera) -> float:
+    """Half of what is seen in the plane of the focal point [m]."""
+    return camera.distance * math.tan(camera.fov / 2)
+
+
+def test_an_orthographic_orbit_shows_the_focal_point_as_large_from_the_same_side(
+    make_view: MakeView,
+) -> None:
+    where = {"Yaw": 0.3, "Pitch": 0.4, "Distance": 2.0, "Focal_Point": (1, 2, 3)}
+    near = make_view("Orbit", **where).camera()
+    far = make_view("Orbit", **where, Orthographic=True).camera()
+    assert far.fov == ORTHO_FIELD_OF_VIEW
+    assert half_height(far) == pytest.approx(half_height(near))
+    assert far.forward == pytest.approx(near.forward)
+    assert far.look_at == pytest.approx(near.look_at)
+    # Half a metre nearer, it is not larger by more than a part in a hundred.
+    assert far.distance / (far.distance - 0.5) < 1.01
+
+
+def test_an_orthographic_orbit_reads_the_camera_that_it_has_sent(
+    make_view: MakeView,
+) -> None:
+    view = make_view("Orbit", Yaw=1.3, Pitch=-0.2, Distance=0.7, Orthographic=True)
+    read = view.read(view.camera())
+    assert read["Distance"] == pytest.approx(0.7)
+    assert (read["Yaw"], read["Pitch"]) == pytest.approx((1.3, -0.2))
+
+
+def test_an_orthographic_orbit_moves_to_look_at_a_point(make_view: MakeView) -> None:
+    view = make_view("Orbit", Yaw=0.0, Pitch=0.0, Orthographic=True)
+    before = view.camera()
+    put(view, view.look_at(vector(0.0, 3.0, 1.0)))
+    assert view.camera().look_at == pytest.approx((0.0, 3.0, 1.0))
+    assert view.camera().forward == pytest.approx(before.forward)
+
+
+def test_an_orthographic_orbit_fits_a_box_as_a_perspective_one_does(
+    make_view: MakeView,
+) -> None:
+    low, high = vector(-1, -2, 0), vector(1, 2, 1)
+    view = make_view("Orbit", Yaw=0.0, Pitch=0.0, Orthographic=True)
+    put(view, view.fit(low, high, 800, 800))
+    # Four metres from side to side fill nine tenths of the width.
+    assert half_height(view.camera()) == pytest.approx(2.0 / 0.9, rel=0.01)
+
+
+@pytest.mark.parametrize("name", [name for name in ALL if name != "Orbit"])
+def test_after_an_orthographic_orbit_other_views_are_as_near_as_before(
+    name: str, make_view: MakeView
+) -> None:
+    where = {"Yaw": 0.3, "Pitch": 0.4, "Distance": 2.0}
+    values = [
+        make_view(name).mimic(make_view("Orbit", **where, Orthographic=flat))
+        for flat in (False, True)
+    ]
+    for path, wanted in values[0].items():
+        assert values[1][path] == pytest.approx(wanted, abs=1e-6)
+
+
+def test_zero_brings_the_perspective_back(make_view: MakeView) -> None:
+    assert make_view("Orbit", Orthographic=True).zero()["Orthographic"] is False
+    assert "Orthographic" not in make_view("XYOrbit").zero()

@@ -190,6 +190,15 @@ class ViewsPanel(Panel):
         kind = KINDS.get(label)
         self.look_as(kind, lambda row: values.get(row.id))
 
+    @command("views/side", TEXT, client_local=True)
+    def _side(self, side: str) -> None:
+        self._client.view.look_from(side)
+
+    @command("views/press_side", TEXT, client_local=True)
+    def _press_side(self, side: str) -> None:
+        """Look from the opposite side when the key is pressed again."""
+        self._client.view.look_from(side, again=True)
+
     @command("views/first", client_local=True)
     def _first(self) -> None:
         """Show the config's view: the page had only waited for a robot."""

@@ -21,6 +21,8 @@ ORTHO_HEIGHT = 500.0
 """Height of RViz's orthographic camera above its target [m]."""
 ORTHO_FIELD_OF_VIEW = math.radians(0.5)
 """Field of view with which a page draws an orthographic view [rad]."""
+WIDEST_ORTHO = 2.0 * ORTHO_FIELD_OF_VIEW
+"""A field of view below this is that of an orthographic view [rad]."""
 FILLED_HEIGHT, FILLED_WIDTH = 0.7, 0.9
 """Parts of the picture that what is to be seen may fill."""
 
@@ -71,6 +73,28 @@ class Camera:
     def distance(self) -> float:
         """From the camera to the point in the middle [m]."""
         return length(self.look_at - self.position)
+
+    @property
+    def is_parallel(self) -> bool:
+        """Return whether it draws an orthographic view with a small field of view."""
+        return self.fov < WIDEST_ORTHO
+
+    def with_fov(self, fov: float) -> Camera:
+        """Return the camera that shows the plane of `look_at` as large.
+
+        Args:
+            fov: its field of view [rad].
+        """
+        if fov == self.fov:
+            return self
+        away = self.distance * math.tan(self.fov / 2.0) / math.tan(fov / 2.0)
+        return replace(
+            self,
+            position=self.look_at - self.forward * away,
+            fov=fov,
+            near=max(0.01, away - ORTHO_HEIGHT),
+            far=max(FAR, 2.0 * away),
+        )
 
     def placed(self, position: Vector, look_at: Vector, up: Vector) -> Camera:
         """Return the same camera at another place."""

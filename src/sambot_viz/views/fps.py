@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.rviz import FloatProperty, KeptProperty, Property, VectorProperty
 from sambot_viz.views.camera import (
+    FIELD_OF_VIEW,
     UP,
     Camera,
     Vector,
@@ -76,7 +77,7 @@ class FPSView(View):
 
     def mimic(self, old: View) -> Values:
         """Takes over the camera of the old view."""
-        return self.read_local(old.local_camera())
+        return self.read_local(old.local_camera().with_fov(FIELD_OF_VIEW))
 
     def zero(self) -> Values:
         """At (5, 5, 10), looking at the origin."""

@@ -6,6 +6,8 @@ import math
 
 from sambot_viz.rviz import BoolProperty, FloatProperty, Property, VectorProperty
 from sambot_viz.views.camera import (
+    FIELD_OF_VIEW,
+    ORTHO_FIELD_OF_VIEW,
     Camera,
     Vector,
     Vectors,
@@ -61,12 +63,35 @@ ORBIT_PROPERTIES: tuple[Property, ...] = (
 )
 
 
+ORTHOGRAPHIC = "Orthographic"
+SIDES = {
+    "front": 0.0,
+    "left": math.pi / 2,
+    "back": math.pi,
+    "right": 3.0 * math.pi / 2,
+}
+"""Side of a robot → the yaw from which it is seen [rad]; x points forward."""
+
+
 class OrbitView(View):
     """Looks at a focal point from a distance."""
 
     kind = "rviz_default_plugins/Orbit"
     help = "Moves around a focal point."
-    properties = ORBIT_PROPERTIES
+    properties = (
+        *ORBIT_PROPERTIES,
+        BoolProperty(
+            ORTHOGRAPHIC,
+            default=False,
+            help="Keep parallel lines parallel, as in a drawing; RViz ignores it, and "
+            "shows the same side in perspective.",
+        ),
+    )
+
+    @property
+    def orthographic(self) -> bool:
+        """Whether parallel lines stay parallel in its picture."""
+        return ORTHOGRAPHIC in self.config.declared and self.config.get(ORTHOGRAPHIC)
 
     @property
     def distance(self) -> float:
@@ -87,28 +112,35 @@ class OrbitView(View):
         yaw, pitch = (float(self.config.get(name)) for name in ("Yaw", "Pitch"))
         focal = self.focal_point
         away = self.distance * on_sphere(sign * yaw, sign * pitch)
-        return Camera(focal + away, focal, vector(0.0, 0.0, sign), near=self.near)
+        camera = Camera(focal + away, focal, vector(0.0, 0.0, sign), near=self.near)
+        return camera.with_fov(ORTHO_FIELD_OF_VIEW) if self.orthographic else camera
 
     def read_local(self, camera: Camera) -> Values:
         """Make the middle of the picture the focal point."""
+        if camera.is_parallel:
+            camera = camera.with_fov(FIELD_OF_VIEW)
         return self._around(camera.position, camera.look_at)
 
     def look_at_local(self, point: Vector) -> Values:
-        """Turn the camera in place, as RViz does."""
+        """Turn the camera in place, as RViz does; without perspective, move it."""
+        if self.orthographic:
+            return {"Focal Point": components(point)}
         return self._around(self.local_camera().position, point)
 
     def fit_local(self, points: Vectors, width: int, height: int) -> Values:
         """Make the middle of the points the focal point."""
-        camera = self.local_camera()
+        camera, middle = self.local_camera(), points.mean(axis=0)
+        away = camera.distance_to_show(points, width / height) * camera.forward
+        fitted = camera.placed(middle - away, middle, camera.up)
         return {
-            "Distance": camera.distance_to_show(points, width / height),
-            "Focal Point": components(points.mean(axis=0)),
+            "Distance": fitted.with_fov(FIELD_OF_VIEW).distance,
+            "Focal Point": components(middle),
         }
 
     def mimic(self, old: View) -> Values:
         """Keeps the picture; from above it looks down from 100 m, as in RViz."""
-        camera = old.local_camera()
-        if old.orthographic:
+        camera = old.local_camera().with_fov(FIELD_OF_VIEW)
+        if old.from_above:
             x, y, _ = camera.look_at
             return {
                 "Distance": 100.0,
@@ -123,7 +155,7 @@ class OrbitView(View):
 
     def zero(self) -> Values:
         """Return what RViz sets: Focal Shape Fixed Size is false, not its default."""
-        return {
+        values: Values = {
             "Yaw": math.pi / 4,
             "Pitch": math.pi / 4,
             "Distance": 10.0,
@@ -131,6 +163,7 @@ class OrbitView(View):
             "Focal Shape Fixed Size": False,
             "Focal Point": (0.0, 0.0, 0.0),
         }
+        return {**values, ORTHOGRAPHIC: False} if self.orthographic else values
 
     def shifted(self, offset: Vector) -> Values:
         """Moves the focal point."""

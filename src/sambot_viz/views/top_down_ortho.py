@@ -44,7 +44,7 @@ class TopDownOrthoView(View):
     kind = "rviz_default_plugins/TopDownOrtho"
     help = "Looks straight down, without perspective."
     properties = TOP_DOWN_ORTHO_PROPERTIES
-    orthographic = True
+    from_above = True
     nearness = "Scale"
 
     @property

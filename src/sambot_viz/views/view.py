@@ -99,7 +99,7 @@ class View:
         help: one sentence for the list of views.
         properties: the declaration of everything a user can set.
         follows_yaw: whether it turns with the target frame.
-        orthographic: whether parallel lines stay parallel in its picture.
+        from_above: whether it looks straight down, without perspective.
         nearness: the property that says how near the camera is; where a file does not
             give it, the robot decides (`fit`).
         config: its values in the document.
@@ -109,7 +109,7 @@ class View:
     help: ClassVar[str]
     properties: ClassVar[tuple[Property, ...]]
     follows_yaw: ClassVar[bool] = False
-    orthographic: ClassVar[bool] = False
+    from_above: ClassVar[bool] = False
     nearness: ClassVar[str] = "Distance"
 
     def __init__(self, config: ViewConfig) -> None:

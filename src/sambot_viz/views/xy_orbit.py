@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
-from sambot_viz.views.camera import Camera, Vector, Vectors, components, length
-from sambot_viz.views.orbit import OrbitView
+from sambot_viz.views.camera import (
+    FIELD_OF_VIEW,
+    Camera,
+    Vector,
+    Vectors,
+    components,
+    length,
+)
+from sambot_viz.views.orbit import ORBIT_PROPERTIES, OrbitView
 from sambot_viz.views.view import Values, View
 
 RAISED = 0.2
@@ -15,6 +22,7 @@ class XYOrbitView(OrbitView):
 
     kind = "rviz_default_plugins/XYOrbit"
     help = "Moves around a point on the ground, low in the picture."
+    properties = ORBIT_PROPERTIES
 
     def local_camera(self) -> Camera:
         """Return the camera of Orbit, moved up in its picture."""
@@ -41,9 +49,9 @@ class XYOrbitView(OrbitView):
 
     def mimic(self, old: View) -> Values:
         """Keeps the picture where its middle and the camera are above the ground."""
-        if old.orthographic:
+        if old.from_above:
             return super().mimic(old)
-        camera = old.local_camera()
+        camera = old.local_camera().with_fov(FIELD_OF_VIEW)
         down = -camera.image_up
         ahead = _to_ground(camera.position, camera.forward)
         below = _to_ground(camera.position, down)

@@ -16,6 +16,7 @@ const KEYS = [
       ["Right button, or wheel", "zoom"],
       ["F", "look at the selection, or at the robot"],
       ["Z", "reset the view to its default"],
+      ["1 3 7", "front, right side, top without perspective; 1 or 3 again: back, left side"],
       ["R", "reload meshes and redraw"],
       ["P", "show everyone what you have selected"],
       ["H", "hide or show all panels"],

@@ -74,6 +74,13 @@ const pivot = () => {
 const raised = () => state.kind === "XYOrbit" || state.kind === "ThirdPersonFollower";
 const above = () => state.kind === "TopDownOrtho";
 
+/** From a camera of RViz's field of view to the target: one without perspective is far away. */
+const reach = () => {
+  const { fov } = controls().camera;
+  const wide = fov < 1 ? Math.tan((fov * Math.PI) / 360) / Math.tan(Math.PI / 8) : 1;
+  return wide * pose().distance;
+};
+
 /** @param {Vector} by */
 const shift = (by) => {
   const at = plus(pose().target, by);
@@ -139,13 +146,13 @@ const retreat = (length) => shift(plus([0, 0, 0], pose().back, length));
 /** @param {number} dy [px], down is positive @param {boolean} held Shift */
 const rightDrag = (dy, held) => {
   if (state.kind === "FPS") retreat(0.1 * dy);
-  else if (held && state.kind === "Orbit") retreat(ZOOM * pose().distance * dy);
+  else if (held && state.kind === "Orbit") retreat(ZOOM * reach() * dy);
   else zoom(ZOOM * dy);
 };
 /** @param {number} units RViz's, away from the user is positive @param {boolean} held */
 const wheel = (units, held) => {
   if (state.kind === "FPS") retreat(-0.01 * units);
-  else if (held && state.kind === "Orbit") retreat(-WHEEL * pose().distance * units);
+  else if (held && state.kind === "Orbit") retreat(-WHEEL * reach() * units);
   else zoom(-WHEEL * units);
 };
 
@@ -306,7 +313,7 @@ const showFocal = (on) => {
   m.camera.layers.enable(DISC_LAYER);
   if (show) {
     const p = pose();
-    const size = focalFixed ? focalSize : focalSize * p.distance;
+    const size = focalFixed ? focalSize : focalSize * reach();
     disc.position.set(...pivot());
     disc.quaternion.setFromUnitVectors(
       disc.position.clone().set(0, 0, 1),

@@ -18,6 +18,10 @@ const NO_LETTERS = new Set([
   "file",
 ]);
 
+/** The sides from which a key looks at the robot; again, from the opposite one.
+ * @type {Record<string, string>} */
+const SIDES = { 1: "front", 3: "right", 7: "top" };
+
 /** Keys that move the time of a recording, also when they are held. */
 const SEEKS = new Set(["ArrowLeft", "ArrowRight", "Home", "End"]);
 
@@ -64,6 +68,8 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
   if (key === "z") return { act: "tools/zero" };
   if (key === "r") return { act: "tools/reset" };
   if (key === "p") return { act: "tools/point" };
+  // As in Blender; while a number pad drives, its other keys are only pressed by mistake.
+  if (!drives && SIDES[key]) return { act: "views/press_side", with: [SIDES[key]] };
   // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops. A digit
   // that was meant for a field must not: only stopping is always safe.
   if (key === "5" || (drives && "2468".includes(key))) return { act: "drive/press", with: [key] };

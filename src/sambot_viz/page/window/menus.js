@@ -2,7 +2,7 @@
 /* The menus of the window, as RViz's: File, Edit, View, Panels, Help. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act, rows } from "../wire/channel.js";
+import { act, rows, send } from "../wire/channel.js";
 import { show } from "../dialogs/dialog.js";
 import { About, Keys } from "../dialogs/help.js";
 import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
@@ -52,6 +52,17 @@ const lookEntry = (look, name) => ({
   },
 });
 
+/** @param {string} side @param {string} name @param {string} [keys] @returns {Entry} */
+const sideEntry = (side, name, keys) => ({ name, keys, does: () => act("views/side", [side]) });
+
+/** @returns {Entry} */
+function orthographic() {
+  const row = rows.get("view/Orthographic");
+  const why = row ? {} : { off: true, title: "Views of the type Orbit can do without perspective" };
+  const does = () => send("view/Orthographic", !row?.value);
+  return { name: "Orthographic", checked: Boolean(row?.value), does, ...why };
+}
+
 /** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
 export const listMenus = (panels, hideAll) => [
   {
@@ -88,7 +99,17 @@ export const listMenus = (panels, hideAll) => [
   },
   {
     name: "View",
-    entries: () => [lookEntry("rviz", "Look: RViz"), lookEntry("studio", "Look: Studio")],
+    entries: () => [
+      sideEntry("front", "Front", "1"),
+      sideEntry("back", "Back"),
+      sideEntry("right", "Right Side", "3"),
+      sideEntry("left", "Left Side"),
+      sideEntry("top", "Top", "7"),
+      orthographic(),
+      null,
+      lookEntry("rviz", "Look: RViz"),
+      lookEntry("studio", "Look: Studio"),
+    ],
   },
   {
     name: "Panels",

@@ -2,7 +2,7 @@
 
 viser's camera turns about a point in front of it, with a fixed up direction, and in
 perspective. An orthographic view is drawn by a far camera with a small field of view
-(`Camera.as_perspective`) that looks almost straight down.
+(`Camera.as_perspective`); that of TopDownOrtho looks almost straight down.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from sambot_viz.views.camera import (
     FIELD_OF_VIEW,
     ORTHO_FIELD_OF_VIEW,
     UP,
+    WIDEST_ORTHO,
     Camera,
     Vector,
     components,
@@ -36,8 +37,8 @@ SAME_WAY = 1e-6
 """A camera at rest looks at its target, with at most this deviation [rad]."""
 FARTHEST = 1e12
 """A camera with larger numbers is not taken from a browser [m]."""
-WIDEST_ORTHO = 2 * ORTHO_FIELD_OF_VIEW
-"""A field of view below this is that of an orthographic view [rad]."""
+STRAIGHT_DOWN = 1e-4
+"""A camera that leans by less looks straight down [rad]."""
 
 Report = tuple[int, Camera | None]
 """The height of a browser's picture [pixels], and its camera."""
@@ -153,29 +154,32 @@ class ClientCamera:
             # A camera that moves reports where its target will be when it stops. At
             # the pole the yaw between the two would be anything.
             look_at = position + away * forward
-        orthographic = 0.0 < fov[0] < WIDEST_ORTHO
-        if orthographic:
-            # It leans a little; an orthographic view looks straight down.
+        angle = float(fov[0]) if 0.0 < fov[0] < np.pi else FIELD_OF_VIEW
+        aside = length((position - look_at)[:2])
+        from_above = angle < WIDEST_ORTHO and aside < STRAIGHT_DOWN * away
+        if from_above:
+            # It leans a little; TopDownOrtho looks straight down.
             position = look_at + length(look_at - position) * UP
         if length(np.cross(look_at - position, up)) < 1e-9 * length(up):
             up = -_rotation(wxyz)[:, 1]
             if length(np.cross(look_at - position, up)) < 1e-9:
                 return None
-        angle = float(fov[0]) if 0.0 < fov[0] < np.pi else FIELD_OF_VIEW
         camera = Camera(position, look_at, up, fov=angle)
-        return camera.as_orthographic(height) if orthographic else camera
+        return camera.as_orthographic(height) if from_above else camera
 
 
 def same_picture(one: Camera, two: Camera) -> bool:
     """Whether two cameras show the same, to a fraction of a pixel."""
     if (one.scale is None) != (two.scale is None):
         return False
+    if one.is_parallel != two.is_parallel:
+        return False
     if one.scale is not None and two.scale is not None:
         pixel = 0.5 / two.scale
         near = abs(one.scale / two.scale - 1.0) < 1e-4
     else:
-        pixel = 2e-5 * two.distance + 1e-6
-        near = length(one.position - two.position) < pixel
+        near = length(one.position - two.position) < 2e-5 * two.distance + 1e-6
+        pixel = 2e-5 * two.with_fov(FIELD_OF_VIEW).distance + 1e-6
     looking = one.look_at - two.look_at
     return near and length(looking) < pixel and length(one.right - two.right) < 1e-3
 

@@ -37,8 +37,8 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
-from sambot_viz.views.camera import Camera, Vector
-from sambot_viz.views.orbit import OrbitView
+from sambot_viz.views.camera import Camera, Vector, length, on_sphere
+from sambot_viz.views.orbit import ORTHOGRAPHIC, SIDES, OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
 from sambot_viz.views.view import WORLD, Values, View, rounded
@@ -193,6 +193,40 @@ class ClientView:
             _, height = window_of(self._client)
             self._take(as_kind(self._document.config, self.view, kind, height))
 
+    def look_from(self, side: str, *, again: bool = False) -> None:
+        """Look at the whole robot from one side, without perspective.
+
+        Args:
+            side: one of `SIDES`, along the axes of the fixed frame, or "top".
+            again: whether to look from the opposite side if it is seen already.
+
+        Raises:
+            UsageError: an unknown side.
+        """
+        if side not in (*SIDES, "top"):
+            raise UsageError(f"there is no side '{side}'; {', '.join(SIDES)} or top")
+        if again and side in SIDES and self._is_seen(side):
+            side = _opposite(side)
+        with self._edit(f"View: {side}"):
+            kind = TopDownOrthoView.kind if side == "top" else OrbitView.kind
+            if kind != self.view.kind:
+                _, height = window_of(self._client)
+                self._take(as_kind(self._document.config, self.view, kind, height))
+            if side == "top":
+                self._apply({"Angle": 0.0})
+            else:
+                self._apply({"Yaw": SIDES[side], "Pitch": 0.0, ORTHOGRAPHIC: True})
+            box = self._picker.robot_box()
+            if box is not None:
+                self._apply(self._values_for(box))
+
+    def _is_seen(self, side: str) -> bool:
+        view = self.view
+        if not (type(view) is OrbitView and view.orthographic):
+            return False
+        seen = view.local_camera().forward
+        return length(seen + on_sphere(SIDES[side], 0.0)) < 1e-3
+
     def zero(self) -> None:
         """Bring the view to where RViz's "Zero" brings it."""
         with self._edit("Zero the view"):
@@ -268,9 +302,11 @@ class ClientView:
 
     def _keep_camera(self) -> None:
         """Take over the camera of a page that came back."""
-        if self.camera.orthographic != self.view.orthographic:
+        if self.camera.orthographic != self.view.from_above:
             kind = TopDownOrthoView if self.camera.orthographic else OrbitView
             self._take(self._document.config.new_view(kind.kind, self.view.config))
+        if ORTHOGRAPHIC in self.view.config.declared:
+            self.view.config.set(ORTHOGRAPHIC, self.camera.is_parallel)
         self._take_camera()
 
     @contextmanager
@@ -397,3 +433,8 @@ class ClientView:
         if not now.same_as(before):
             self._target = now
             self._camera.point(self.view.moved(self.camera, before, now))
+
+
+def _opposite(side: str) -> str:
+    names = [*SIDES]
+    return names[(names.index(side) + 2) % len(names)]

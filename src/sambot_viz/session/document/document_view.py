@@ -71,7 +71,7 @@ class DocumentView:
         """
         view = self.view
         if position is not None:
-            if view.orthographic:
+            if view.from_above:
                 view = view_of(self._as_kind(OrbitView.kind))
             values = view.read(Camera(position, point, UP), self._target(view))
         else:
