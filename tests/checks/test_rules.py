@@ -447,3 +447,77 @@ def test_the_one_wheel_that_floats_is_to_be_moved(checked: Checked) -> None:
         "lower the origin of joint right_joint by 0.05 m, or correct the radius"
     )
     assert checked(robot("0.1")) == []
+
+
+def cart(weight: str = "0.1 0 0", caster: str = "-0.2 0 0", more: str = "") -> str:
+    """Two wheels of radius 0.05 at x = 0, a caster, and a weight of 2 kg."""
+    ball = '<geometry><sphere radius="0.05"/></geometry>'
+    inertial = (
+        f'<inertial><origin xyz="{weight}"/><mass value="2"/><inertia ixx="1" ixy="0" '
+        'ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    )
+    links = "".join(
+        f'<link name="{name}"><visual>{ball}</visual></link>'
+        f'<joint name="{name}_joint" type="{kind}"><parent link="base_link"/>'
+        f'<child link="{name}"/><origin xyz="{at}"/><axis xyz="0 1 0"/></joint>'
+        for name, kind, at in (
+            ("left", "continuous", "0 0.1 0"),
+            ("right", "continuous", "0 -0.1 0"),
+            ("caster", "fixed", caster),
+        )
+    )
+    return f'<link name="base_link">{inertial}</link>{links}{more}'
+
+
+BATTERY = """
+<link name="battery"><collision><geometry><box size=".1 .1 .01"/></geometry></collision>
+</link><joint name="battery_joint" type="fixed"><parent link="base_link"/>
+<child link="battery"/><origin xyz="-0.1 0 0.1"/></joint>
+"""
+
+
+def test_a_weight_in_front_of_the_wheels_makes_a_robot_fall(checked: Checked) -> None:
+    (problem,) = checked(cart(), "falls-over")
+    assert problem.severity == "warning"
+    assert "0.1 m beyond what it stands on, which is left, right and caster" in (
+        problem.message
+    )
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        (cart(weight="-0.05 0 0"), "it stands"),
+        (cart(weight="0.002 0 0"), "it nearly stands"),
+        (cart(caster="-0.2 0 0.3"), "it stands on two wheels, and balances"),
+        (cart(more=BATTERY), "a weight is missing"),
+        (
+            cart(
+                more='<link name="nose"><visual><geometry><sphere radius="0.05"/>'
+                '</geometry></visual></link><joint name="n" type="fixed"><parent '
+                'link="base_link"/><child link="nose"/><origin xyz="0.2 0 0.01"/>'
+                "</joint>"
+            ),
+            "a second caster, 10 mm higher, catches it",
+        ),
+        (
+            cart(
+                more='<link name="nose"><visual><geometry><mesh filename="no.stl"/>'
+                '</geometry></visual></link><joint name="n" type="fixed"><parent '
+                'link="base_link"/><child link="nose"/></joint>'
+            ),
+            "a shape is not known",
+        ),
+        (
+            cart(
+                more='<link name="world"/><joint name="w" type="fixed"><parent '
+                'link="world"/><child link="base_link"/></joint>'
+            ),
+            "it is fixed",
+        ),
+    ],
+)
+def test_a_robot_falls_only_where_that_is_certain(
+    checked: Checked, body: str, why: str
+) -> None:
+    assert checked(body, "falls-over") == [], why

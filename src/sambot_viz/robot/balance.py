@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.ground import LinkTree, Meshes, contacts
+from sambot_viz.robot.ground import Contacts, LinkTree, Meshes, contacts
 
 WORLD = "world"
 """A robot with this root link is fixed to the world, as in Gazebo."""
@@ -94,7 +94,10 @@ class Balance:
 
 
 def balance(
-    robot: LinkTree, poses: Mapping[str, Matrix], meshes: Meshes
+    robot: LinkTree,
+    poses: Mapping[str, Matrix],
+    meshes: Meshes,
+    gap: float | None = None,
 ) -> Balance | None:
     """Weigh a robot.
 
@@ -102,6 +105,7 @@ def balance(
         robot: the robot.
         poses: link → T_root_link, (4, 4); links that are not in it are left out.
         meshes: gives what is in files; what is not known supports nothing.
+        gap: of what stands on the ground too, as for `contacts` [m].
 
     Returns:
         None where no link has a mass.
@@ -125,14 +129,11 @@ def balance(
         return None
     center = np.average(centers, axis=0, weights=masses)
     fixed = robot.root == WORLD
-    support = _support(robot, poses, meshes)
+    support = _support(contacts(robot, poses, meshes, gap))
     return Balance(sum(masses), center, tuple(massless), fixed, support)
 
 
-def _support(
-    robot: LinkTree, poses: Mapping[str, Matrix], meshes: Meshes
-) -> Support | None:
-    found = contacts(robot, poses, meshes)
+def _support(found: Contacts | None) -> Support | None:
     if found is None:
         return None
     points = np.concatenate([*found.points.values()])[:, :2]

@@ -104,7 +104,10 @@ class _PlacedShape:
 
 
 def contacts(
-    robot: LinkTree, poses: Mapping[str, Matrix], meshes: Meshes
+    robot: LinkTree,
+    poses: Mapping[str, Matrix],
+    meshes: Meshes,
+    gap: float | None = None,
 ) -> Contacts | None:
     """Find what touches the ground.
 
@@ -112,17 +115,20 @@ def contacts(
         robot: the robot.
         poses: link → T_root_link, (4, 4); other links are left out.
         meshes: gives what is in files; what is not known touches nothing.
+        gap: what is so much higher than the lowest point touches the ground too [m];
+            `LARGEST_GAP` by default, less for a small robot.
 
     Returns:
-        The lowest points, and all others that are at most `LARGEST_GAP` higher (less
-        for a small robot); None where no link has a shape.
+        None where no link has a shape.
     """
     bodies = [*_bodies(robot, poses, meshes)]
     if not bodies:
         return None
     corners: Matrix = np.concatenate([body.corners for body in bodies])
     size = float(np.ptp(corners, axis=0).max())
-    gap = min(LARGEST_GAP, GAP_SHARE * size)
+    if gap is None:
+        gap = min(LARGEST_GAP, GAP_SHARE * size)
+    flat = FLATNESS * min(gap, LARGEST_GAP)
     # A wheel is taken for round: it may reach a little below its corners.
     sag = (1.0 - _ROUND) * size
     found: list[tuple[str, Matrix]] = []
@@ -130,7 +136,7 @@ def contacts(
     for body in sorted(bodies, key=lambda body: body.bottom):
         if body.bottom > lowest + gap + sag:
             break
-        points = _foot(body, gap * FLATNESS)
+        points = _foot(body, flat)
         found.append((body.link, points))
         lowest = min(lowest, float(points[:, 2].min()))
     touching: dict[str, list[Matrix]] = {}
@@ -149,7 +155,7 @@ def _bodies(
         T_root_link = poses.get(link.name)
         if T_root_link is None:
             continue
-        axle = _axle(above.get(link.name), T_root_link)
+        axle = axle_of(above.get(link.name), T_root_link)
         for shape in link.collisions or link.visuals:
             mesh: Mesh | None = None
             T = T_root_link @ shape.origin.matrix
@@ -169,8 +175,16 @@ def _placed(points: Matrix, T: Matrix) -> Matrix:
     return turned + T[:3, 3]
 
 
-def _axle(joint: Joint | None, T_root_link: Matrix) -> Matrix | None:
-    """Return the direction of a wheel's axle in the root link, of length 1."""
+def axle_of(joint: Joint | None, T_root_link: Matrix) -> Matrix | None:
+    """Return the direction of a wheel's axle in the root link, of length 1.
+
+    Args:
+        joint: that moves the link; None for the root link.
+        T_root_link: (4, 4).
+
+    Returns:
+        None where the joint does not turn without end about a level axis.
+    """
     if joint is None or joint.type != "continuous":
         return None
     axle: Matrix = T_root_link[:3, :3] @ np.array(joint.axis)
