@@ -16,7 +16,7 @@ import pytest
 from patience import patience
 from program import address, running
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, load_robot
 from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
@@ -226,6 +226,48 @@ def test_expand_prints_the_urdf(repository: Path, capsys: Capture) -> None:
     assert main(["expand", str(repository / "assets" / "sam_bot.urdf.xacro")]) == 0
     out = capsys.readouterr().out
     assert '<robot name="sam_bot">' in out and "xacro:" not in out
+
+
+def test_expand_prints_sdf_as_it_is_or_as_the_urdf_that_ros_makes_of_it(
+    repository: Path, capsys: Capture
+) -> None:
+    model = str(repository / "assets" / "sam_bot.sdf")
+    assert main(["expand", model]) == 0
+    out = capsys.readouterr().out
+    assert "<sdf version=" in out and "<xacro:" not in out
+    assert main(["expand", "--to", "urdf", model]) == 0
+    printed = capsys.readouterr()
+    assert load_robot(printed.out) == load_robot(load_robot(model).urdf)
+    assert printed.err == ""
+
+
+def test_expand_to_urdf_prints_a_urdf_as_it_is(
+    repository: Path, capsys: Capture
+) -> None:
+    model = str(repository / "assets" / "sam_bot.urdf.xacro")
+    printed: list[str] = []
+    for words in (["expand", model], ["expand", "--to", "urdf", model]):
+        assert main(words) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1]
+
+
+def test_what_a_urdf_cannot_say_of_an_sdf_file_is_said_beside_it(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    model = tmp_path / "r.sdf"
+    joint = '<joint name="j" type="{}"><parent>a</parent><child>b</child>{}</joint>'
+    text = f'<sdf version="1.8"><model name="r"><link name="a"/><link name="b"/>{joint}'
+    model.write_text(f"{text.format('ball', '')}</model></sdf>")
+    assert main(["expand", "--to", "urdf", str(model)]) == 0
+    printed = capsys.readouterr()
+    assert load_robot(printed.out).joints["j"].type == "floating"
+    assert "sdf-joint-floating" in printed.err
+    model.write_text(f"{text.format('hinge', '')}</model></sdf>")
+    assert main(["expand", "--to", "urdf", str(model)]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "joint-type-unknown" in printed.err
 
 
 def test_xacro_arguments_may_be_anywhere(tmp_path: Path, capsys: Capture) -> None:

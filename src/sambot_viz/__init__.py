@@ -1,4 +1,4 @@
-"""A web visualiser for URDF and xacro robots: no ROS, no X server.
+"""A web visualiser for URDF, SDF and xacro robots: no ROS, no X server.
 
 The public names; each is loaded when it is first used, so that ``import sambot_viz``
 costs nothing and `check` needs neither viser nor a mesh library.

@@ -21,6 +21,7 @@ from sambot_viz.files import RECORDING_ENDINGS, is_recording
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
     choose_model,
+    model_ending,
     models_in,
 )
 
@@ -74,7 +75,8 @@ def config_path(name: str = DEFAULT_CONFIG) -> Path:
 
 def model_names() -> list[str]:
     """List the bundled models, sorted; files that others include are left out."""
-    return sorted(path.name for path in assets_folder().glob("*.urdf.xacro"))
+    files = [path.name for path in assets_folder().iterdir()]
+    return sorted(name for name in files if name.endswith((".urdf.xacro", ".sdf")))
 
 
 def config_names() -> list[str]:
@@ -216,8 +218,7 @@ def missing(what: str, path: Path) -> str:
 
 def _before_ending(name: str) -> str:
     """Return a name without its ending, which all files of a kind share."""
-    known = (e for e in MODEL_ENDINGS if name.endswith(e))
-    return name.removesuffix(next(known, Path(name).suffix))
+    return name.removesuffix(model_ending(name) or Path(name).suffix)
 
 
 def poses_beside(model: Path) -> Path:
@@ -227,7 +228,7 @@ def poses_beside(model: Path) -> Path:
     the package.
     """
     stem = model.name
-    for ending in (".xacro", ".urdf"):
+    for ending in (".xacro", ".urdf", ".sdf"):
         stem = stem.removesuffix(ending)
     own = model.resolve() != model_path().resolve()
     return (model.parent if own else Path.cwd()) / f"{stem}.poses.yaml"

@@ -11,7 +11,7 @@ import pytest
 import xacro  # pyright: ignore[reportMissingTypeStubs]
 import yaml
 
-from sambot_viz import bundled
+from sambot_viz import bundled, load_robot
 
 COLLISION = "sam_bot_collision.urdf.xacro"
 
@@ -227,3 +227,29 @@ def test_the_config_of_mbot_starts_at_a_frame_of_mbot() -> None:
     config = yaml.safe_load(bundled.config_path("mbot.rviz").read_text("utf-8"))
     fixed = config["Visualization Manager"]["Global Options"]["Fixed Frame"]
     assert fixed in links(expand(bundled.model_path("mbot.urdf.xacro")))
+
+
+def test_sam_bot_in_sdf_is_the_sam_bot_of_the_urdf_with_collisions() -> None:
+    sdf, urdf = (load_robot(bundled.model_path(n)) for n in ("sam_bot.sdf", COLLISION))
+
+    assert sdf.joint_names == urdf.joint_names
+    positions = {"drivewhl_l_joint": 1.0, "drivewhl_r_joint": -2.0}
+    poses, expected = (r.forward_kinematics(positions) for r in (sdf, urdf))
+    assert poses.keys() == expected.keys()
+    for name, T in poses.items():
+        np.testing.assert_allclose(T, expected[name], atol=1e-12)
+        link, other = sdf.links[name], urdf.links[name]
+        for shapes, others in (
+            (link.visuals, other.visuals),
+            (link.collisions, other.collisions),
+        ):
+            assert [s.geometry for s in shapes] == [s.geometry for s in others]
+        for shape, one in zip(link.visuals, other.visuals, strict=True):
+            assert shape.material is not None and one.material is not None
+            assert shape.material.rgba == pytest.approx(one.material.rgba)
+            np.testing.assert_allclose(shape.origin.matrix, one.origin.matrix)
+        if other.inertial is not None:
+            assert link.inertial is not None
+            for moment in ("mass", "ixx", "iyy", "izz"):
+                expected_moment = getattr(other.inertial, moment)
+                assert getattr(link.inertial, moment) == pytest.approx(expected_moment)

@@ -20,6 +20,7 @@ def test_the_default_model_and_config_exist() -> None:
 def test_models_and_configs_are_listed_without_the_parts_they_include() -> None:
     assert bundled.model_names() == [
         "mbot.urdf.xacro",
+        "sam_bot.sdf",
         "sam_bot.urdf.xacro",
         "sam_bot_collision.urdf.xacro",
     ]

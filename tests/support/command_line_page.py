@@ -20,9 +20,10 @@ _HEAD = """\
 
 This page is generated; `sambot-viz COMMAND --help` says the same.
 
-MODEL is a URDF or xacro file, whatever its ending, or a package folder; without one,
-the bundled sam_bot is used. `NAME:=VALUE` is an argument for xacro, anywhere on the
-line; `model:=`, `rvizconfig:=` and `gui:=` mean the same as for `display.launch.py`.
+MODEL is a URDF, SDF or xacro file, whatever its ending, or a package folder; without
+one, the bundled sam_bot is used. `NAME:=VALUE` is an argument for xacro, anywhere on
+the line; `model:=`, `rvizconfig:=` and `gui:=` mean the same as for
+`display.launch.py`.
 """
 
 

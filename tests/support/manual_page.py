@@ -20,7 +20,7 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "sambot-viz.1"
 _HEAD = r""".\" Made by tests/support/manual_page.py
 .TH SAMBOT\-VIZ 1
 .SH NAME
-sambot\-viz \- show a URDF or xacro robot in the browser
+sambot\-viz \- show a URDF, SDF or xacro robot in the browser
 .SH SYNOPSIS
 .B sambot\-viz
 .RI [ MODEL ]
@@ -31,9 +31,9 @@ sambot\-viz \- show a URDF or xacro robot in the browser
 .I COMMAND
 .RI [ FLAG ...]
 .SH DESCRIPTION
-MODEL is a URDF or xacro file, whatever its ending, or a package folder; without one,
-the bundled sam_bot is used. NAME:=VALUE is an argument for xacro, anywhere on the line;
-model:=, rvizconfig:= and gui:= mean the same as for display.launch.py.
+MODEL is a URDF, SDF or xacro file, whatever its ending, or a package folder; without
+one, the bundled sam_bot is used. NAME:=VALUE is an argument for xacro, anywhere on the
+line; model:=, rvizconfig:= and gui:= mean the same as for display.launch.py.
 .SH COMMANDS
 """
 _TAIL = r""".SH EXIT STATUS

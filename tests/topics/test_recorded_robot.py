@@ -169,6 +169,22 @@ def test_a_frame_that_was_told_once_long_ago_is_there_after_a_jump(
     assert history.latest("odom") is not None
 
 
+def test_a_description_in_sdf_is_the_robot_of_a_recording(
+    write_recording: Callable[..., Path],
+) -> None:
+    description = (
+        '<sdf version="1.8"><model name="r"><link name="base"/><link name="arm"/>'
+        '<joint name="j" type="fixed"><parent>base</parent><child>arm</child>'
+        '<pose relative_to="base">0 0 1 0 0 0</pose></joint></model></sdf>'
+    )
+    path = write_recording([(0.0, {"odom": "base"})], description)
+    with Inputs(Options(path)) as inputs:
+        robot, tree = inputs.robot(), frames_of(inputs)
+        assert inputs.problems() == ()
+    assert (robot.root, robot.language) == ("base", "sdf")
+    assert tree.lookup("odom", "arm").translation.tolist() == [0.0, 0.0, 1.0]
+
+
 @pytest.mark.parametrize("name", ["magic_only.mcap", "no_messages.mcap"])
 def test_a_recording_without_messages_is_not_said_to_need_a_model(
     shared: Path, name: str

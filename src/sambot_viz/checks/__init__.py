@@ -76,7 +76,7 @@ def check(
     """Find everything that is wrong with a model, its mesh files included.
 
     Args:
-        path: a URDF or xacro file.
+        path: a URDF, SDF or xacro file.
         xacro_args: values for xacro's arguments.
         package_path: folders in which packages are looked for.
         trusted: False for a model of unknown origin, as for `load_robot`.

@@ -1,19 +1,28 @@
-"""``sambot-viz expand``: the URDF that xacro makes from a model."""
+"""``sambot-viz expand``: the text that xacro makes from a model, or its URDF."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from sambot_viz.bundled import find
 from sambot_viz.commands.command_line import Parser, model_path, parse
+from sambot_viz.problems import write_problems
 from sambot_viz.robot.load import expand
+from sambot_viz.robot.model import load_robot
+from sambot_viz.robot.model_source import OpenedModel, open_model
 
 
 def run(words: list[str]) -> int:
-    """Print the URDF."""
-    _, options = parse(parser(), words)
-    text = expand(
-        find(model_path(options)).model,
+    """Print the text."""
+    given, options = parse(parser(), words)
+    model = open_model(find(model_path(options)).model)
+    # An SDF file has to be understood, not only expanded, before there is a URDF of it.
+    as_urdf = given.to == "urdf" and model.document.tag == "sdf"
+    print_as = _urdf_of if as_urdf else expand
+    text = print_as(
+        model,
         xacro_args=options.xacro_args,
         package_path=options.package_path,
         trusted=options.trusted,
@@ -28,7 +37,32 @@ def parser() -> Parser:
     made = Parser(
         prog="sambot-viz expand",
         groups=("model",),
-        description="Print the URDF that xacro makes from a model. Exit status: 0 "
-        "printed, 1 errors found, 2 usage.",
+        description="Print the URDF or SDF that xacro makes from a model. Exit status: "
+        "0 printed, 1 errors found, 2 usage.",
+    )
+    made.add_argument(
+        "--to",
+        choices=("urdf",),
+        help="print URDF: of an SDF file that which robot_state_publisher makes of it",
     )
     return made
+
+
+def _urdf_of(
+    model: OpenedModel,
+    *,
+    xacro_args: Mapping[str, str],
+    package_path: Sequence[Path | str],
+    trusted: bool,
+) -> str:
+    """Return an SDF file as URDF; its problems are written to standard error.
+
+    Raises:
+        RobotError: ROS would refuse the model.
+    """
+    robot = load_robot(
+        model, xacro_args=xacro_args, package_path=package_path, trusted=trusted
+    )
+    lost = [problem for problem in robot.problems if problem.severity != "info"]
+    write_problems(lost, sys.stderr)
+    return robot.urdf

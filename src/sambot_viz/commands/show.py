@@ -34,7 +34,7 @@ commands:
   sambot-viz config FILE.rviz  report what of an RViz config is shown
   sambot-viz completion SHELL  print what completes all this with the Tab key
 
-MODEL is a URDF or xacro file, whatever its ending, a package folder, or a recording
+MODEL is a URDF, SDF or xacro file, whatever its ending, a package folder or a recording
 (mcap, db3 or ROS 1 bag); without one, the bundled sam_bot is shown. NAME:=VALUE is an
 argument for xacro, anywhere on the line; model:=, rvizconfig:= and gui:= mean the same
 as for display.launch.py.
@@ -117,7 +117,8 @@ def parser() -> Parser:
     made = Parser(
         prog="sambot-viz",
         groups=("model", "source", "view", "pose", "server"),
-        description="Show a URDF or xacro robot in the browser: no ROS, no X server.",
+        description="Show a URDF, SDF or xacro robot in the browser: no ROS, no X "
+        "server.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -29,7 +29,7 @@ class _Kind:
 _KINDS = (
     _Kind(rb"(?i)<!doctype\s+html|<html[\s>]", "a web page (HTML)", hint=_DOWNLOAD),
     _Kind(rb"(?s).{0,3000}<COLLADA[\s>]", "a COLLADA file", ".dae", _RENAME),
-    _Kind(rb"(?s)(?:<\?xml.{0,1000})?<robot[\s>]", "a robot model"),
+    _Kind(rb"(?s)(?:<\?xml.{0,1000})?<(?:robot|sdf)[\s>]", "a robot model"),
     _Kind(rb"<\?xml|<svg", "an XML file"),
     _Kind(rb"glTF", "a GLB file", ".glb", _RENAME),
     _Kind(rb'(?s)\{.*"asset"', "a glTF file", ".gltf", _RENAME),

@@ -72,7 +72,7 @@ def load_model(
 
 
 def expand(
-    model: PathLike,
+    model: PathLike | OpenedModel,
     *,
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
@@ -81,7 +81,7 @@ def expand(
     """Return the URDF or SDF text of a model, as the xacro command prints it.
 
     Args:
-        model: the file, or the XML text itself.
+        model: the file, the XML text itself, or the result of `open_model`.
         xacro_args: values for ``xacro:arg``.
         package_path: as for `load_robot`.
         trusted: as for `load_robot`.
@@ -89,7 +89,8 @@ def expand(
     Raises:
         RobotError: it is not XML, or it cannot be expanded.
     """
-    loader = _Loader(open_model(model), xacro_args or {}, package_path, trusted)
+    opened = model if isinstance(model, OpenedModel) else open_model(model)
+    loader = _Loader(opened, xacro_args or {}, package_path, trusted)
     return loader.expanded().text
 
 

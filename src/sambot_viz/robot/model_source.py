@@ -157,7 +157,7 @@ def _read(path: Path, label: str) -> bytes:
             raise _refusal(
                 "model-unreadable",
                 "this is a device or a socket, not a file",
-                "give the URDF or xacro file",
+                "give the URDF, SDF or xacro file",
                 label,
             )
         # A pipe, such as the shell's <(…), can be read only once and has no size.
@@ -179,7 +179,7 @@ def _read(path: Path, label: str) -> bytes:
         raise _refusal(
             "model-too-large",
             "the file is larger than 64 MB, too large for a robot description",
-            "open the URDF or xacro file itself",
+            "open the model file itself",
             label,
         )
     return data
@@ -192,11 +192,12 @@ def _refusal(code: str, message: str, hint: str, label: str) -> RobotError:
 def _models_in(folder: Path) -> str:
     found = sorted(
         str(path.relative_to(folder))
-        for pattern in ("*.urdf", "*.xacro", "*/*.urdf", "*/*.xacro")
+        for ending in ("urdf", "xacro", "sdf")
+        for pattern in (f"*.{ending}", f"*/*.{ending}")
         for path in folder.glob(pattern)
     )
     if not found:
-        return "give the URDF or xacro file itself"
+        return "give the model file itself"
     return f"give one of its files: {', '.join(found[:5])}"
 
 

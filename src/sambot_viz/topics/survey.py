@@ -258,16 +258,22 @@ class Survey:
                     continue
 
 
+_FLOATING = ("floating", "ball", "universal", "revolute2", "gearbox", "screw")
+"""Types of joints that robot_state_publisher leaves out, in URDF and in SDF."""
+
+
 def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
-    """Return the root of a URDF, and (parent, child) of the joints that hold links."""
+    """Return the root of a robot, and (parent, child) of the joints that hold links."""
     try:
         robot = parse_xml(description or "<robot/>", "")
     except XmlFault:
         return "", []
+    # In SDF the names are texts, and there is a <model> around the links.
+    robot = robot.find("model") or robot
     pairs: list[tuple[str, str]] = []
     for joint in (one for one in robot.iter() if one.tag == "joint"):
         parent, child = joint.find("parent"), joint.find("child")
-        is_floating = joint.attributes.get("type") == "floating"
+        is_floating = joint.attributes.get("type") in _FLOATING
         if parent is None or child is None or is_floating:
             continue
         pairs.append((_link(parent, "link"), _link(child, "link")))
@@ -277,7 +283,7 @@ def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
 
 
 def _link(element: Element, attribute: str) -> str:
-    return plain_name(element.attributes.get(attribute, ""))
+    return plain_name(element.attributes.get(attribute) or element.text.strip())
 
 
 def _fields_of(message: Any) -> tuple[str, ...]:

@@ -40,6 +40,45 @@ def test_a_model_is_found_wherever_packages_have_it(tmp_path: Path, place: str) 
     assert model_in(folder).endswith("r.urdf.xacro")
 
 
+SDF = '<sdf version="1.8"><model name="r"><link name="base_link"/></model></sdf>'
+WORLD = SDF.replace("<model", '<world name="w"><model').replace(
+    "l></s", "l></world></s"
+)
+LAUNCH = "path = os.path.join(share, 'src', 'description', '{}')"
+
+
+@pytest.mark.parametrize("name", ["r.sdf", "r.sdf.xacro"])
+def test_an_sdf_file_is_a_model_and_a_world_is_none(tmp_path: Path, name: str) -> None:
+    files = {f"src/description/{name}": SDF, "world/r_world.sdf": WORLD}
+    assert model_in(package(tmp_path, **files)) == f"src/description/{name}"
+
+
+@pytest.mark.parametrize("name", ["my_bot.sdf", "my_bot.urdf"])
+def test_of_urdf_and_sdf_the_one_of_the_launch_file_is_the_model(
+    tmp_path: Path, name: str
+) -> None:
+    files = {
+        "src/description/my_bot.sdf": SDF,
+        "src/description/my_bot.urdf": LINKS,
+        "launch/display.launch.py": LAUNCH.format(name),
+    }
+    assert model_in(package(tmp_path, **files)) == f"src/description/{name}"
+
+
+def test_a_config_in_the_rviz_folder_opens_with_the_sdf_file(tmp_path: Path) -> None:
+    files = {"src/description/my_bot.sdf": SDF, "rviz/config.rviz": "Panels: []"}
+    folder = package(tmp_path, **files)
+    assert find(folder).config == folder / "rviz" / "config.rviz"
+
+
+def test_an_sdf_file_that_is_misspelt_on_the_command_line_is_offered(
+    tmp_path: Path,
+) -> None:
+    folder = package(tmp_path, **{"my_bot.sdf": SDF})
+    with pytest.raises(UsageError, match=r"did you mean 'my_bot.sdf'\?"):
+        find(folder / "my_bto.sdf")
+
+
 def test_a_file_with_only_macros_is_not_the_model(tmp_path: Path) -> None:
     files = {"urdf/common.xacro": MACRO, "robots/r.urdf.xacro": LINKS}
     assert model_in(package(tmp_path, **files)) == "robots/r.urdf.xacro"

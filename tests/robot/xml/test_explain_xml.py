@@ -133,6 +133,21 @@ def test_an_unclosed_tag_is_reported_with_the_places_to_open_and_to_close() -> N
     assert problem.hint == "add </link> after <visual …> on line 3"
 
 
+def test_an_unclosed_tag_of_an_sdf_file_is_reported_where_it_is_opened() -> None:
+    text = (
+        '<sdf version="1.8">\n<model name="r">\n<joint name="j" type="fixed">\n'
+        "<parent>a</parent>\n<child>b</child>\n</model>\n</sdf>\n"
+    )
+    problem = only(text)
+    assert (problem.code, problem.line) == ("xml-tag-not-closed", 3)
+    assert "joint" in problem.message
+
+
+def test_a_misspelt_end_in_an_sdf_file_is_one_problem() -> None:
+    text = '<sdf version="1.8"><model name="r"><pose>0 0 0 0 0 0</psoe></model></sdf>'
+    assert "pose" in only(text).hint
+
+
 def test_a_closing_tag_that_nothing_opens_names_what_may_be_missing() -> None:
     problem = only(
         '<robot name="r">\n  <material/>\n    <visual/>\n  </link>\n</robot>\n'

@@ -93,12 +93,12 @@ MANAGER = "Visualization Manager:\n"
         (
             '<?xml version="1.0"?>\n<robot name="r"/>\n',
             "f:1: error[config-is-xml]: this is a robot model, not a display config; "
-            "give an .rviz file as the config, and the URDF or xacro file as the model",
+            "give an .rviz file as the config, and the file of the robot as the model",
         ),
         (
             "<launch/>",
             "f:1: error[config-is-xml]: this is XML, not a display config; give an "
-            ".rviz file as the config, and the URDF or xacro file as the model",
+            ".rviz file as the config, and the file of the robot as the model",
         ),
         (
             "Background\\ ColorB=0\nFixed\\ Frame=/map\nGrid.Alpha=0.5\n",

@@ -96,7 +96,7 @@ export function Keys({ close }) {
 export function About({ close }) {
   return html`<${Dialog} title="About sambot-viz" close=${close} submit=${close}>
     <p>${`sambot-viz ${rows.data("names/version")}, under the Apache License 2.0.`}</p>
-    <p>Shows URDF and xacro robots in the browser, as RViz does, without ROS.</p>
+    <p>Shows URDF, SDF and xacro robots in the browser, as RViz does, without ROS.</p>
     <p>The page draws with viser (Apache-2.0) and three.js (MIT), and its panels with${" "}
       Preact (MIT) and htm (Apache-2.0).${" "}
       <a href="./sambot/licenses.txt" target="_blank"

@@ -14,10 +14,19 @@ from pathlib import Path
 
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
 
-MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro")
+MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro", ".sdf.xacro", ".sdf")
 """Endings of the names of models, the most likely one first."""
 
-_FOLDERS = ("urdf", "description", "robots", "robot", "model", "models", "xacro")
+_FOLDERS = (
+    "urdf",
+    "description",
+    "robots",
+    "robot",
+    "model",
+    "models",
+    "xacro",
+    "sdf",
+)
 _SKIPPED = frozenset({"build", "install", "log", "node_modules"})
 _TESTS = frozenset({"test", "tests"})
 _SUFFIXES = ("", "_description", "_support", "_urdf", "_robot", "_model", "_pkg")
@@ -29,6 +38,7 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _MACRO = re.compile(r"<xacro:macro\b[^>]*(?<!/)>.*?</xacro:macro\s*>", re.DOTALL)
 _INCLUDE = re.compile(r"<(?:xacro:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']+)")
 _LINK = re.compile(r"<link\b")
+_WORLD = re.compile(r"<world\b")
 _CALL = re.compile(r"<xacro:(?!property|arg\b|include|macro|insert_block|element|attr)")
 _EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
 
@@ -137,6 +147,7 @@ def _look_at(path: Path) -> _ModelFile:
     includes = tuple(_INCLUDE.findall(text))
     outside = _MACRO.sub("", text)
     builds = bool(_LINK.search(outside) or _CALL.search(outside) or includes)
+    builds = builds and not _WORLD.search(outside)
     return _ModelFile(path, builds, includes)
 
 
@@ -156,15 +167,21 @@ def _without_generated(models: Sequence[Path]) -> list[Path]:
         path
         for path in models
         if not (
-            path.suffix == ".urdf"
-            and known & {path.with_suffix(".urdf.xacro"), path.with_suffix(".xacro")}
+            path.suffix in (".urdf", ".sdf")
+            and known
+            & {path.with_suffix(f"{path.suffix}.xacro"), path.with_suffix(".xacro")}
         )
     ]
 
 
+def model_ending(name: str) -> str:
+    """Return the ending of a model's file name, "" when it has none."""
+    endings = (ending for ending in MODEL_ENDINGS if name.endswith(ending))
+    return max(endings, key=len, default="")
+
+
 def _stem(path: Path) -> str:
-    ending = next((e for e in MODEL_ENDINGS if path.name.endswith(e)), "")
-    return path.name.removesuffix(ending)
+    return path.name.removesuffix(model_ending(path.name))
 
 
 def _named_like_package(folder: Path, models: Sequence[Path]) -> list[Path]:
@@ -196,7 +213,7 @@ def _shortest_name(folder: Path, models: Sequence[Path]) -> list[Path]:
 
 def _likeliest_place(folder: Path, models: Sequence[Path]) -> list[Path]:
     def rank(path: Path) -> tuple[int, int]:
-        ending = next(n for n, e in enumerate(MODEL_ENDINGS) if path.name.endswith(e))
+        ending = MODEL_ENDINGS.index(model_ending(path.name))
         parts = path.relative_to(folder).parts
         at = _FOLDERS.index(parts[0]) if parts[0] in _FOLDERS else len(_FOLDERS)
         return (ending, at)

@@ -33,12 +33,13 @@ def other_format(text: str, file: str | None) -> Problem | None:
         )
     start = text.lstrip()
     if start.startswith("<"):
-        what = "a robot model" if "<robot" in text else "XML"
+        is_model = "<robot" in text or "<sdf" in text
+        what = "a robot model" if is_model else "XML"
         return Problem(
             "error",
             "config-is-xml",
             f"this is {what}, not a display config",
-            "give an .rviz file as the config, and the URDF or xacro file as the model",
+            "give an .rviz file as the config, and the file of the robot as the model",
             file,
             1,
         )

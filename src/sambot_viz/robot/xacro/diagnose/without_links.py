@@ -73,7 +73,9 @@ def _includers(path: Path) -> Iterator[str]:
         r"<xacro:include\b[^>]*[/\"']" + re.escape(path.name) + r"[\"']"
     )
     root = PackageIndex(path.absolute().parent).own_roots()[-1]
-    files = (file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf"))
+    files = (
+        file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf", ".sdf")
+    )
     for file in islice(files, _MOST_FILES):
         if file.name != path.name and pattern.search(_text(file)):
             yield str(file.relative_to(root))

@@ -110,7 +110,7 @@ _FROM_EXPAT = (
         "too many elements",
         "model-too-large",
         "the model has more elements than can be shown",
-        "open the URDF or xacro file itself",
+        "open the model file itself",
     ),
 )
 """Messages of expat and the parser: how they begin, then code, message and hint."""
@@ -120,7 +120,7 @@ _UNKNOWN = (
     "xml-not-well-formed",
     "this is not XML from line {1} on ({0})",
     "look at this line and the one before it: every tag closed, every attribute with a "
-    "value in quotes, nothing outside <robot>",
+    "value in quotes, nothing outside <robot> or <sdf>",
 )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.source_text import ROOTS, SourceText
 
 _DECLARATION = re.compile(r"<\?xml(?=[\s?]).*?\?>", re.DOTALL)
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
@@ -30,7 +30,7 @@ _OTHER_FILES: tuple[tuple[str, str, str, str], ...] = (
         r"(?s)[^<]*$|.{0,199}\x00",
         "model-not-xml",
         "this is not XML",
-        "give a URDF or xacro file: it begins with <robot name=…>",
+        "give a URDF or SDF file: it begins with <robot name=…> or <sdf version=…>",
     ),
 )
 """The beginning of a file of another kind: pattern, code, message, hint."""
@@ -82,7 +82,7 @@ def _declaration_not_first(source: SourceText, file: str) -> list[Problem]:
         return []
     at, before = found.start(), text[start : found.start()]
     line = source.line(at)
-    if any(tag.name == "robot" and tag.start < at for tag in source.tags):
+    if any(tag.name in ROOTS and tag.start < at for tag in source.tags):
         message = f"there is a second <?xml …?> on line {line}, inside the file"
         hint = "delete it: two files were joined here"
     elif not before.strip():

@@ -10,6 +10,9 @@ from functools import cached_property
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.diagnose.lexer import Reading, Token, tokenize
 
+ROOTS = ("robot", "sdf")
+"""The tags of the root elements of models."""
+
 
 @dataclass(frozen=True)
 class SourceText:

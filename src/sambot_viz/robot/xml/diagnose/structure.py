@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.diagnose.lexer import Token
-from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.source_text import ROOTS, SourceText
 
 _LEAVES = frozenset(
     "axis box calibration capsule child color cylinder dynamics inertia limit mass "
     "mesh mimic origin parent safety_controller sphere texture".split()
 )
-"""Elements that have attributes only: they are written <origin …/>."""
+"""Elements of URDF that have attributes only: they are written <origin …/>."""
 
 _TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control"})
 """Elements of <robot>, never inside one of `_HOLDS_NO_LINKS`."""
@@ -43,10 +43,11 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
 
     Returns:
         At most one problem per error; empty when the tags are in order, and when a
-        file has no <robot>, for which expat's own line is as good.
+        file has no <robot> and no <sdf>, for which expat's own line is as good.
     """
-    walk = _Walk(source, file)
-    if any(tag.name == "robot" and not tag.closes for tag in source.tags):
+    root = next((t.name for t in source.tags if t.name in ROOTS and not t.closes), None)
+    walk = _Walk(source, file, frozenset() if root == "sdf" else _LEAVES)
+    if root is not None:
         walk.run()
     return walk.problems
 
@@ -55,6 +56,7 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
 class _Walk:
     source: SourceText
     file: str
+    leaves: frozenset[str]
     problems: list[Problem] = field(default_factory=list["Problem"])
     stack: list[_Open] = field(default_factory=list["_Open"])
     root: Token | None = None
@@ -131,7 +133,7 @@ class _Walk:
         opened = entry.token
         shown = opened.shown
         line = self._line(opened)
-        if opened.name in _LEAVES and not entry.children:
+        if opened.name in self.leaves and not entry.children:
             self._add(
                 "xml-tag-not-closed",
                 opened.start,
