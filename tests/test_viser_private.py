@@ -33,6 +33,15 @@ def test_nodes_are_counted(server: viser.ViserServer) -> None:
     assert viser_private.node_count(server.scene) == before + 1
 
 
+def test_what_a_page_receives_is_counted_in_bytes(server: viser.ViserServer) -> None:
+    before = viser_private.scene_bytes(server.scene)
+    server.scene.add_glb("/glb", bytes(3000))
+    corners = np.zeros((400, 3), np.float32)
+    server.scene.add_mesh_simple("/mesh", corners, np.zeros((200, 3), np.uint32))
+    added = viser_private.scene_bytes(server.scene) - before
+    assert 3000 + 4800 + 2400 <= added < 12000
+
+
 def test_what_goes_to_all_browsers_is_in_one_buffer_with_a_loop_of_its_own(
     server: viser.ViserServer,
 ) -> None:

@@ -19,7 +19,9 @@ from sambot_viz.views.camera import Camera
 Picture = npt.NDArray[np.uint8]
 
 LONGEST_WAIT = 60.0
-"""For the page to show everything [s]; software rendering takes its time."""
+"""For the page to show a small scene [s]; software rendering takes its time."""
+WAIT_PER_MEGABYTE = 2.0
+"""What a slow machine takes to receive, parse and draw 1 MB of meshes [s]."""
 
 _TICKET = "new URL(sambotSocket).searchParams.get('ticket')"
 _EVERYTHING_IS_THERE = """(() => {
@@ -54,17 +56,16 @@ def snapshot(
     Raises:
         ServerError: the page did not show everything in time.
     """
-    end = time.monotonic() + LONGEST_WAIT
     page = chromium.open(_address(server.url), width=width, height=height)
     try:
         client = server.clients.wait_for_page(page.evaluate(_TICKET), LONGEST_WAIT)
-        server.sessions.wait_for_meshes(max(1.0, end - time.monotonic()))
-        nodes = server.node_count()
-        page.wait_for(
-            _EVERYTHING_IS_THERE % nodes, timeout=max(1.0, end - time.monotonic())
-        )
+        server.sessions.wait_for_meshes(LONGEST_WAIT)
+        longest = longest_wait(server.scene_bytes())
+        page.wait_for(_EVERYTHING_IS_THERE % server.node_count(), timeout=longest)
         before: Picture | None = None
         placed: tuple[float, ...] | None = None
+        # Loading may have taken all of the time that was meant for it.
+        end = time.monotonic() + longest
         while time.monotonic() < end:
             # viser draws a picture's background at the page's own camera, and nothing
             # beyond 1000 m from it, so the page's camera must be moved too. A page that
@@ -74,14 +75,7 @@ def snapshot(
             ):
                 ClientCamera(client).point(camera, ortho_fov=None)
                 placed, before = _place(client), None
-            with viser_private.larger_messages(client, 8 * width * height + 2**16):
-                image = client.get_render(
-                    height,
-                    width,
-                    transport_format="png",
-                    timeout=max(1.0, end - time.monotonic()),
-                )
-            picture: Picture = image[..., :3].astype(np.uint8)
+            picture = render(client, width, height, longest)
             # Meshes and names appear some frames after their messages; two equal
             # pictures in a row mean that nothing more is coming.
             if before is not None and np.array_equal(picture, before):
@@ -89,7 +83,46 @@ def snapshot(
             before = picture
     finally:
         page.close()
-    raise ServerError(f"the page did not show everything within {LONGEST_WAIT:g} s")
+    raise _too_slow(longest)
+
+
+def longest_wait(scene: int) -> float:
+    """Return how long a page may take to show a scene of that many bytes [s]."""
+    return LONGEST_WAIT + WAIT_PER_MEGABYTE * scene / 1e6
+
+
+def render(
+    client: viser.ClientHandle, width: int, height: int, longest: float
+) -> Picture:
+    """Have a page draw its scene once.
+
+    Args:
+        client: the page.
+        width: of the picture [pixels].
+        height: of the picture [pixels].
+        longest: how long it may take [s].
+
+    Returns:
+        (height, width, 3) uint8, RGB.
+
+    Raises:
+        ServerError: it took longer.
+    """
+    with viser_private.larger_messages(client, 8 * width * height + 2**16):
+        try:
+            image = client.get_render(
+                height, width, transport_format="png", timeout=longest
+            )
+        except TimeoutError:
+            raise _too_slow(longest) from None
+    return image[..., :3].astype(np.uint8)
+
+
+def _too_slow(longest: float) -> ServerError:
+    return ServerError(
+        f"the page did not show everything within {longest:.0f} s; on a slow machine a "
+        "smaller picture (--size) or a display less helps"
+    )
 
 
 def _address(url: str) -> str:

@@ -112,6 +112,10 @@ class Server:
         """How many nodes the shared scene has."""
         return viser_private.node_count(self._viser.scene)
 
+    def scene_bytes(self) -> int:
+        """How much a page must receive to show the shared scene [bytes]."""
+        return viser_private.scene_bytes(self._viser.scene)
+
     def wait(self) -> None:
         """Return when the server is stopped."""
         self._stopped.wait()

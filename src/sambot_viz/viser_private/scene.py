@@ -20,6 +20,18 @@ def node_count(scene: viser.SceneApi) -> int:
     return len(scene._handle_from_node_name)  # pyright: ignore[reportPrivateUsage]
 
 
+def scene_bytes(scene: viser.SceneApi) -> int:
+    """Return how much a page has to receive and draw, such as meshes [bytes]."""
+    handles = list(scene._handle_from_node_name.values())  # pyright: ignore[reportPrivateUsage]
+    return sum(_content(cast(Any, handle)._impl.props) for handle in handles)
+
+
+def _content(props: Any) -> int:
+    values: list[Any] = list(cast(dict[str, Any], vars(props)).values())
+    texts = sum(len(value) for value in values if isinstance(value, bytes))
+    return texts + sum(int(getattr(value, "nbytes", 0)) for value in values)
+
+
 def set_pose(
     handle: viser.SceneNodeHandle, wxyz: Wxyz | None, position: Vector3 | None
 ) -> None:
