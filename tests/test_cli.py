@@ -6,6 +6,7 @@ import json
 import os
 import re
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -409,3 +410,23 @@ def test_a_name_that_no_file_system_takes_is_one_clear_line(
     assert main([word.replace("LONG", "a" * 300) for word in words]) == 2
     err = capsys.readouterr().err
     assert said in err and "internal error" not in err
+
+
+def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
+    facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    (tmp_path / "part.stl").write_bytes(bytes(80) + struct.pack("<I", 1) + facet)
+    model = tmp_path / "r.urdf"
+    visual = '<visual><geometry><mesh filename="part.stl"/></geometry></visual>'
+    model.write_text(f'<robot name="r"><link name="a">{visual}</link></robot>')
+    script = (
+        "import sys\n"
+        "from sambot_viz.cli import main\n"
+        f"status = main(['check', {str(model)!r}])\n"
+        "heavy = 'trimesh scipy networkx PIL yaml viser yourdfpy lxml'.split()\n"
+        "heavy += ['sambot_viz.' + name for name in ('frames', 'topics', 'displays')]\n"
+        "print(status, sorted(set(heavy) & set(sys.modules)))\n"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.splitlines()[-1] == "0 []"

@@ -12,8 +12,6 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import yaml
-
 from sambot_viz.checks.launch_files import call_name, calls_in, launch_files
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Place, Problem
@@ -22,7 +20,6 @@ from sambot_viz.robot.packages.package_index import package_name
 _DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
 _BETWEEN_TAGS = re.compile(r">\s+<")
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MOST_FOLDERS_UP = 4
 _SHORTEST_WORDS = 4
 
@@ -105,8 +102,12 @@ def _text_around(urdf: str, at: int) -> str:
 
 def _is_text_in_yaml(text: str) -> bool:
     """Tell whether YAML reads it as one plain text, as launch then does."""
+    # The import is late: few models come this far.
+    import yaml
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        return isinstance(yaml.load(text, Loader=_LOADER), str)
+        return isinstance(yaml.load(text, Loader=loader), str)
     except yaml.YAMLError:
         return False
 

@@ -9,17 +9,19 @@ import sys
 from collections.abc import Sequence
 from dataclasses import Field
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from sambot_viz.errors import UsageError, nearest
 from sambot_viz.files import is_recording
 from sambot_viz.flags import Flag, Group, declared, flag_of
-from sambot_viz.frames import FrameTree
-from sambot_viz.frames.robot_frames import robot_frames
-from sambot_viz.inputs import Inputs
-from sambot_viz.joints import JointState
 from sambot_viz.options import Options
-from sambot_viz.robot.model import Robot
+
+# Commands such as check must not wait for what only others need.
+if TYPE_CHECKING:
+    from sambot_viz.frames import FrameTree
+    from sambot_viz.inputs import Inputs
+    from sambot_viz.joints import JointState
+    from sambot_viz.robot.model import Robot
 
 _ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
 _YES, _NO = ("true", "1"), ("false", "0")
@@ -297,6 +299,8 @@ def posed_frames(robot: Robot, inputs: Inputs) -> FrameTree:
         JointError: a joint that does not exist or cannot be set.
         FrameError: a static transform that would form a ring.
     """
+    from sambot_viz.frames.robot_frames import robot_frames
+
     options, recorded = inputs.options, inputs.recorded
     positions = start_state(robot, options)
     if recorded is None:

@@ -21,7 +21,9 @@ def corrected_robot(robot: Robot) -> Robot | None:
     """
     if not any(problem.code in SLIP_CODES for problem in robot.problems):
         return None
-    document = corrected_copy(parse_xml(robot.urdf, ""), URDF)
+    if robot.language != "urdf":
+        return None
+    document = corrected_copy(parse_xml(robot.description, ""), URDF)
     files = {
         shape.geometry.filename: shape.geometry.path
         for shape in shapes_of(robot)

@@ -28,7 +28,6 @@ from sambot_viz.robot.needs_xacro import (
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
-from sambot_viz.robot.sdf.read_sdf import read_sdf
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xacro.child_result import (
@@ -37,11 +36,8 @@ from sambot_viz.robot.xacro.child_result import (
     ExpansionXmlError,
     XacroFailure,
 )
-from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
-from sambot_viz.robot.xacro.diagnose.without_links import explain_without_links
 from sambot_viz.robot.xacro.expand import expand_model
 from sambot_viz.robot.xml.decode import declared_as_utf8
-from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
 from sambot_viz.robot.xml.element import Element
 
 
@@ -136,12 +132,17 @@ class _Loader:
                 package_path=self.package_path,
                 trusted=self.trusted,
             )
+        # Only a model that xacro refuses needs the rules that explain why.
         except ExpansionXmlError as error:
+            from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+
             fault = error.fault
             file = source.label if fault.text == source.text else error.file
             files = map(Path, error.files)
             raise RobotError(explain_xml(fault.text, file, fault), files) from None
         except ExpansionError as error:
+            from sambot_viz.robot.xacro.diagnose.explain_xacro import explain_xacro
+
             raise RobotError(
                 explain_xacro(error.failure, source.label), _wanted(error.failure)
             ) from None
@@ -155,6 +156,10 @@ class _Loader:
         problems += findings.problems
         read = expanded.files if expanded is not None else ()
         if tree is None or findings.rejected:
+            from sambot_viz.robot.xacro.diagnose.without_links import (
+                explain_without_links,
+            )
+
             raise RobotError(
                 explain_without_links(problems, self.opened.document, source.path), read
             )
@@ -178,6 +183,8 @@ class _Loader:
     ) -> RobotTree | None:
         """Read a document in the language that its root element says."""
         if root.tag == "sdf":
+            from sambot_viz.robot.sdf.read_sdf import read_sdf
+
             return read_sdf(root, self.opened.document, findings, files.mesh)
         tree = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None
