@@ -1,0 +1,168 @@
+"""A large recording: opened, jumped in, and what that takes of memory.
+
+The file has what a robot with a lidar records. It is in the cache of the system, so
+that reading the disk costs none of them anything.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import re
+import select
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from mcap.writer import CompressionType, Writer
+from tests.benchmarks.peers.driven import NotMeasured
+from tests.benchmarks.peers.environments import Environment
+from tests.benchmarks.peers.viewers import Found
+
+TOPICS = ("/tf", "/joint_states", "/odom", "/scan", "/points")
+START = 1_700_000_000 * 10**9
+STEP = 4_000_000
+"""Between two messages [ns]."""
+JUMP = """
+import json, random, resource, sys, time
+OPEN
+rng = random.Random(2)
+began = time.perf_counter()
+opened = open_recording(sys.argv[1])
+opening = time.perf_counter() - began
+first, last = ends(opened)
+jumps = []
+for _ in range(30):
+    at = rng.randrange(first + 10**9, last - 10**9)
+    began = time.perf_counter()
+    jump(opened, at)
+    jumps.append(time.perf_counter() - began)
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
+print(json.dumps({"opening": opening, "jumps": jumps, "peak": peak}))
+"""
+OURS = """
+from sambot_viz.sources.bag import open_bag
+open_recording = lambda path: __import__("pathlib") and open_bag(
+    __import__("pathlib").Path(path))
+ends = lambda bag: (bag.start_ns, bag.end_ns)
+def jump(bag, at):
+    for topic in TOPICS:
+        assert bag.last(topic, at) is not None
+"""
+PACKAGE = """
+from mcap.reader import make_reader
+def open_recording(path):
+    reader = make_reader(open(path, "rb"))
+    reader.get_summary()
+    return reader
+def ends(reader):
+    found = reader.get_summary().statistics
+    return found.message_start_time, found.message_end_time
+def jump(reader, at):
+    for topic in TOPICS:
+        next(iter(reader.iter_messages([topic], end_time=at, reverse=True)))
+"""
+
+
+def write(path: Path, size: int) -> None:
+    """Write a recording of about `size` bytes."""
+    with path.open("wb") as stream:
+        writer = Writer(stream, 768 * 1024, CompressionType.NONE, enable_crcs=False)
+        writer.start("ros2", "benchmark")
+        schema = writer.register_schema("a/msg/A", "ros2msg", b"uint8[] a")
+        channels = [writer.register_channel(name, "cdr", schema) for name in TOPICS]
+        for kind, at, data in _messages(size):
+            writer.add_message(channels[kind], at, data, at)
+        writer.finish()
+
+
+def _messages(size: int) -> Iterator[tuple[int, int, bytes]]:
+    rng = random.Random(1)
+    small = [rng.randbytes(length) for length in (120, 300, 1500, 3000)]
+    cloud = rng.randbytes(400_000)
+    number = total = 0
+    while total < size:
+        number += 1
+        kind = 4 if number % 27 == 0 else number % 4
+        data = cloud if kind == 4 else small[kind]
+        yield kind, START + number * STEP, data
+        total += len(data)
+
+
+def measure_library(ours: bool, recording: Path, found: Found) -> None:
+    """Open the file, and find the last message of each topic at 30 times."""
+    part = (OURS if ours else PACKAGE).replace("TOPICS", repr(TOPICS))
+    script = JUMP.replace("OPEN", part)
+    done = subprocess.run(
+        [sys.executable, "-c", script, str(recording)], capture_output=True, text=True
+    )
+    if done.returncode:
+        raise NotMeasured(done.stderr.strip().splitlines()[-1][:160])
+    answer = json.loads(done.stdout)
+    found.add("opening", answer["opening"])
+    found.add("jump", *answer["jumps"])
+    found.add("peak", answer["peak"])
+
+
+def measure_program(
+    name: str, environment: Environment, recording: Path, found: Found
+) -> None:
+    """From the command to the page, and the memory once nothing more is read."""
+    if name == "sambot-viz":
+        words = ["-m", "sambot_viz", "--port", "0", "--source", f"bag:{recording}"]
+        command = [str(environment.python), *words]
+    else:
+        command = [str(environment.program("rerun")), str(recording), "--serve-web"]
+        command += ["--bind", "127.0.0.1", "--port", "0", "--web-viewer-port", "0"]
+    began = time.perf_counter()
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "RERUN_ANALYTICS_ENABLED": "false"},
+    )
+    try:
+        _wait_for_address(process)
+        found.add("page", time.perf_counter() - began)
+        found.add("memory", _settled_memory(process.pid))
+    finally:
+        process.terminate()
+        process.wait(10.0)
+        assert process.stdout is not None
+        process.stdout.close()
+
+
+def _wait_for_address(process: subprocess.Popen[str]) -> None:
+    assert process.stdout is not None
+    end = time.perf_counter() + 60.0
+    while time.perf_counter() < end:
+        ready, _, _ = select.select([process.stdout], [], [], 1.0)
+        line = process.stdout.readline() if ready else ""
+        if re.search(r"https?://", line):
+            return
+        if ready and not line:
+            break
+    raise NotMeasured("says no address")
+
+
+def _settled_memory(process: int) -> float:
+    """The memory once the process has computed next to nothing for a second [MB]."""
+    end = time.perf_counter() + 90.0
+    before = _ticks(process)
+    while time.perf_counter() < end:
+        time.sleep(1.0)
+        now = _ticks(process)
+        if now - before < 0.05 * os.sysconf("SC_CLK_TCK"):
+            break
+        before = now
+    pages = Path(f"/proc/{process}/statm").read_text("utf-8").split()[1]
+    return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def _ticks(process: int) -> int:
+    fields = Path(f"/proc/{process}/stat").read_text("utf-8").rpartition(")")[2].split()
+    return int(fields[11]) + int(fields[12])

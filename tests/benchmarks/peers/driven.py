@@ -1,0 +1,169 @@
+"""A driver as a process of its own, and what it takes of the machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import subprocess
+import tempfile
+import time
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tests.benchmarks.peers.environments import Environment
+from tests.benchmarks.peers.peers import DRIVERS, Viewer
+from tests.benchmarks.peers.robots import Model
+
+LONGEST = 120.0
+"""How long a driver may take for an answer [s]."""
+
+
+class NotMeasured(Exception):
+    """A peer does not do what is measured; says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What a driver and its children have taken so far: computing [s], memory [MB]."""
+
+    cpu: float
+    memory: float
+    at: float
+
+    def share_since(self, before: Load) -> float:
+        """Of one core, since then: 0.5 is half of it."""
+        return (self.cpu - before.cpu) / (self.at - before.at)
+
+
+class Driven:
+    """A running driver.
+
+    Attributes:
+        url: of its page.
+        said: all that it has said at the beginning.
+        started: when its process was started (`time.perf_counter`) [s].
+    """
+
+    def __init__(self, process: subprocess.Popen[str], log: Path) -> None:
+        self.started = time.perf_counter()
+        self._process = process
+        self._log = log
+        self.said = self._answer()
+        self.url = str(self.said["url"])
+
+    def ask(self, **order: Any) -> dict[str, Any]:
+        """Give an order, and return the answer.
+
+        Raises:
+            NotMeasured: it has ended, does not answer, or cannot do this.
+        """
+        self.tell(**order)
+        return self._answer()
+
+    def tell(self, **order: Any) -> None:
+        """Give an order whose answer `heard` takes later."""
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(json.dumps(order) + "\n")
+            self._process.stdin.flush()
+        except OSError as error:
+            raise NotMeasured(self._last_words()) from error
+
+    def heard(self) -> dict[str, Any]:
+        """The answer to what was told."""
+        return self._answer()
+
+    def load(self) -> Load:
+        """What it has taken until now, with its children."""
+        cpu = memory = 0.0
+        for process in _tree(self._process.pid):
+            try:
+                fields = (process / "stat").read_text("utf-8").rpartition(")")[2]
+                pages = int((process / "statm").read_text("utf-8").split()[1])
+            except OSError:
+                continue
+            ticks = sum(map(int, fields.split()[11:13]))
+            cpu += ticks / os.sysconf("SC_CLK_TCK")
+            memory += pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+        return Load(cpu, memory, time.perf_counter())
+
+    def _answer(self) -> dict[str, Any]:
+        assert self._process.stdout is not None
+        line, ready = "\n", True
+        # What a viewer itself prints is no answer.
+        while line and not line.startswith("{"):
+            ready = bool(select.select([self._process.stdout], [], [], LONGEST)[0])
+            line = self._process.stdout.readline() if ready else ""
+        if not line:
+            raise NotMeasured(self._last_words() if ready else "does not answer")
+        answer: dict[str, Any] = json.loads(line)
+        if "error" in answer:
+            raise NotMeasured(str(answer["error"]))
+        return answer
+
+    def _last_words(self) -> str:
+        lines = self._log.read_text("utf-8", "replace").strip().splitlines()
+        return lines[-1][:160] if lines else "ended without a word"
+
+
+def _tree(process: int) -> Iterator[Path]:
+    folder = Path("/proc") / str(process)
+    yield folder
+    for children in folder.glob("task/*/children"):
+        try:
+            found = children.read_text("utf-8").split()
+        except OSError:
+            continue
+        for child in found:
+            yield from _tree(int(child))
+
+
+@contextmanager
+def drive(viewer: Viewer, environment: Environment, model: Model) -> Generator[Driven]:
+    """Show a model with a viewer until the block ends.
+
+    Raises:
+        NotMeasured: it does not show it.
+    """
+    outside = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    if viewer.is_ours:
+        outside["PYTHONPATH"] = os.environ.get("PYTHONPATH", "")
+    if environment.modules is not None:
+        outside["NODE_MODULES"] = str(environment.modules)
+    shown = [model.path] if model.config is None else [model.path, model.config]
+    with tempfile.TemporaryDirectory() as folder:
+        log = Path(folder) / "stderr"
+        with log.open("w") as errors:
+            process = subprocess.Popen(
+                [environment.python, DRIVERS / f"{viewer.driver}.py", *shown],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                text=True,
+                env=outside,
+            )
+        try:
+            yield Driven(process, log)
+        finally:
+            _end(process)
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """Close what it reads, which ends it; insist when that does not."""
+    children = [int(folder.name) for folder in _tree(process.pid)][1:]
+    for stream in (process.stdin, process.stdout):
+        if stream is not None:
+            stream.close()
+    try:
+        process.wait(5.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait(5.0)
+    for child in children:
+        # One that outlives its parent belongs to nobody else.
+        if (Path("/proc") / str(child)).is_dir():
+            os.kill(child, 15)
