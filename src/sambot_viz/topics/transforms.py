@@ -26,9 +26,8 @@ from sambot_viz.frames.samples import (
     number_faults,
 )
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.frame_limit import FrameLimit, Transforms, too_many_frames
 
-Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]
-"""By stamp [ns]: (parent, child) of each row, and the rows (see `FrameHistory.add`)."""
 Decode = Callable[[Recorded], Transforms]
 
 TURNED_BACK = 1_000_000_000
@@ -63,6 +62,7 @@ class TransformTopics:
         first: child → its first sample in the messages that were expected, stamped
             with the log time [ns].
         turned_back_by: by how much the stamps went back the last time [ns]; 0: never.
+        limit: which frames are taken.
     """
 
     depth_ns = round(DURATION * 1e9)
@@ -83,6 +83,7 @@ class TransformTopics:
         self.parents: dict[str, dict[str, str]] = {}
         self.first: dict[str, Sample] = {}
         self.turned_back_by = 0
+        self.limit = FrameLimit()
         self._decode = decode
         # All that has ever moved, and what has a place since the last jump.
         self._moving: dict[str, None] = {}
@@ -145,7 +146,8 @@ class TransformTopics:
                     self._moving.update((plain_name(c), None) for _, c in edges)
 
     def expect_as(self, other: TransformTopics) -> None:
-        """Know what another has learnt to expect."""
+        """Know what another has learnt to expect, and take the same frames."""
+        self.limit.follow(other.limit)
         for child, parents in other.parents.items():
             self.parents.setdefault(child, {}).update(parents)
         self._moving.update(other._moving)
@@ -171,7 +173,7 @@ class TransformTopics:
 
     def _transforms_of(self, message: Recorded) -> Transforms:
         try:
-            return self._decode(message)
+            return self.limit.through(self._decode(message))
         except DecodeError:
             self.undecoded[message.topic] += 1
             return ()
@@ -253,6 +255,8 @@ def problems_of_transforms(
         for child, parents in transforms.parents.items()
         if len(parents) > 1
     ]
+    if transforms.limit.left_out:
+        found.append(too_many_frames(transforms.limit.left_out, name))
     if transforms.turned_back_by:
         back = transforms.turned_back_by * 1e-9
         found.append(

@@ -65,7 +65,7 @@ class RobotData:
         self.name = name
         self._change = change
         self.problems = Signal[tuple[Problem, ...]](change, ())
-        self._turned_back_by = 0
+        self._said: tuple[int, str] = (0, "")
         self._looked = float("-inf")
         self.transforms = transforms
         self.period = 1 / 30
@@ -95,8 +95,9 @@ class RobotData:
         return time.time()
 
     def _draw(self, jumped: bool) -> None:
-        if self.transforms.turned_back_by != self._turned_back_by:
-            self._turned_back_by = self.transforms.turned_back_by
+        said = (self.transforms.turned_back_by, self.transforms.limit.left_out)
+        if said != self._said:
+            self._said = said
             is_live = self.live is not None
             self.problems.set(
                 problems_of_transforms(self.transforms, self.name, is_live=is_live)
