@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from inside import session_of
 from recorded_page import open_page
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled, load_config
+from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.export.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -59,6 +60,32 @@ def test_lit_faces_background_and_names_have_rvizs_colours_and_names_no_box(
     assert shares(pixels, (224, 224, 224)) < 0.001
     look = viewer.page.evaluate("window.sambotVizLook")
     assert look["lit"] > 0 and look["names"] > 0 and look["boxes"] > 0
+
+
+def test_the_centre_of_mass_is_seen_through_the_robot(
+    make_viz: Callable[..., Visualizer], open_viewer: Open
+) -> None:
+    config = load_config(bundled.config_path())
+    config.view.set("Distance", 1.0)
+    for display in config.displays:
+        display.set_enabled(display.name == "RobotModel")
+        if display.name == "RobotModel":
+            display.set("Alpha", 1.0)
+            display.set("Mass Properties/Balance", True)
+    viz = make_viz(config=config, look="rviz")
+    robot = load_robot(bundled.model_path("sam_bot_collision.urdf.xacro"))
+    session_of(viz).show_robot(robot)
+    viewer = open_viewer(viz.url)
+    viewer.set_resolution(1.0)
+    viewer.settle(viz)
+    column, row = viewer.project("", (-0.05 / 16.5, 0.0, -0.095 / 16.5))
+
+    def around() -> np.ndarray:
+        return viewer.pixels()[row - 8 : row + 9, column - 8 : column + 9]
+
+    # It is in the middle of an opaque box.
+    viewer.user.until(lambda: shares(around(), (255, 210, 0)) > 0.1)
+    assert shares(around(), (0, 0, 0)) > 0.1
 
 
 def test_the_script_names_nothing_of_any_model_and_fetches_nothing(

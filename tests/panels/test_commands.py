@@ -77,6 +77,7 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         *("tools/press", "tools/right_click", "tools/zero"),
         *("views/first", "views/restore", "views/use"),
+        *("views/side", "views/press_side"),
     }
 
 

@@ -37,7 +37,7 @@ class BallMark(GlbNode):
         def make() -> bytes:
             corners, is_black = _ball()
             colors = np.where(is_black[:, None], BLACK, color)
-            return _mark(2.0 * radius * corners, colors, 1.0, TRIANGLES)
+            return _mark(2.0 * radius * corners, colors, above=2)
 
         self.show((radius, color), make, IDENTITY, position)
 
@@ -53,7 +53,7 @@ class LinesMark(GlbNode):
             color: 0 to 255.
         """
         points = np.reshape(single(segments), (-1, 3))
-        self.show((points, color), lambda: _mark(points, color, 1.0, LINES))
+        self.show((points, color), lambda: _mark(points, color, LINES, above=1))
 
 
 class FaceMark(GlbNode):
@@ -72,17 +72,34 @@ class FaceMark(GlbNode):
         faces = points[np.array(fan).ravel()]
         # It is seen from below too.
         both = np.concatenate((faces, faces[::-1]))
-        self.show((points, color, alpha), lambda: _mark(both, color, alpha, TRIANGLES))
+        self.show(
+            (points, color, alpha), lambda: _mark(both, color, above=0, alpha=alpha)
+        )
 
 
 def _mark(
-    points: npt.NDArray[np.float32], color: npt.ArrayLike, alpha: float, mode: int
+    points: npt.NDArray[np.float32],
+    color: npt.ArrayLike,
+    mode: int = TRIANGLES,
+    *,
+    above: int,
+    alpha: float = 1.0,
 ) -> bytes:
+    """Return a GLB file.
+
+    Args:
+        points: (N, 3) [m].
+        color: of all (3,) or of each (N, 3), 0 to 255.
+        mode: `LINES` or `TRIANGLES`.
+        above: marks with a smaller number are drawn before.
+        alpha: 0 to 1.
+    """
     each = np.asarray(color, np.float64)
     each = np.broadcast_to(each, (len(points), 3))
     colors = rgba_rows(each, alpha, len(points))
     attributes = {"POSITION": single(points), "COLOR_0": colors}
-    return drawn_glb("mark", attributes, mode=mode, blended=True)
+    extras = {"above": above}
+    return drawn_glb("mark", attributes, extras=extras, mode=mode, blended=True)
 
 
 @cache

@@ -32,7 +32,7 @@ function dressMark(object) {
   if (!rawColors(object.material, "lines")) return;
   object.material.depthTest = false;
   object.material.side = FRONT;
-  object.renderOrder = ON_TOP;
+  object.renderOrder = ON_TOP + object.userData.above;
 }
 /** three.js's FrontSide. */
 const FRONT = 0;
