@@ -9,20 +9,25 @@ from __future__ import annotations
 
 import threading
 import zlib
-from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import NO_SCHEMA, BlockBag
-from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
-from sambot_viz.sources.bag.compression import BrokenPieceError, decompress
-from sambot_viz.sources.bag.damage import SMALLEST_STEP_BACK, Damage
+from sambot_viz.sources.bag.blocks import Block, Entries
+from sambot_viz.sources.bag.compression import BrokenPieceError
+from sambot_viz.sources.bag.damage import SMALLEST_STEP_BACK
 from sambot_viz.sources.bag.file_bytes import FileBytes, ReadAhead
-from sambot_viz.sources.bag.latched import is_latched
+from sambot_viz.sources.bag.mcap_blocks import (
+    CHUNK_HEAD_SIZE,
+    ChunkBlock,
+    LooseBlock,
+    LooseMessages,
+    MetChunk,
+)
+from sambot_viz.sources.bag.mcap_definitions import channel_of, schema_of
 from sambot_viz.sources.bag.mcap_records import (
     CHANNEL,
     CHUNK,
@@ -36,7 +41,6 @@ from sambot_viz.sources.bag.mcap_records import (
     MESSAGE_INDEX,
     SCHEMA,
     STATISTICS,
-    ChannelRecord,
     ChunkIndexRecord,
     read_channel,
     read_chunk,
@@ -45,10 +49,10 @@ from sambot_viz.sources.bag.mcap_records import (
     read_message_index,
     read_schema,
     read_statistics,
+    records,
 )
 from sambot_viz.sources.bag.mcap_search import find_record, zeros_end
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.sources.qos import parse_qos
 
 SMALL = 8 * 2**20
 """A file up to this size is read through at opening, so that all damage is known."""
@@ -57,65 +61,6 @@ _MOST_OF_SUMMARY = 2**28
 _LARGEST_DEFINITION = 2**26
 _LOOSE = 4096
 _MESSAGE_SIZE = HEAD.size + MESSAGE_HEAD.size
-_CHUNK_SIZE = 64
-
-
-@dataclass(slots=True, eq=False)
-class ChunkBlock(Block):
-    """A chunk.
-
-    Attributes:
-        at: where its record begins in the file [bytes].
-        length: of the whole record [bytes].
-        index_length: of the message indexes behind it [bytes].
-        is_counted: its messages were counted without reading it.
-    """
-
-    at: int
-    length: int
-    index_length: int
-    is_counted: bool = False
-
-
-@dataclass(slots=True, eq=False)
-class LooseBlock(Block):
-    """Some thousand messages that stand outside of chunks.
-
-    Attributes:
-        entries: where they are.
-    """
-
-    entries: Entries
-
-
-@dataclass(slots=True)
-class _Chunk:
-    """A chunk that was met, while the message indexes behind it are read."""
-
-    at: int
-    length: int
-    start: int
-    end: int
-    counts: Counter[int] = field(default_factory=Counter[int])
-    index_length: int = 0
-
-
-class _Loose:
-    """Collects messages outside of chunks: 18 bytes for each."""
-
-    def __init__(self) -> None:
-        self.channels = array("H")
-        self.times = array("Q")
-        self.places = array("Q")
-
-    def entries(self, damage: Damage | None, raw: bytes | memoryview | None) -> Entries:
-        """Return them by log time; tell their order in the file."""
-        times = np.array(self.times, np.uint64)
-        channels = np.array(self.channels, np.uint16)
-        places = np.array(self.places, np.int64)
-        if damage is not None:
-            damage.add_times(times, channels)
-        return sorted_entries(times, channels, places, raw)
 
 
 class McapBag(BlockBag):
@@ -163,7 +108,7 @@ class McapBag(BlockBag):
         chunks: list[ChunkIndexRecord] = []
         counts: dict[int, int] | None = None
         try:
-            for opcode, content in _records(data[: end - at]):
+            for opcode, content in records(data[: end - at]):
                 if opcode == CHUNK_INDEX:
                     chunks.append(read_chunk_index(content))
                 elif opcode == STATISTICS:
@@ -196,14 +141,14 @@ class McapBag(BlockBag):
             hints: chunks that are known, by their places.
         """
         window = ReadAhead(self._file)
-        loose = _Loose()
-        chunk: _Chunk | None = None
+        loose = LooseMessages()
+        chunk: MetChunk | None = None
         at, steps, is_behind_data = len(MAGIC), 0, False
         while at < end:
             steps += 1
             if len(loose.times) >= _LOOSE:
                 self._add_loose(loose)
-                loose = _Loose()
+                loose = LooseMessages()
             if steps >= _LOOSE:
                 yield steps
                 steps = 0
@@ -265,7 +210,7 @@ class McapBag(BlockBag):
         if opcode != CHUNK or at + HEAD.size + length <= end:
             return False
         try:
-            head = read_chunk(window.get(at + HEAD.size, _CHUNK_SIZE))
+            head = read_chunk(window.get(at + HEAD.size, CHUNK_HEAD_SIZE))
         except BrokenPieceError:
             return False
         # All its lengths say the same: it is a chunk of which the rest is missing.
@@ -282,12 +227,12 @@ class McapBag(BlockBag):
         self.damage.end = "zeros" if zeros == end else "cut"
         self.damage.end_at = at
 
-    def _chunk_at(self, window: ReadAhead, at: int, length: int) -> _Chunk | None:
+    def _chunk_at(self, window: ReadAhead, at: int, length: int) -> MetChunk | None:
         try:
-            head = read_chunk(window.get(at + HEAD.size, min(length, _CHUNK_SIZE)))
+            head = read_chunk(window.get(at + HEAD.size, min(length, CHUNK_HEAD_SIZE)))
         except BrokenPieceError:
             return None
-        return _Chunk(at, HEAD.size + length, head.start, head.end)
+        return MetChunk(at, HEAD.size + length, head.start, head.end)
 
     def _define_at(self, window: ReadAhead, at: int, opcode: int, length: int) -> bool:
         if length > _LARGEST_DEFINITION:
@@ -303,23 +248,16 @@ class McapBag(BlockBag):
         if opcode == SCHEMA:
             schema = read_schema(content)
             if schema.id and schema.id not in self._schemas:
-                text = _text_of(schema.encoding, schema.data)
-                self._schemas[schema.id] = Schema(schema.name, schema.encoding, text)
+                self._schemas[schema.id] = schema_of(schema)
         elif opcode == CHANNEL:
             channel = read_channel(content)
             # A summary may have channels without their schemas: the data have both.
             has_schema = not channel.schema or channel.schema in self._schemas
             if channel.id not in self._channels and (has_schema or not in_summary):
-                self._add_channel(channel.id, self._made(channel))
+                schema = self._schemas.get(channel.schema, NO_SCHEMA)
+                self._add_channel(channel.id, channel_of(channel, schema))
 
-    def _made(self, record: ChannelRecord) -> TopicChannel:
-        schema = self._schemas.get(record.schema, NO_SCHEMA)
-        qos = parse_qos(record.metadata.get("offered_qos_profiles", ""))
-        latching = record.metadata.get("latching", "")
-        latched = is_latched(record.topic, schema.name, qos, latching)
-        return TopicChannel(record.topic, schema, record.encoding, qos, latched)
-
-    def _add_loose(self, loose: _Loose) -> None:
+    def _add_loose(self, loose: LooseMessages) -> None:
         if loose.times:
             entries = loose.entries(self.damage, None)
             found = frozenset(np.unique(entries.channels).tolist())
@@ -341,7 +279,7 @@ class McapBag(BlockBag):
         )
         return self._add_chunk_block(block, self._is_small)
 
-    def _add_chunk(self, chunk: _Chunk) -> int:
+    def _add_chunk(self, chunk: MetChunk) -> int:
         """Add a chunk that the walk has met, and return how much work it was."""
         block = ChunkBlock(
             self._number(),
@@ -399,28 +337,13 @@ class McapBag(BlockBag):
         if isinstance(block, LooseBlock):
             return block.entries
         assert isinstance(block, ChunkBlock)
-        content = self._file.read_at(block.at, block.length)
-        if len(content) < block.length or block.length < HEAD.size:
-            raise BrokenPieceError("the file ends before it")
-        opcode, length = HEAD.unpack_from(content)
-        if opcode != CHUNK:
-            raise BrokenPieceError("there is no chunk")
-        inner = memoryview(content)[HEAD.size :]
-        head = read_chunk(bytes(inner[:_CHUNK_SIZE]))
-        stored = inner[head.at : head.at + head.size]
-        if len(stored) != head.size:
-            raise BrokenPieceError("it is shorter than it claims")
-        if length + HEAD.size != block.length:
-            # The index was right about where it ends.
-            self.damage.lies += 1
-        raw = decompress(head.compression, stored, head.raw_size)
-        if head.crc and zlib.crc32(raw) != head.crc:
-            raise BrokenPieceError("its checksum is wrong")
+        raw, lies = block.content(self._file)
+        self.damage.lies += lies
         return self._entries_in(raw)
 
     def _entries_in(self, raw: bytes | memoryview) -> Entries:
         """Walk through the records of a chunk."""
-        loose, at, end = _Loose(), 0, len(raw)
+        loose, at, end = LooseMessages(), 0, len(raw)
         while at < end:
             if end - at < HEAD.size:
                 raise BrokenPieceError("it ends in a record")
@@ -478,31 +401,10 @@ class McapBag(BlockBag):
             at = block.at + block.length
             data = self._file.read_at(at, min(block.index_length, _MOST_OF_SUMMARY))
             try:
-                for opcode, content in _records(data):
+                for opcode, content in records(data):
                     if opcode == MESSAGE_INDEX:
                         channel, count = read_message_index(content[:6])
                         counts[channel] += count
             except BrokenPieceError:
                 pass
         return counts
-
-
-def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield opcode and content of records that follow each other."""
-    at = 0
-    while at < len(data):
-        if len(data) - at < HEAD.size:
-            raise BrokenPieceError("the last record is cut")
-        opcode, length = HEAD.unpack_from(data, at)
-        at += HEAD.size
-        if length > len(data) - at:
-            raise BrokenPieceError("a record is longer than what it is in")
-        yield opcode, data[at : at + length]
-        at += length
-
-
-def _text_of(encoding: str, data: bytes) -> str | bytes:
-    """Return a definition as text, or as bytes where it is none."""
-    if encoding in ("protobuf", "flatbuffer"):
-        return data
-    return data.decode("utf-8", "replace")

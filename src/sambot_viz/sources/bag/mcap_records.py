@@ -9,6 +9,7 @@ raises `BrokenPieceError`.
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -228,6 +229,20 @@ def read_footer(data: bytes) -> tuple[int, int]:
         raise BrokenPieceError("the file has no footer")
     summary, _, crc = _FOOTER.unpack_from(data, at + HEAD.size)
     return summary, crc
+
+
+def records(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yield opcode and content of records that follow each other."""
+    at = 0
+    while at < len(data):
+        if len(data) - at < HEAD.size:
+            raise BrokenPieceError("the last record is cut")
+        opcode, length = HEAD.unpack_from(data, at)
+        at += HEAD.size
+        if length > len(data) - at:
+            raise BrokenPieceError("a record is longer than what it is in")
+        yield opcode, data[at : at + length]
+        at += length
 
 
 def _whole(data: bytes, layout: np.dtype[np.void]) -> bytes:
