@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import shutil
 import struct
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from inside import session_of
+from live_peers import FoxglovePeer, eventually
+from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
 from sambot_viz.inputs import load_config
@@ -137,6 +140,34 @@ def test_another_size_of_the_robot_is_followed_until_a_user_chooses(
             "cell": 0.25,
             "scale": 2.0,
         }
+
+
+def test_each_private_session_has_it(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    with Visualizer(write(tmp_path, 0.1), port=0, session="private") as viz:
+        for _ in range(2):
+            protocol(viz.viser.get_port()).settle(viz.viser)
+        sessions = viz.server.sessions.all()
+        expected = {"alpha": 1.0, "frames": False, "cell": 0.05, "scale": 0.05}
+        assert list(map(shown, sessions)) == [expected, expected]
+
+
+def test_a_live_robot_has_it_as_soon_as_it_comes() -> None:
+    peer = FoxglovePeer()
+    try:
+        peer.advertise("/robot_description", latched=True)
+        with Visualizer(source=peer.uri, port=0) as viz:
+            session = session_of(viz)
+            assert shown(session) == TUTORIAL
+            box = BOX.format(name="lab", geometry="<box size='0.1 0.1 0.1'/>")
+            peer.publish("/robot_description", box)
+            eventually(lambda: getattr(session.robot.model, "name", "") == "lab")
+            expected = {"alpha": 1.0, "frames": False, "cell": 0.05, "scale": 0.05}
+            eventually(lambda: shown(session) == expected)
+            assert not session.scene.displays[2].shown
+    finally:
+        peer.stop()
 
 
 @pytest.mark.parametrize(
