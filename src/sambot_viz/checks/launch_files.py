@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import difflib
 import re
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -96,8 +97,19 @@ def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
 
 def _python(path: Path) -> ast.Module | None:
     try:
-        return ast.parse(path.read_bytes())
-    except (OSError, SyntaxError, ValueError):
+        return parse_python(path.read_bytes())
+    except OSError:
+        return None
+
+
+def parse_python(text: str | bytes) -> ast.Module | None:
+    """Read Python without running it; None when it is none, which ROS reports."""
+    try:
+        with warnings.catch_warnings():
+            # Python warns of odd escapes in the file, on the terminal of the user.
+            warnings.simplefilter("ignore")
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 
 

@@ -248,6 +248,15 @@ def test_another_package_in_a_folder_of_this_one_is_not_read(copied: Copied) -> 
     assert codes(package) == []
 
 
+def test_a_file_that_others_include_is_compared_with_nothing(copied: Copied) -> None:
+    package = copied("gz")
+    part = package / "urdf" / "part.xacro"
+    part.write_text(
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="rod"/></robot>'
+    )
+    assert [p.code for p in check(part)] == ["robot-without-name"]
+
+
 def test_a_model_outside_of_any_package_is_compared_with_nothing(
     copied: Copied, tmp_path: Path
 ) -> None:
@@ -317,5 +326,5 @@ NAMES_THAT_MUST_MEET = frozenset(
     "frame-odom ekf-world-frame transform-twice topic-unknown bridge-topic "
     "bridge-types bridge-direction clock-not-bridged sim-time-off launch-xacro-py "
     "launch-file-missing launch-parameters-unread launch-world-name "
-    "folder-not-installed footprint-size".split()
+    "folder-not-installed footprint-size sensor-frame ekf-two-d-mode".split()
 )

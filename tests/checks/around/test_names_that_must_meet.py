@@ -76,6 +76,22 @@ def one(
 SPLIT = "<wheel_separation>0.4<"
 RADIUS = "<wheel_radius>${wheel_radius}<"
 EKF_BASE = "base_link_frame: base_link"
+MAP_FILTER = """\
+map_filter:
+  ros__parameters:
+    two_d_mode: false
+    world_frame: map
+    odom0: demo/odom
+"""
+CONTROLLER = """\
+drive:
+  ros__parameters:
+    left_wheel_names: ["left_wheel_joint"]
+    right_wheel_names: ["right_wheel_joint"]
+    wheel_separation: 0.36
+    wheel_radius: 0.1
+    base_frame_id: base_link
+"""
 
 MISTAKES = [
     one(
@@ -227,6 +243,73 @@ MISTAKES = [
         "world_frame: world",
         (EKF, "odom_frame: odom"),
         "write odom",
+    ),
+    Mistake(
+        "ekf-two-d-mode",
+        (
+            (EKF, "two_d_mode: false", "two_d_mode: true"),
+            (EKF, "", MAP_FILTER),
+        ),
+        (EKF, "two_d_mode: false"),
+        (EKF, "two_d_mode: true"),
+        "write two_d_mode: true",
+        ((EKF, "two_d_mode: false", "two_d_mode: true"),),
+    ),
+    Mistake(
+        "sensor-frame",
+        ((MODEL, "      <gz_frame_id>lidar_link</gz_frame_id>\n", ""),),
+        (MODEL, "<topic>scan</topic>"),
+        (BRIDGE, 'gz_topic_name: "/scan"'),
+        "add <gz_frame_id>lidar_link</gz_frame_id> to the sensor",
+        (
+            (
+                MODEL,
+                "<topic>scan</topic>",
+                "<topic>scan</topic><gz_frame_id>lidar_link</gz_frame_id>",
+            ),
+        ),
+    ),
+    Mistake(
+        "sensor-frame",
+        ((MODEL, "      <gz_frame_id>imu_link</gz_frame_id>\n", ""),),
+        (MODEL, "<topic>demo/imu</topic>"),
+        (BRIDGE, 'gz_topic_name: "/demo/imu"'),
+        "add <gz_frame_id>imu_link</gz_frame_id> to the sensor",
+        (
+            (
+                MODEL,
+                "<topic>demo/imu</topic>",
+                "<topic>demo/imu</topic><gz_frame_id>imu_link</gz_frame_id>",
+            ),
+        ),
+        name="of the imu",
+    ),
+    Mistake(
+        "gazebo-joint",
+        ((EKF, "", CONTROLLER.replace("left_wheel_joint", "left_whel_joint")),),
+        (EKF, "left_wheel_names:"),
+        (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
+        "write left_wheel_joint",
+        ((EKF, "left_whel_joint", "left_wheel_joint"),),
+        name="of a controller",
+    ),
+    Mistake(
+        "drive-wheel-radius",
+        ((EKF, "", CONTROLLER.replace("0.1", "0.2")),),
+        (EKF, "wheel_radius: 0.2"),
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.1",
+        ((EKF, "wheel_radius: 0.2", "wheel_radius: 0.1"),),
+        name="of a controller",
+    ),
+    Mistake(
+        "frame-unknown",
+        ((EKF, "", CONTROLLER.replace("base_link", "base_lnk")),),
+        (EKF, "base_frame_id: base_lnk"),
+        (MODEL, '<link name="base_link">'),
+        "write base_link",
+        ((EKF, "base_lnk", "base_link"),),
+        name="of a controller",
     ),
     Mistake(
         "transform-twice",

@@ -28,7 +28,12 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
 
     for rule in IN_MODEL:
         yield from rule(subject.robot)
-    if files is not None:
+    if files is not None and not _is_part(subject):
         around = Surroundings(subject.robot, files)
         for check in IN_PACKAGE:
             yield from check(around)
+
+
+def _is_part(subject: Subject) -> bool:
+    """True for a file that others include: what it lacks may be in those."""
+    return any(p.code == "robot-without-name" for p in subject.robot.problems)

@@ -5,10 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.gazebo import Fact, sensors
+from sambot_viz.checks.around.gazebo_topics import (
+    GazeboTopic,
+    bare,
+    sent,
+    taken,
+    topics_of_sensor,
+)
+from sambot_viz.checks.around.navigation import filters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.xml.element import Element
 
 _TO_ROS, _TO_GZ, _BOTH = "GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL"
 _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
@@ -44,35 +53,6 @@ _PAIRS: dict[str, tuple[str, ...]] = {
 
 _GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
 
-_SENSORS: dict[str, tuple[tuple[str, str], ...]] = {
-    "imu": (("IMU", ""),),
-    "camera": (("Image", ""),),
-    "depth_camera": (("Image", ""), ("PointCloudPacked", "/points")),
-    "rgbd_camera": (
-        ("Image", "/image"),
-        ("Image", "/depth_image"),
-        ("PointCloudPacked", "/points"),
-    ),
-    "navsat": (("NavSat", ""),),
-    "magnetometer": (("Magnetometer", ""),),
-    "air_pressure": (("FluidPressure", ""),),
-    "force_torque": (("Wrench", ""),),
-    **dict.fromkeys(
-        ("gpu_lidar", "gpu_ray", "lidar", "ray"),
-        (("LaserScan", ""), ("PointCloudPacked", "/points")),
-    ),
-}
-"""Type of a sensor → the types that it sends, and what is added to its topic."""
-
-_SENDS = (
-    ("diff-drive-system", "odom_topic", "Odometry"),
-    ("ackermann-steering-system", "odom_topic", "Odometry"),
-    ("odometry-publisher-system", "odom_topic", "Odometry"),
-    ("mecanum-drive-system", "odom_topic", "Odometry"),
-    ("joint-state-publisher-system", "topic", "Model"),
-)
-_TAKES = ("diff-drive-system", "ackermann-steering-system", "mecanum-drive-system")
-
 
 @dataclass(frozen=True, slots=True)
 class BridgeEntry:
@@ -96,28 +76,6 @@ class BridgeEntry:
     def kind(self) -> str:
         """The type in Gazebo, without its package."""
         return self.gz_type.value.rpartition(".")[2]
-
-
-@dataclass(frozen=True, slots=True)
-class GazeboTopic:
-    """A topic of Gazebo that the model sends or takes.
-
-    Attributes:
-        name: the topic.
-        kind: its type.
-        what: what sends or takes it.
-        wanted: a bridge probably carries it; few want the points of a lidar.
-    """
-
-    name: Fact
-    kind: str
-    what: str
-    wanted: bool = True
-
-
-def bare(topic: str) -> str:
-    """Return a topic as a whole name without the first slash."""
-    return topic.strip().strip("/")
 
 
 def entries(around: Surroundings) -> list[BridgeEntry]:
@@ -152,40 +110,6 @@ def _listed(mappings: Iterator[dict[str, Fact]]) -> Iterator[BridgeEntry]:
         yield BridgeEntry(
             ros, gz, ros_type, gz_type, given.get("direction", Fact(_BOTH, ros.place))
         )
-
-
-def sent(around: Surroundings) -> list[GazeboTopic]:
-    """Return the topics of Gazebo that the model sends, where it names them."""
-    found: list[GazeboTopic] = []
-    for _, sensor in sensors(around.robot.gazebo):
-        kind = (sensor.get("type") or "").removesuffix("_sensor")
-        classic = any(
-            "libgazebo_" in (p.get("filename") or "") for p in sensor.children
-        )
-        for fact in [] if classic else facts(sensor, "topic")[:1]:
-            for gz_type, more in _SENSORS.get(kind, ()):
-                name = Fact(fact.value + more, fact.place)
-                what = f"the sensor {sensor.get('name')}"
-                wanted = not more or "camera" in kind
-                found.append(GazeboTopic(name, gz_type, what, wanted))
-    found += _of_plugins(around.plugins, _SENDS)
-    return found
-
-
-def taken(around: Surroundings) -> list[GazeboTopic]:
-    """Return the topics for velocities that the model takes, where it names them."""
-    rows = tuple((part, "topic", "Twist") for part in _TAKES)
-    return list(_of_plugins(around.plugins, rows))
-
-
-def _of_plugins(
-    found: Sequence[Plugin], rows: Sequence[tuple[str, str, str]]
-) -> Iterator[GazeboTopic]:
-    for plugin in found:
-        for part, tag, kind in rows:
-            fact = plugin.one(tag) if part in plugin.filename else None
-            if fact is not None:
-                yield GazeboTopic(fact, kind, f"the plugin {plugin.filename}")
 
 
 def bridge_types(around: Surroundings) -> Iterator[Problem]:
@@ -266,3 +190,51 @@ def _misnamed(
                 "bridge carries",
                 f"write {near if place.file.endswith('.py') else '/' + near}",
             )
+
+
+def scoped_frames(around: Surroundings) -> Iterator[Problem]:
+    """Report sensors whose messages reach ROS with a frame that Gazebo makes up."""
+    every = entries(around)
+    if any(e.kind == "Pose_V" and bare(e.gz.value).startswith(_SCOPED) for e in every):
+        # A bridge may bring the frames of Gazebo too.
+        return
+    said = {text for launch in around.launches for text in launch.strings}
+    filtered = {
+        bare(parameter.fact.value)
+        for one in filters(around)
+        for parameter in one.inputs("imu")
+    }
+    for link, sensor in sensors(around.robot.gazebo):
+        name = sensor.get("name") or ""
+        scoped = f"{link}/{name}"
+        if _names_frame(sensor) or any(text.endswith(f"/{name}") for text in said):
+            continue
+        for topic in topics_of_sensor(sensor):
+            entry = next((e for e in every if _brings(e, topic)), None)
+            read = entry is not None and bare(entry.ros.value) in filtered
+            if entry is not None and (topic.kind in _PLACED or read):
+                place = topic.name.place
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "sensor-frame",
+                    f"the bridge brings the messages of the sensor {name} to ROS "
+                    f"({where(entry.gz.place, place)}) in a frame that Gazebo makes "
+                    f"up, such as {around.robot.name}/{scoped}: no transform leads "
+                    "there",
+                    f"add <gz_frame_id>{link}</gz_frame_id> to the sensor",
+                )
+                break
+
+
+_PLACED = frozenset({"LaserScan", "PointCloudPacked"})
+"""Messages that are of no use without a transform."""
+
+
+def _names_frame(sensor: Element) -> bool:
+    return any("frame_id" in element.tag for element in sensor.iter())
+
+
+def _brings(entry: BridgeEntry, topic: GazeboTopic) -> bool:
+    same = bare(entry.gz.value) == bare(topic.name.value)
+    return same and entry.kind == topic.kind and entry.direction.value != _TO_GZ

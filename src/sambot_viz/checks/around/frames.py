@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.gazebo import Fact, facts, sensors
+from sambot_viz.checks.around.bridges import entries
+from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import (
     StateFilter,
     bare_frame,
-    drive_tf,
     filters,
     is_open,
 )
@@ -21,6 +22,8 @@ _BASES: dict[str, tuple[str, ...]] = {
     "base_frame_id": ("amcl", "collision_monitor"),
     "base_frame": ("slam_toolbox",),
 }
+_WHEELS = "left_wheel_names"
+"""Controllers with this parameter have a base_frame_id too."""
 """Parameter for a frame of the robot → the nodes that have it; "" for any."""
 
 _ODOMS: dict[str, tuple[str, ...]] = {
@@ -76,8 +79,10 @@ def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     for one in filters(around):
         if "base_link_frame" in one.given:
             yield one.given["base_link_frame"].fact, one.node, ""
+    drives = {p.node for p in around.parameters if p.name == _WHEELS}
     for parameter in around.parameters:
-        if _has(_BASES, parameter.node, parameter.name):
+        of_drive = parameter.name == "base_frame_id" and parameter.node in drives
+        if of_drive or _has(_BASES, parameter.node, parameter.name):
             yield parameter.fact, parameter.node, ""
 
 
@@ -112,7 +117,7 @@ def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str]]:
             yield base.fact, one.node
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
-        if fact is not None and drive_tf(around, plugin) is not None:
+        if fact is not None and _drive_tf(around, plugin) is not None:
             yield fact, f"the plugin {plugin.filename}"
 
 
@@ -120,7 +125,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
     """Report a base that both Gazebo and robot_localization move."""
     moving = [one for one in filters(around) if one.started and one.moves_base]
     for plugin in around.plugins if moving else ():
-        told = drive_tf(around, plugin) if plugin.is_drive else None
+        told = _drive_tf(around, plugin) if plugin.is_drive else None
         base = plugin.one(*_DRIVE_BASES)
         if told is None or base is None:
             continue
@@ -176,7 +181,7 @@ def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
             yield one.given["odom_frame"].fact, one.node
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
-        if fact is not None and drive_tf(around, plugin) is not None:
+        if fact is not None and _drive_tf(around, plugin) is not None:
             yield fact, f"the plugin {plugin.filename}"
 
 
@@ -211,3 +216,51 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
             "publishes no transform",
             f"write {one.odom_frame}",
         )
+
+
+def planes(around: Surroundings) -> Iterator[Problem]:
+    """Report a file in which one filter stays on the floor and another does not.
+
+    One filter alone may do both with any sensors: two_d_mode then overrules them.
+    """
+    first: dict[str, StateFilter] = {}
+    for one in filters(around):
+        if one.planar:
+            first.setdefault(one.file, one)
+    for one in filters(around):
+        planar = first.get(one.file)
+        if one.planar or planar is None:
+            continue
+        mode = one.given.get("two_d_mode")
+        place = mode.place if mode else _line_of(one)
+        other = planar.given["two_d_mode"].place
+        yield Problem.at(
+            place,
+            "warning",
+            "ekf-two-d-mode",
+            f"{one.node} may leave the floor, because its two_d_mode is false"
+            f"{'' if mode else ' by default'}, but that of {planar.node} is true "
+            f"({where(other, place)}): the robot tilts between both",
+            "write two_d_mode: true",
+        )
+
+
+_ODOM_TF = ("publish_odom_tf", "publishOdomTF", "publishTf")
+
+
+def _drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
+    """Return where a drive is told to publish the transform of the base to ROS.
+
+    A drive of Gazebo does when a bridge carries its tf_topic.
+    """
+    if plugin.generation == "classic":
+        told = plugin.one(*_ODOM_TF)
+        return told if told and told.value.lower() in ("true", "1") else None
+    topic = plugin.one("tf_topic")
+    if topic is None:
+        return None
+    for entry in entries(around):
+        if bare(entry.gz.value) == bare(topic.value) and entry.kind == "Pose_V":
+            if bare(entry.ros.value) == "tf" and entry.direction.value != "ROS_TO_GZ":
+                return entry.ros
+    return None

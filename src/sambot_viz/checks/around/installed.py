@@ -11,7 +11,7 @@ from sambot_viz.checks.around.gazebo import Fact
 from sambot_viz.checks.around.launch_values import SHARE
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.parts import MeshFile
 
@@ -155,9 +155,8 @@ def _inside(folder: str, around: Surroundings) -> set[str]:
 
 
 def _by_setup(text: str, shown: str) -> Installed | None:
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    tree = parse_python(text)
+    if tree is None:
         return None
     place: Place | None = None
     parts: set[str] = set()

@@ -10,7 +10,7 @@ from functools import cached_property
 
 from sambot_viz.checks.around.gazebo import Fact, Generation
 from sambot_viz.checks.around.launch_values import SHARE, LaunchValues, keyword
-from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 
 _NODES = frozenset({"Node", "LifecycleNode"})
@@ -248,8 +248,6 @@ class LaunchFile:
 
 
 def read_launch(text: str, path: str, shown: str) -> LaunchFile | None:
-    """Read a launch file; None when it is not Python, which ROS itself reports."""
-    try:
-        return LaunchFile(path, shown, ast.parse(text))
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return None
+    """Read a launch file; None when it is not Python."""
+    tree = parse_python(text)
+    return None if tree is None else LaunchFile(path, shown, tree)

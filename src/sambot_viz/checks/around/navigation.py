@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from sambot_viz.checks.around.gazebo import Fact, Plugin
 from sambot_viz.checks.around.parameters import Parameter
 from sambot_viz.checks.around.surroundings import Surroundings
 
@@ -22,11 +21,13 @@ class StateFilter:
         node: its name.
         given: its parameters, by name.
         started: a launch file of the package always starts it.
+        file: the file with its parameters.
     """
 
     node: str
     given: Mapping[str, Parameter]
     started: bool
+    file: str
 
     def frame(self, name: str, default: str) -> str:
         """Return a frame, or what robot_localization takes without it."""
@@ -47,6 +48,12 @@ class StateFilter:
     def world_frame(self) -> str:
         """The frame that it estimates the pose in."""
         return self.frame("world_frame", self.odom_frame)
+
+    @property
+    def planar(self) -> bool:
+        """True when it keeps the robot on the floor."""
+        mode = self.given.get("two_d_mode")
+        return mode is not None and mode.flag is True
 
     @property
     def moves_base(self) -> bool:
@@ -83,7 +90,7 @@ def filters(around: Surroundings) -> list[StateFilter]:
             given = file.of(node)
             if any(_INPUT.fullmatch(name) for name in given):
                 started = node.rpartition("/")[2] in named
-                found.append(StateFilter(node, given, started))
+                found.append(StateFilter(node, given, started, file.path))
     return found
 
 
@@ -95,27 +102,3 @@ def bare_frame(name: str) -> str:
 def is_open(name: str) -> bool:
     """True for a name with a substitution, which is not the final one."""
     return not name or _OPEN.search(name) is not None
-
-
-_ODOM_TF = ("publish_odom_tf", "publishOdomTF", "publishTf")
-
-
-def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
-    """Return where a drive is told to publish the transform of the base to ROS.
-
-    A drive of Gazebo does when a bridge carries its tf_topic.
-    """
-    if plugin.generation == "classic":
-        told = plugin.one(*_ODOM_TF)
-        return told if told and told.value.lower() in ("true", "1") else None
-    # The bridge imports this module.
-    from sambot_viz.checks.around.bridges import bare, entries
-
-    topic = plugin.one("tf_topic")
-    if topic is None:
-        return None
-    for entry in entries(around):
-        if bare(entry.gz.value) == bare(topic.value) and entry.kind == "Pose_V":
-            if bare(entry.ros.value) == "tf" and entry.direction.value != "ROS_TO_GZ":
-                return entry.ros
-    return None

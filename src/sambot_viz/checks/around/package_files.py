@@ -65,8 +65,17 @@ class PackageFiles:
         """Return the files with one of these endings, at most fifty."""
         return [path for path in self.paths if path.endswith(endings)][:50]
 
+    @cached_property
+    def _texts(self) -> dict[str, str | None]:
+        return {}
+
     def text(self, path: str) -> str | None:
         """Return the text of a file, None when it cannot be read or is very large."""
+        if path not in self._texts:
+            self._texts[path] = self._read(path)
+        return self._texts[path]
+
+    def _read(self, path: str) -> str | None:
         file = self.folder / path
         if not self.trusted and not is_below(file, [self.folder.resolve()]):
             return None

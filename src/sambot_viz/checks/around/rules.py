@@ -8,17 +8,14 @@ from sambot_viz.checks.around.bridges import (
     bridge_directions,
     bridge_topics,
     bridge_types,
+    scoped_frames,
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
-from sambot_viz.checks.around.drive import (
-    unknown_joints,
-    unknown_references,
-    wheel_sizes,
-)
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.frames import (
     moved_twice,
     odometry_frames,
+    planes,
     two_parents,
     unknown_frames,
     world_frames,
@@ -30,6 +27,11 @@ from sambot_viz.checks.around.generations import (
     xacro_py,
 )
 from sambot_viz.checks.around.installed import not_installed
+from sambot_viz.checks.around.joints import (
+    joints_of_controllers,
+    unknown_joints,
+    unknown_references,
+)
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
     unread_parameters,
@@ -37,6 +39,7 @@ from sambot_viz.checks.around.launch_paths import (
 )
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
+from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -48,15 +51,19 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
 """The rules that need only the model."""
 
 IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
+    joints_of_controllers,
+    wheel_sizes_of_controllers,
     unknown_frames,
     two_parents,
     moved_twice,
     odometry_frames,
     world_frames,
+    planes,
     unknown_topics,
     bridge_types,
     bridge_directions,
     bridge_topics,
+    scoped_frames,
     clock_not_bridged,
     different_clocks,
     plugins_of_the_other,

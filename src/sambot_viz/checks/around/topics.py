@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sambot_viz.checks.around.bridges import bare, entries
+from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.gazebo import Fact, Plugin
+from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import filters, is_open
 from sambot_viz.checks.around.parameters import Parameter
 from sambot_viz.checks.around.place import where

@@ -1,0 +1,95 @@
+"""The topics of Gazebo that the sensors and plugins of a model send and take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.robot.xml.element import Element
+
+_SENSORS: dict[str, tuple[tuple[str, str], ...]] = {
+    "imu": (("IMU", ""),),
+    "camera": (("Image", ""),),
+    "depth_camera": (("Image", ""), ("PointCloudPacked", "/points")),
+    "rgbd_camera": (
+        ("Image", "/image"),
+        ("Image", "/depth_image"),
+        ("PointCloudPacked", "/points"),
+    ),
+    "navsat": (("NavSat", ""),),
+    "magnetometer": (("Magnetometer", ""),),
+    "air_pressure": (("FluidPressure", ""),),
+    "force_torque": (("Wrench", ""),),
+    **dict.fromkeys(
+        ("gpu_lidar", "gpu_ray", "lidar", "ray"),
+        (("LaserScan", ""), ("PointCloudPacked", "/points")),
+    ),
+}
+"""Type of a sensor → the types that it sends, and what is added to its topic."""
+
+_SENDS = (
+    ("diff-drive-system", "odom_topic", "Odometry"),
+    ("ackermann-steering-system", "odom_topic", "Odometry"),
+    ("odometry-publisher-system", "odom_topic", "Odometry"),
+    ("mecanum-drive-system", "odom_topic", "Odometry"),
+    ("joint-state-publisher-system", "topic", "Model"),
+)
+_TAKES = ("diff-drive-system", "ackermann-steering-system", "mecanum-drive-system")
+
+
+@dataclass(frozen=True, slots=True)
+class GazeboTopic:
+    """A topic of Gazebo that the model sends or takes.
+
+    Attributes:
+        name: the topic.
+        kind: its type.
+        what: what sends or takes it.
+        wanted: a bridge probably carries it; few want the points of a lidar.
+    """
+
+    name: Fact
+    kind: str
+    what: str
+    wanted: bool = True
+
+
+def bare(topic: str) -> str:
+    """Return a topic as a whole name without the first slash."""
+    return topic.strip().strip("/")
+
+
+def sent(around: Surroundings) -> list[GazeboTopic]:
+    """Return the topics of Gazebo that the model sends, where it names them."""
+    found = [t for _, s in sensors(around.robot.gazebo) for t in topics_of_sensor(s)]
+    return [*found, *_of_plugins(around.plugins, _SENDS)]
+
+
+def topics_of_sensor(sensor: Element) -> Iterator[GazeboTopic]:
+    """Give the topics of a sensor; none for one of Gazebo Classic."""
+    kind = (sensor.get("type") or "").removesuffix("_sensor")
+    if any("libgazebo_" in (child.get("filename") or "") for child in sensor.children):
+        return
+    for fact in facts(sensor, "topic")[:1]:
+        for gz_type, more in _SENSORS.get(kind, ()):
+            name = Fact(fact.value + more, fact.place)
+            wanted = not more or "camera" in kind
+            yield GazeboTopic(name, gz_type, f"the sensor {sensor.get('name')}", wanted)
+
+
+def taken(around: Surroundings) -> list[GazeboTopic]:
+    """Return the topics for velocities that the model takes, where it names them."""
+    rows = tuple((part, "topic", "Twist") for part in _TAKES)
+    return list(_of_plugins(around.plugins, rows))
+
+
+def _of_plugins(
+    found: Sequence[Plugin], rows: Sequence[tuple[str, str, str]]
+) -> Iterator[GazeboTopic]:
+    for plugin in found:
+        for part, tag, kind in rows:
+            fact = plugin.one(tag) if part in plugin.filename else None
+            if fact is not None:
+                yield GazeboTopic(fact, kind, f"the plugin {plugin.filename}")

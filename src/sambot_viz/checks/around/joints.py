@@ -1,0 +1,129 @@
+"""Joints of plugins and controllers, and <gazebo reference>, against the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from sambot_viz.checks.around.gazebo import Fact, plugins
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, Link
+
+_JOINTS = (
+    "left_joint",
+    "leftJoint",
+    "right_joint",
+    "rightJoint",
+    "joint_name",
+    "jointName",
+    "front_left_joint",
+    "front_right_joint",
+    "back_left_joint",
+    "back_right_joint",
+    "left_steering_joint",
+    "right_steering_joint",
+    "steering_joint",
+)
+_SCOPED = ("::", "/", ",", " ")
+_LIKE_NAME, _LIKE_LETTERS = 0.7, 0.9
+"""How much two names have in common: a similar name, and a name with a wrong letter."""
+
+
+def unknown_joints(robot: Robot) -> Iterator[Problem]:
+    """Report joints of plugins and ros2_control that the model does not have."""
+    return _unknown_joints(robot, _named_joints(robot))
+
+
+def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report joints in the parameters of controllers that the model does not have."""
+    for parameter in around.parameters if around.robot.gazebo else ():
+        if parameter.name in ("left_wheel_names", "right_wheel_names"):
+            user = _User(parameter.node, drives=True)
+            named = [
+                (Fact(joint, parameter.place), user)
+                for joint in parameter.values
+                if not around.said_elsewhere(joint)
+            ]
+            yield from _unknown_joints(around.robot, named)
+
+
+def _unknown_joints(
+    robot: Robot, named: Iterable[tuple[Fact, _User]]
+) -> Iterator[Problem]:
+    for fact, user in named:
+        if any(mark in fact.value for mark in _SCOPED):
+            continue
+        joint = robot.joints.get(fact.value)
+        if joint is not None and (joint.type != "fixed" or not user.drives):
+            continue
+        if joint is not None:
+            message = (
+                f"{user.name} drives the joint {fact.value}, which is fixed "
+                f"({where(joint.place, fact.place)}): it cannot turn"
+            )
+            hint = 'write type="continuous" for that joint'
+        else:
+            message, hint = _unknown(robot, fact, user)
+        yield Problem.at(fact.place, "warning", "gazebo-joint", message, hint)
+
+
+class _User(NamedTuple):
+    """What names a joint; `drives` when it has to turn it."""
+
+    name: str
+    drives: bool
+
+
+def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
+    for plugin in plugins(robot.gazebo):
+        if plugin.generation is not None:
+            for fact in plugin.all(*_JOINTS):
+                yield fact, _User(f"the plugin {plugin.filename}", plugin.is_drive)
+    for part in robot.gazebo:
+        if part.tag == "ros2_control":
+            for joint in part.find_all("joint"):
+                fact = Fact(joint.get("name") or "", joint.place)
+                yield fact, _User("<ros2_control>", drives=False)
+
+
+def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
+    near = nearest(fact.value, robot.joints)
+    if near is None:
+        movable = [j.name for j in robot.joints.values() if j.type != "fixed"]
+        near = next(iter(movable or robot.joints), "")
+    known = robot.joints.get(near)
+    place = known.place if known else robot.links[robot.root].place
+    what = f"the model has {near}" if near else "the model has no joints"
+    return (
+        f"{user.name} names the joint {fact.value}, which does not exist: {what} "
+        f"({where(place, fact.place)})",
+        f"write {near}" if near else "delete it",
+    )
+
+
+def unknown_references(robot: Robot) -> Iterator[Problem]:
+    """Report <gazebo reference="…"> that is almost the name of a link or joint."""
+    known: Mapping[str, Link | Joint] = {**robot.joints, **robot.links}
+    used = {part.get("reference") for part in robot.gazebo}
+    # What has its own <gazebo> is not what another one means.
+    free = [name for name in known if name not in used]
+    for part in robot.gazebo:
+        name = part.get("reference") or ""
+        matters = any(child.tag in ("sensor", "plugin") for child in part.children)
+        likeness = _LIKE_NAME if matters else _LIKE_LETTERS
+        near = nearest(name, free, likeness) if name and name not in known else None
+        if near is None:
+            continue
+        place = Place(part.place.file, part.line_of("reference"))
+        lost = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in part.children))
+        yield Problem.at(
+            place,
+            "warning",
+            "gazebo-reference",
+            f"<gazebo> refers to {name}, which does not exist: the model has {near} "
+            f"({where(known[near].place, place)}); Gazebo ignores its {lost}",
+            f"write {near}",
+        )

@@ -1,0 +1,167 @@
+"""Wheel sizes of differential drives against the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sambot_viz.checks.around.gazebo import Fact, plugins
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import number
+from sambot_viz.errors import Problem
+from sambot_viz.geometry import Matrix
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Cylinder, Joint, Sphere
+
+_SEPARATION_OFF = 0.15
+_SEPARATION_OFF_MESH = 0.25
+_RADIUS_OFF = 0.1
+_SKIDDING = 4
+
+
+@dataclass(frozen=True, slots=True)
+class _Drive:
+    """What a drive says about its wheels.
+
+    Attributes:
+        left: the joints on the left.
+        right: those on the right, in the same order.
+        separations: the distance of each pair [m].
+        radius: the radius of the wheels [m], or None.
+        diameter: their diameter [m], or None.
+    """
+
+    left: Sequence[str]
+    right: Sequence[str]
+    separations: Sequence[Fact]
+    radius: Fact | None
+    diameter: Fact | None = None
+
+
+def wheel_sizes(robot: Robot) -> Iterator[Problem]:
+    """Report a wheel separation or radius of a plugin that is not that of the model."""
+    for plugin in plugins(robot.gazebo):
+        if plugin.is_drive:
+            drive = _Drive(
+                [fact.value for fact in plugin.all("left_joint", "leftJoint")],
+                [fact.value for fact in plugin.all("right_joint", "rightJoint")],
+                plugin.all("wheel_separation", "wheelSeparation"),
+                plugin.one("wheel_radius"),
+                plugin.one("wheel_diameter", "wheelDiameter"),
+            )
+            yield from _compare(robot, drive)
+
+
+def wheel_sizes_of_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report the same for the parameters of a diff_drive_controller."""
+    for file in around.yaml_files if around.robot.gazebo else ():
+        for node in file.nodes:
+            given = file.of(node)
+            left, right = given.get("left_wheel_names"), given.get("right_wheel_names")
+            apart, radius = given.get("wheel_separation"), given.get("wheel_radius")
+            if left is not None and right is not None:
+                drive = _Drive(
+                    left.values,
+                    right.values,
+                    [apart.fact] if apart else [],
+                    radius.fact if radius else None,
+                )
+                yield from _compare(around.robot, drive)
+
+
+def _compare(robot: Robot, drive: _Drive) -> Iterator[Problem]:
+    pairs = list(_pairs(robot, drive))
+    if pairs:
+        poses = robot.forward_kinematics()
+        yield from _separation(robot, drive, pairs, poses)
+        yield from _radius(robot, drive, pairs[0][0], poses)
+
+
+def _pairs(robot: Robot, drive: _Drive) -> Iterator[tuple[Joint, Joint]]:
+    for left, right in zip(drive.left, drive.right, strict=False):
+        one, other = robot.joints.get(left), robot.joints.get(right)
+        if one is not None and other is not None and one.movable and other.movable:
+            yield one, other
+
+
+def _separation(
+    robot: Robot,
+    drive: _Drive,
+    pairs: list[tuple[Joint, Joint]],
+    poses: Mapping[str, Matrix],
+) -> Iterator[Problem]:
+    for fact, (left, right) in zip(drive.separations, pairs, strict=False):
+        apart = _apart(left, right, poses)
+        wheel = _wheel(robot, left, poses)
+        if apart is None or fact.number is None:
+            continue
+        width = wheel.length if isinstance(wheel, Cylinder) else 0.0
+        share = _SEPARATION_OFF if wheel else _SEPARATION_OFF_MESH
+        if abs(fact.number - apart) <= max(1.01 * width, share * apart):
+            continue
+        wheels = sum(joint.type == "continuous" for joint in robot.joints.values())
+        if fact.number > apart and (len(pairs) > 1 or wheels >= _SKIDDING):
+            # Wheels that skid turn as if they were farther apart.
+            continue
+        yield Problem.at(
+            fact.place,
+            "warning",
+            "drive-wheel-separation",
+            f"the wheel separation is {number(fact.number)} m here, but the wheels of "
+            f"{left.name} and {right.name} ({where(left.place, fact.place)}) are "
+            f"{number(apart)} m apart: odometry turns by wrong angles",
+            f"write {number(apart)}",
+        )
+
+
+def _apart(left: Joint, right: Joint, poses: Mapping[str, Matrix]) -> float | None:
+    """Distance of two wheels along their common axis [m]; None without one."""
+    T_left, T_right = poses[left.child], poses[right.child]
+    axis = T_left[:3, :3] @ np.array(left.axis)
+    other = T_right[:3, :3] @ np.array(right.axis)
+    if abs(float(axis @ other)) < 0.99:
+        return None
+    apart = abs(float((T_left[:3, 3] - T_right[:3, 3]) @ axis))
+    return apart if apart > 0 else None
+
+
+def _radius(
+    robot: Robot, drive: _Drive, pair: Joint, poses: Mapping[str, Matrix]
+) -> Iterator[Problem]:
+    wheel = _wheel(robot, pair, poses)
+    fact, times, what = (
+        (drive.radius, 1, "radius") if drive.radius else (drive.diameter, 2, "diameter")
+    )
+    if wheel is None or fact is None or fact.number is None:
+        return
+    if abs(fact.number - times * wheel.radius) <= _RADIUS_OFF * times * wheel.radius:
+        return
+    yield Problem.at(
+        fact.place,
+        "warning",
+        "drive-wheel-radius",
+        f"the wheel {what} is {number(fact.number)} m here, but the wheel of "
+        f"{pair.name} has the {what} {number(times * wheel.radius)} m "
+        f"({where(robot.links[pair.child].place, fact.place)}): speed and odometry "
+        "are wrong",
+        f"write {number(times * wheel.radius)}",
+    )
+
+
+def _wheel(
+    robot: Robot, joint: Joint, poses: Mapping[str, Matrix]
+) -> Cylinder | Sphere | None:
+    """The shape of a wheel that turns about its own axis; None for other shapes."""
+    link = robot.links[joint.child]
+    axis = np.array(joint.axis)
+    shapes = link.collisions or link.visuals
+    if len(shapes) != 1:
+        return None
+    geometry = shapes[0].geometry
+    along = abs(float(shapes[0].origin.matrix[:3, 2] @ axis)) > 0.99
+    if isinstance(geometry, Sphere) or (isinstance(geometry, Cylinder) and along):
+        return geometry
+    return None
