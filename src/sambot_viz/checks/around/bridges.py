@@ -177,8 +177,8 @@ def _misnamed(
             # The names that Gazebo makes itself.
             continue
         left = {k: t for k, t in alike.items() if t.wanted and k not in carried}
-        likeness = 0.3 if len(alike) == 1 else 0.7
-        near = nearest(name, left, likeness)
+        alone = len(alike) == 1 and sum(e.kind == entry.kind for e in every) == 1
+        near = nearest(name, left, 0.0 if alone else 0.6)
         if near is not None:
             topic, place = left[near], entry.gz.place
             yield Problem.at(
