@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from patience import patience
 
 from sambot_viz import check
 from sambot_viz.errors import Problem, RobotError
@@ -340,3 +342,18 @@ def test_a_macro_call_without_its_prefix_inside_a_link_is_named(tmp_path: Path) 
 
     assert (problem.line, problem.code) == (9, "xacro-prefix-missing")
     assert problem.hint == "write <xacro:box_inertia>"
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [
+        "<link>" * 5000 + "</link>" * 5000,
+        "<visual>" * 5000 + "</visual>" * 5000,
+        '<origin xyz="0 0 0"/>' * 20_000,
+        '<lnk name="a"/>' * 20_000,
+    ],
+)
+def test_very_many_slips_end_soon(robot: str) -> None:
+    start = time.monotonic()
+    found(f'<robot name="r"><link name="a"/>{robot}</robot>')
+    assert time.monotonic() - start < patience(20.0)

@@ -6,7 +6,7 @@ again each time: a problem that is gone with a name was a consequence of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Set
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, Severity
@@ -26,22 +26,16 @@ _Key = tuple[str, str | None, int | None]
 
 
 def report_slips(
-    document: Element,
-    vocabulary: Vocabulary,
-    findings: ModelFindings,
-    read: Read,
-    macros: Set[str] = frozenset(),
+    document: Element, slips: Sequence[Slip], findings: ModelFindings, read: Read
 ) -> None:
     """Add the misspelt names of a document to its problems, in place of follow-ups.
 
     Args:
         document: the root element; it is not changed.
-        vocabulary: the names of its format.
+        slips: its misspelt names and misplaced elements, in document order.
         findings: what was found in it, which changes.
         read: finds the problems of a corrected document.
-        macros: those of xacro.
     """
-    slips = find_slips(document, vocabulary, macros)
     if not slips:
         return
     copies = _copied(document)

@@ -12,6 +12,7 @@ from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.follow_ups import report_slips
 from sambot_viz.robot.gazebo import gazebo_parts
+from sambot_viz.robot.misspelt import find_slips
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -183,20 +184,36 @@ class _Loader:
     ) -> RobotTree | None:
         """Read a document in the language that its root element says."""
         if root.tag == "sdf":
-            from sambot_viz.robot.sdf.read_sdf import read_sdf
-
-            return read_sdf(root, self.opened.document, findings, files.mesh)
+            return self._sdf(root, files, findings)
         tree = read_urdf(
             root, findings, files.mesh, files.texture, expanded is not None
         )
+        macros = frozenset[str]()
+        if expanded is not None:
+            macros = expanded.macros.union(OWN_TAGS)
         report_slips(
             root,
-            URDF,
+            find_slips(root, URDF, macros),
             findings,
             lambda other, found: read_urdf(
                 other, found, _no_file, _no_file, expanded is not None
             ),
-            frozenset() if expanded is None else expanded.macros.union(OWN_TAGS),
+        )
+        return tree
+
+    def _sdf(
+        self, root: Element, files: FileFinder, findings: ModelFindings
+    ) -> RobotTree | None:
+        from sambot_viz.robot.sdf.misspelt import sdf_slips
+        from sambot_viz.robot.sdf.read_sdf import read_sdf
+
+        written = self.opened.document
+        tree = read_sdf(root, written, findings, files.mesh)
+        report_slips(
+            root,
+            sdf_slips(root),
+            findings,
+            lambda other, found: read_sdf(other, written, found, _no_file),
         )
         return tree
 

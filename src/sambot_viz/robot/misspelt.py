@@ -9,10 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Set
 from dataclasses import dataclass
+from itertools import islice
 
 from sambot_viz.robot.vocabulary import Vocabulary, meant
 from sambot_viz.robot.xml.element import Element
 
+MOST_SLIPS = 1000
+"""So many are found in a document, which then has other troubles."""
+_FAR = 30
+"""How many elements around, before and after a misplaced one are looked at."""
 CALL = "xacro:"
 """How the right name of a macro call begins."""
 
@@ -55,7 +60,8 @@ def find_slips(
     ):
         return []
     whole = () if document.tag == root else (Slip(document, root),)
-    return [*whole, *_Search(vocabulary, macros).below(document, root)]
+    slips = _Search(vocabulary, macros).below(document, root)
+    return [*whole, *islice(slips, MOST_SLIPS)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,20 +69,35 @@ class _Search:
     vocabulary: Vocabulary
     macros: Set[str]
 
-    def below(self, element: Element, tag: str) -> Iterator[Slip]:
+    def below(self, top: Element, tag: str) -> Iterator[Slip]:
         """Find the slips of an element that is, or was meant to be, one with a tag."""
-        yield from self._attributes(element, tag)
-        if self.vocabulary.words[tag].opaque:
-            return
-        for child in element.children:
-            slip = None
-            if not self.vocabulary.knows(tag, child.tag) and ":" not in child.tag:
-                slip = self._child(child, element, tag)
+        stack: list[tuple[Element, str, Slip | None]] = [(top, tag, None)]
+        while stack:
+            element, tag, slip = stack.pop()
             if slip is not None:
                 yield slip
-            meaning = child.tag if slip is None else slip.right
-            if meaning in self.vocabulary.words:
-                yield from self.below(child, meaning)
+            if tag not in self.vocabulary.words:
+                continue
+            yield from self._attributes(element, tag)
+            if not self.vocabulary.words[tag].opaque:
+                stack.extend(reversed(list(self._children(element, tag))))
+
+    def _children(
+        self, element: Element, tag: str
+    ) -> Iterator[tuple[Element, str, Slip | None]]:
+        """Yield the children, which element each is meant to be, and its slip."""
+        free: list[str] | None = None
+        left = MOST_SLIPS
+        for number, child in enumerate(element.children):
+            slip = None
+            is_known = self.vocabulary.knows(tag, child.tag) or ":" in child.tag
+            if not is_known and left:
+                if free is None:
+                    present = [other.tag for other in element.children]
+                    free = self.vocabulary.free(tag, present)
+                slip = self._child(number, element, tag, free)
+                left -= slip is not None
+            yield child, child.tag if slip is None else slip.right, slip
 
     def _attributes(self, element: Element, tag: str) -> Iterator[Slip]:
         known = self.vocabulary.attributes(tag)
@@ -90,12 +111,14 @@ class _Search:
                 free.remove(right)
                 yield Slip(element, right, name)
 
-    def _child(self, child: Element, parent: Element, tag: str) -> Slip | None:
+    def _child(
+        self, number: int, parent: Element, tag: str, free: list[str]
+    ) -> Slip | None:
         """Return what is wrong with a child that its parent does not know."""
+        child = parent.children[number]
         if child.tag in self.macros:
             at_root = tag == self.vocabulary.root
             return None if at_root else Slip(child, f"{CALL}{child.tag}")
-        free = self.vocabulary.free(tag, [other.tag for other in parent.children])
         synonym = self.vocabulary.synonyms.get(f"{tag}.{child.tag.lower()}")
         right = synonym if synonym in free else meant(child.tag, free)
         if right is None and child.tag not in self.vocabulary.words:
@@ -105,7 +128,7 @@ class _Search:
         parents = self.vocabulary.parents(child.tag)
         if not parents or right is not None:
             return None
-        target = self._target(child, parent)
+        target = self._target(number, parent)
         around = self.vocabulary.around(tag, child.tag) if target is None else ()
         return Slip(child, child.tag, None, tuple(parents), target, around)
 
@@ -122,19 +145,22 @@ class _Search:
         ]
         return fitting[0] if len(fitting) == 1 else None
 
-    def _target(self, child: Element, parent: Element) -> Element | None:
-        """Find the element in which a misplaced one would count.
+    def _target(self, number: int, parent: Element) -> Element | None:
+        """Find the element in which a misplaced child would count.
 
         One around it comes first, then the nearest one before it, then one after it.
         """
-        around = parent.parent
-        while around is not None:
-            if self._takes(around, child.tag):
+        tag, around = parent.children[number].tag, parent.parent
+        for _ in range(_FAR):
+            if around is None:
+                break
+            if self._takes(around, tag):
                 return around
             around = around.parent
-        at = parent.children.index(child)
-        siblings = [*reversed(parent.children[:at]), *parent.children[at + 1 :]]
-        return next((e for e in siblings if self._takes(e, child.tag)), None)
+        before = parent.children[max(0, number - _FAR) : number]
+        after = parent.children[number + 1 : number + 1 + _FAR]
+        siblings = [*reversed(before), *after]
+        return next((e for e in siblings if self._takes(e, tag)), None)
 
     def _takes(self, element: Element, tag: str) -> bool:
         present = [child.tag for child in element.children]

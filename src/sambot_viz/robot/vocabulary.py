@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 _LIKENESS = 0.7
 
@@ -94,7 +95,13 @@ def meant(name: str, names: Iterable[str]) -> str | None:
     One letter too many, too few, another or swapped with the next is a slip, also in a
     short name; so is another letter case.
     """
-    plain, known = name.lower(), list(names)
+    return _meant(name, tuple(names))
+
+
+@lru_cache(maxsize=4096)
+def _meant(name: str, known: tuple[str, ...]) -> str | None:
+    """Compare once what a macro or a machine repeats a thousand times."""
+    plain = name.lower()
     ranked = sorted(known, key=lambda other: -_likeness(plain, other.lower()))
     for other in ranked:
         if is_one_slip(plain, other.lower()):
