@@ -54,6 +54,20 @@ def test_a_topic_that_a_program_of_the_package_publishes_is_known(
     assert codes(package) == []
 
 
+def test_another_model_of_the_robot_hides_no_topic(copied: Copied) -> None:
+    """The guide's package has the robot in URDF and in SDF."""
+    package = copied("gz")
+    edit(package / EKF, "odom0: demo/odom", "odom0: odom")
+    other = package / "urdf" / "cart.sdf"
+    other.write_text(
+        "<odom_topic>/demo/odom</odom_topic><frame_id>odom</frame_id>"
+        "<odometry_frame>odom</odometry_frame>"
+    )
+    assert codes(package) == ["topic-unknown"]
+    other.write_text("<odom_topic>/odom</odom_topic>")
+    assert codes(package) == []
+
+
 def test_the_topic_of_a_controller_with_parameters_is_known(copied: Copied) -> None:
     package = copied("gz")
     edit(package / EKF, "odom0: demo/odom", "odom0: diff_cont/odom")

@@ -17,6 +17,7 @@ from sambot_viz.robot.model import Robot
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
 _MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")
 _YAML = (".yaml", ".yml")
+_AS_TOPIC = r"(?<!frame)(?<!frame_id)[\"'> ]/?"
 _WITHOUT_PARAMETERS = re.compile(r"(^|/)(maps?|meshes)/")
 
 
@@ -87,10 +88,15 @@ class Surroundings:
         below = path.removeprefix(head).strip("/")
         return below if path.startswith(head) and below else None
 
-    def said_elsewhere(self, name: str) -> bool:
+    def said_elsewhere(self, name: str, *, as_topic: bool = False) -> bool:
         """Tell whether a launch file, a program or another model says this name.
 
         A node or a robot that is not looked at may then have it.
+
+        Args:
+            name: of a topic, a node or a frame.
+            as_topic: of a model count only topics, whole: neither the frame of a
+                <frame_id>, nor the end of a longer topic.
         """
         bare = name.strip("/")
         if any(
@@ -99,12 +105,18 @@ class Surroundings:
             for text in launch.strings
         ):
             return True
-        quoted = re.compile(rf"[\"'>/ ]{re.escape(bare)}[\"'< ]")
+        end = rf"{re.escape(bare)}[\"'< ]"
+        in_program = re.compile(rf"[\"'>/ ]{end}")
+        in_model = re.compile(rf"{_AS_TOPIC}{end}") if as_topic else in_program
         own = {file.name for file in self.robot.files}
         for path in self.files.ending(*_SOURCES, *_MODELS):
-            other = not path.endswith(_MODELS) or path.rpartition("/")[2] not in own
-            if other and not path.endswith("launch.py"):
-                text = self.files.text(path)
-                if text is not None and quoted.search(text):
-                    return True
+            is_model = path.endswith(_MODELS)
+            if path.endswith("launch.py") or (
+                is_model and path.rpartition("/")[2] in own
+            ):
+                continue
+            text = self.files.text(path)
+            quoted = in_model if is_model else in_program
+            if text is not None and quoted.search(text):
+                return True
         return False

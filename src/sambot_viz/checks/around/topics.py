@@ -65,7 +65,7 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
         if any(bare(u.parameter.fact.value) in known for u in others):
             # Another file fits this simulation; this one is for another robot.
             continue
-        if around.said_elsewhere(name) or _of_a_node(around, name):
+        if around.said_elsewhere(name, as_topic=True) or _of_a_node(around, name):
             continue
         near = _meant(name, known)
         if near is None:
