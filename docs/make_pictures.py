@@ -1,6 +1,6 @@
-"""Makes the pictures of the README: what a newcomer sees, light and at 1280×720.
+"""Makes the pictures of the README and of the tutorial: what a newcomer sees.
 
-    python docs/make_pictures.py
+    PYTHONPATH=tests/support:src python docs/make_pictures.py
 
 It needs sambot-viz and a Chromium or Chrome on this machine.
 """
@@ -13,6 +13,8 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+
+from first_robot import PAGE, Walk, said_in, write_files
 
 from sambot_viz.export.chromium import Chromium
 
@@ -49,8 +51,31 @@ def take(arguments: Sequence[str], picture: Path, seen: str) -> None:
             program.terminate()
 
 
+def tutorial(walk: Walk) -> None:
+    """Make the pictures of docs/first-robot.md, by its own commands.
+
+    Each snapshot of the page becomes a picture of that name. The first command that
+    opens the page gives the picture of the window.
+    """
+    opened = next(trial for trial in walk.trials if trial.shows)
+    snapshots = [t for t in walk.trials if t.draws and not t.quoted]
+    for trial in (opened, *snapshots):
+        with tempfile.TemporaryDirectory() as folder:
+            write_files(trial.files, Path(folder))
+            if trial is opened:
+                model = Path(folder) / trial.commands[0].split()[-1]
+                target = PICTURES / "first_robot_body.png"
+                take(["--model", str(model)], target, "true")
+                continue
+            said_in(Path(folder), trial)
+            name = trial.commands[0].split()[-1]
+            picture = (Path(folder) / name).read_bytes()
+            (PICTURES / f"first_robot_{name}").write_bytes(picture)
+
+
 def main() -> None:
-    """Make both pictures."""
+    """Make all pictures."""
+    tutorial(Walk(PAGE.read_text("utf-8")))
     model = ROOT / "assets" / "sam_bot.urdf.xacro"
     take(
         ["--model", str(model)],

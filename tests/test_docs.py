@@ -79,6 +79,7 @@ def test_links_of_the_documents_lead_to_files() -> None:
     for name in (
         *PAGES,
         "docs/deploy.md",
+        "docs/first-robot.md",
         "docs/live.md",
         ".github/CONTRIBUTING.md",
         "CHANGELOG.md",

@@ -1,0 +1,101 @@
+"""The tutorial, docs/first-robot.md, walked from an empty folder."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import urllib.request
+from pathlib import Path
+
+import first_robot
+import pytest
+from command_line_page import parser_of
+from first_robot import PAGE, Trial, Walk, agrees, changed, said_in, write_files
+from program import address, running
+
+from sambot_viz import load_robot
+from sambot_viz.export.browser_process import find_browser
+
+WALK = Walk(PAGE.read_text("utf-8"))
+WALKED = [
+    pytest.param(
+        trial,
+        id=f"line {trial.line}",
+        marks=[pytest.mark.browser] * (trial.draws and trial.quoted),
+    )
+    for trial in WALK.trials
+]
+
+
+@pytest.mark.parametrize("trial", WALKED)
+def test_each_command_of_the_tutorial_says_what_the_page_quotes(
+    trial: Trial, tmp_path: Path
+) -> None:
+    if trial.draws and trial.quoted and find_browser() is None:
+        pytest.skip("a snapshot needs a Chromium or Chrome on this machine")
+    write_files(trial.files, tmp_path)
+    if trial.shows:
+        _open(trial, tmp_path)
+        return
+    if trial.said is None:
+        # docs/make_pictures.py draws it.
+        assert trial.draws
+        parser_of("snapshot").parse_args(shlex.split(trial.commands[0])[2:])
+        return
+    now = said_in(tmp_path, trial)
+    assert agrees(trial.said, now), (
+        f"{PAGE.name} line {trial.line} quotes\n{trial.said}\nnow it is\n{now}\n"
+        "run: PYTHONPATH=tests/support:src python tests/support/first_robot.py"
+    )
+
+
+def _open(trial: Trial, folder: Path) -> None:
+    """Open the page as a reader does, at a free port."""
+    words = shlex.split(trial.commands[0])[1:]
+    with running(*words, "--port", "0", cwd=folder) as process:
+        with urllib.request.urlopen(address(process)) as page:
+            assert page.status == 200
+
+
+def test_each_mistake_is_quoted() -> None:
+    text = PAGE.read_text("utf-8")
+    mistakes = re.findall(r"^```diff$", text, re.MULTILINE)
+    quoted = [trial for trial in WALK.trials if trial.quoted]
+    assert len(quoted) >= len(mistakes) > 20
+    for trial in quoted:
+        assert trial.said and re.match(r"> `\S", trial.said)
+
+
+def test_each_snapshot_of_the_tutorial_is_its_picture() -> None:
+    """`docs/make_pictures.py` makes the pictures with these commands."""
+    embedded = re.findall(r"first_robot_(\w+)\.png\)", PAGE.read_text("utf-8"))
+    drawn = [t.commands[0] for t in WALK.trials if t.draws and not t.quoted]
+    made = [Path(shlex.split(command)[-1]).stem for command in drawn]
+    assert embedded == ["body", *made]
+    for name in embedded:
+        assert (PAGE.parents[1] / ".github" / f"first_robot_{name}.png").is_file()
+
+
+def test_both_files_are_the_same_robot(tmp_path: Path) -> None:
+    write_files(WALK.files, tmp_path)
+    urdf = load_robot(tmp_path / "sam_bot.urdf.xacro")
+    sdf = load_robot(tmp_path / "sam_bot.sdf")
+    turned = {"drivewhl_l_joint": 0.5}
+    poses = sdf.forward_kinematics(turned)
+    assert set(urdf.links) == set(sdf.links)
+    for name, T_root_link in urdf.forward_kinematics(turned).items():
+        assert abs(T_root_link - poses[name]).max() < 1e-9
+    balance = urdf.balance()
+    assert balance and balance.mass == pytest.approx(16.5)
+
+
+def test_a_quotation_that_is_no_longer_true_is_found() -> None:
+    assert agrees("$ a\nb\n…\n", "$ a\nb\nc\nd\n")
+    assert not agrees("$ a\nb\n…\n", "$ a\nc\n")
+    assert not agrees("> `old`\n", "> `new`\n")
+    with pytest.raises(ValueError):
+        changed("<link/>\n", "-<joint/>\n+<link/>\n")
+    page = PAGE.read_text("utf-8")
+    old = "did you mean 'base_laser'?"
+    end = page.index("## 2.")
+    assert first_robot.refreshed(page[:end].replace(old, "?")) == page[:end]
