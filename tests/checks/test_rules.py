@@ -233,6 +233,16 @@ def test_a_bare_command_makes_text_that_yaml_cannot_read_a_warning(
     assert "ParameterValue(Command([…]), value_type=str)" in problem.hint
 
 
+@pytest.mark.parametrize(
+    ("named", "reported"),
+    [("r.urdf", 1), ("r.urdf.xacro", 0), ("other.urdf", 0), ("$(arg model)", 1)],
+)
+def test_only_the_model_that_the_command_names_is_reported(
+    launched: Checked, named: str, reported: int
+) -> None:
+    assert len(launched(TODO, BARE.replace("r.urdf", named))) == reported
+
+
 @pytest.mark.parametrize("launch", ["", WRAPPED, "no Python at all ("])
 def test_without_a_bare_command_no_text_stops_a_launch(
     launched: Checked, launch: str
@@ -258,7 +268,8 @@ def test_text_that_yaml_reads_as_text_stops_no_launch(
     ],
 )
 def test_text_that_xacro_removes_stops_no_launch(launched: Checked, body: str) -> None:
-    assert launched(MACRO + body, BARE, "urdf/r.xacro") == []
+    launch = BARE.replace("r.urdf", "r.xacro")
+    assert launched(MACRO + body, launch, "urdf/r.xacro") == []
 
 
 def test_many_comments_are_searched_in_one_pass(launched: Checked) -> None:

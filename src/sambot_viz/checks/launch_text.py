@@ -19,6 +19,7 @@ from sambot_viz.robot.packages.package_index import package_name
 
 _DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
+_MODEL_FILE = re.compile(r"[\w.-]+\.(?:urdf|xacro)\b(?!\.)")
 _BETWEEN_TAGS = re.compile(r">\s+<")
 _MOST_FOLDERS_UP = 4
 _SHORTEST_WORDS = 4
@@ -33,7 +34,7 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
     if trap is None or not subject.files:
         return
     model = Path(subject.files[0])
-    launch = next(_bare_launch_files(model.absolute().parent), None)
+    launch = next(_bare_launch_files(model.absolute().parent, model.name), None)
     if launch is None or _is_text_in_yaml(model_text):
         return
     text = _text_around(model_text, trap.start())
@@ -48,40 +49,60 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
     )
 
 
-def _bare_launch_files(folder: Path) -> Iterator[tuple[Path, int]]:
+def _bare_launch_files(folder: Path, model: str) -> Iterator[tuple[Path, int]]:
     """Launch files of the model's package with a bare Command, and the line of it.
 
     The package is the nearest folder with a package.xml; without one, the folder of
-    the model and the folder above it are searched.
+    the model and the folder above it are searched. A Command that names other models
+    is left out.
     """
     above = [folder, *folder.parents][: _MOST_FOLDERS_UP + 1]
     package = next((n for n, f in enumerate(above) if package_name(f)), 1)
     for root in above[: package + 1]:
         for file in launch_files(root):
-            for line in bare_commands(file):
+            for line in bare_commands(file, model):
                 yield file, line
 
 
-def bare_commands(launch_file: Path) -> list[int]:
-    """Lines where robot_description is a Command without a ParameterValue around it."""
+def bare_commands(launch_file: Path, model: str) -> list[int]:
+    """Lines where robot_description is a Command without a ParameterValue around it.
+
+    Args:
+        launch_file: the file.
+        model: the name of the model's file; a Command that names others is left out.
+    """
     tree, _ = calls_in(launch_file)
-    commands: dict[str, int] = {}
-    lines: list[int] = []
+    values: dict[str, ast.expr] = {}
+    found: list[ast.expr] = []
     for node in ast.walk(tree) if tree is not None else ():
-        if isinstance(node, ast.Assign) and _is_command(node.value):
+        if isinstance(node, ast.Assign):
             names = (t.id for t in node.targets if isinstance(t, ast.Name))
-            commands.update(dict.fromkeys(names, node.value.lineno))
+            values.update(dict.fromkeys(names, node.value))
     for node in ast.walk(tree) if tree is not None else ():
         if not isinstance(node, ast.Dict):
             continue
         for key, value in zip(node.keys, node.values, strict=True):
             if not isinstance(key, ast.Constant) or key.value != _DESCRIPTION:
                 continue
-            if _is_command(value):
-                lines.append(value.lineno)
-            elif isinstance(value, ast.Name) and value.id in commands:
-                lines.append(commands[value.id])
-    return lines
+            given = values.get(value.id) if isinstance(value, ast.Name) else value
+            if given is not None and _is_command(given):
+                found.append(given)
+    named = [(command, _models_in(command, values)) for command in found]
+    return [one.lineno for one, models in named if not models or model in models]
+
+
+def _models_in(command: ast.expr, values: dict[str, ast.expr]) -> set[str]:
+    """Return the names of model files in a Command and in the variables it uses."""
+    models: set[str] = set()
+    parts = [command]
+    for node in ast.walk(command):
+        if isinstance(node, ast.Name) and node.id in values:
+            parts.append(values[node.id])
+    for part in parts:
+        for node in ast.walk(part):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                models.update(_MODEL_FILE.findall(node.value))
+    return models
 
 
 def _is_command(node: ast.expr) -> bool:
