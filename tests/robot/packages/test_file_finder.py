@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 
+from sambot_viz import check
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import load_robot
 
@@ -99,3 +101,24 @@ def test_backslashes_after_a_package_are_the_cause_that_is_named(
     assert problem.code == "mesh-not-found"
     assert r"it has \ in place of /" in problem.message
     assert problem.hint == "write package://arm/meshes/a.stl"
+
+
+def test_the_package_that_was_meant_is_named(tmp_path: Path) -> None:
+    (tmp_path / ".git").mkdir()  # the search for packages ends here
+    (tmp_path / "package.xml").write_text("<package><name>my_robot</name></package>")
+    (tmp_path / "meshes").mkdir()
+    facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
+    stl = bytes(80) + struct.pack("<I", 1) + facet
+    (tmp_path / "meshes/arm.stl").write_bytes(stl)
+    model = tmp_path / "r.urdf"
+
+    def hints(name: str) -> list[str]:
+        mesh = f'<mesh filename="package://{name}"/>'
+        visual = f"<visual><geometry>{mesh}</geometry></visual>"
+        model.write_text(f'<robot name="r"><link name="a">{visual}</link></robot>')
+        return [problem.hint for problem in check(model)]
+
+    right = "my_robot/meshes/arm.stl"
+    assert hints("my_robt/meshes/arm.stl") == [f"write package://{right}"]
+    assert hints("my_robt/other.stl") == ["write package://my_robot/other.stl"]
+    assert hints(right) == []

@@ -202,6 +202,7 @@ def test_an_argument_in_the_name_of_a_package_is_named(
 ) -> None:
     package = tmp_path / "blue_description"
     package.mkdir()
+    (tmp_path / ".git").mkdir()  # the search for packages ends here
     (package / "package.xml").write_text(
         "<package><name>blue_description</name></package>"
     )

@@ -10,6 +10,7 @@ from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
+from sambot_viz.robot.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xml.element import Element
 
 _DOUBTS = {
@@ -129,6 +130,7 @@ class FileFinder:
         code, message, hint = _DOUBTS[found.doubt or "path-only"]
         path = found.path or "no file"
         text = message.format(path=path, name=found.path.name if found.path else "")
+        hint = _with_right_package(filename, found) or hint
         self._warn(code, f"the {kind} {filename}: {text}", hint, filename, element)
 
     def _report_missing(
@@ -139,6 +141,7 @@ class FileFinder:
             searched = ", ".join(found.searched[:4]) or "nowhere"
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
+            hint = _with_right_package(filename, found) or hint
             if "\\" in package:
                 reason = "it has \\ in place of /"
                 right = filename.replace("\\", "/")
@@ -164,6 +167,15 @@ class FileFinder:
     ) -> None:
         cause = _home_of(filename)
         self._findings.warn(code, text, hint, element, "filename", cause=cause)
+
+
+def _with_right_package(filename: str, found: Resolution) -> str:
+    """Advise to name the package that was meant by a misspelt one, if one is here."""
+    package = found.missing_package
+    near = meant(package, found.known_packages) if package else None
+    if package is None or near is None or not is_one_slip(package, near):
+        return ""
+    return f"write {filename.replace(package, near, 1)}"
 
 
 def _file_in(folder: Path, filename: str) -> str:

@@ -38,12 +38,14 @@ class Resolution:
         searched: what was tried, in order, as text for a message.
         doubt: set when ROS would not find a file by this name.
         missing_package: the package that was not found, when that is the reason.
+        known_packages: those that were found while it was looked for.
     """
 
     path: Path | None
     searched: tuple[str, ...] = ()
     doubt: Doubt | None = None
     missing_package: str | None = None
+    known_packages: tuple[str, ...] = ()
 
 
 class FileResolver:
@@ -94,8 +96,9 @@ class FileResolver:
         if lookup.path is None:
             found = self._by_tail(tail) if scheme == "package" else None
             if found is not None:
-                return Resolution(found, lookup.searched, "path-only", package)
-            return Resolution(None, lookup.searched, missing_package=package)
+                doubt: Doubt = "path-only"
+                return Resolution(found, lookup.searched, doubt, package, lookup.known)
+            return Resolution(None, lookup.searched, None, package, lookup.known)
         found = self._below(lookup.path, tail)
         if scheme == "model" and found.path is not None and found.doubt is None:
             return replace(found, doubt="model-scheme")

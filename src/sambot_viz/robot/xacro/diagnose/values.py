@@ -82,7 +82,7 @@ def placeholder(failed: FailedExpansion) -> Problem | None:
     else:
         return None
     for name, place, default in _arguments(failed):
-        choices = _choices(part, default, known)
+        choices = _choices(name, part, default, known)
         if default == part or (name in _named_at(failed) and choices):
             return _give(failed, what, name, place, default, choices)
     return None
@@ -106,19 +106,24 @@ def _give(
     )
 
 
-def _choices(part: str, default: str, known: tuple[str, ...]) -> list[str]:
-    """Return what the argument may be: other names differ only where it is."""
+def _choices(name: str, part: str, default: str, known: tuple[str, ...]) -> list[str]:
+    """Return what the argument may be: other names differ only where it is.
+
+    Those that have words of the argument's name come first.
+    """
     if default == part:
         near = nearest(part, known)
-        return sorted(known, key=lambda name: name != near)
+        return sorted(known, key=lambda other: other != near)
+    words = set(name.split("_"))
     at = part.find(default)
     before, after = (part[:at], part[at + len(default) :]) if default else ("", part)
     end = len(after)
-    return [
-        name[len(before) : len(name) - end]
-        for name in known
-        if name.startswith(before) and name.endswith(after) and len(name) > end
+    fitting = [
+        other[len(before) : len(other) - end]
+        for other in known
+        if other.startswith(before) and other.endswith(after) and len(other) > end
     ]
+    return sorted(fitting, key=lambda one: -len(words.intersection(one.split("_"))))
 
 
 def _first_missing(path: Path) -> Path | None:
