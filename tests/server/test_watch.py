@@ -301,8 +301,8 @@ def test_what_a_callback_reads_counts_from_then_on_and_once(
 class Followed:
     """A Visualizer that follows a copy of sam_bot, and waiting for what it does."""
 
-    def __init__(self, folder: Path) -> None:
-        self.model = folder / "sam_bot.urdf.xacro"
+    def __init__(self, folder: Path, name: str = "sam_bot.urdf.xacro") -> None:
+        self.model = folder / name
         shutil.copytree(bundled.assets_folder(), folder, dirs_exist_ok=True)
         self.config = folder / "own.rviz"
         shutil.copy(bundled.config_path(), self.config)
@@ -369,6 +369,28 @@ def test_a_mistake_keeps_the_robot_and_is_shown_until_it_is_fixed(
     sam_bot.save("</rob>", "</robot>")
     sam_bot.wait_for(lambda: not sam_bot.failed)
     assert sam_bot.reports.get(timeout=10) == ()
+
+
+def test_an_sdf_file_is_followed_and_its_mistakes_have_their_lines(
+    tmp_path: Path,
+) -> None:
+    sam_bot = Followed(tmp_path, "sam_bot.sdf")
+    try:
+        sam_bot.viz.set_joint_positions({LEFT: 1.25})
+        sam_bot.save("front_caster", "rear_caster")
+        sam_bot.wait_for(lambda: "rear_caster" in sam_bot.viz.frames.frames)
+        assert sam_bot.viz.joint_positions[LEFT] == 1.25
+        sam_bot.save('relative_to="caster_joint"', 'relative_to="castor_joint"')
+        (problem,) = sam_bot.reports.get(timeout=10)
+        lines = sam_bot.model.read_text("utf-8").splitlines()
+        wrong = next(n for n, line in enumerate(lines, 1) if "castor" in line)
+        assert problem.line == wrong
+        assert problem.hint == "write caster_joint"
+        assert "rear_caster" in sam_bot.viz.frames.frames
+        sam_bot.save("castor_joint", "caster_joint")
+        assert sam_bot.reports.get(timeout=10) == ()
+    finally:
+        sam_bot.viz.stop()
 
 
 def test_what_a_save_includes_newly_is_followed_from_then_on(

@@ -182,9 +182,7 @@ def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
     A wheel turns without end about a level axis, and is a sphere or a cylinder
     about that axis. Other links, and wheels that are meshes, give None.
     """
-    if joint.limit is not None and joint.limit.ends != (None, None):
-        return None
-    if joint.type not in ("continuous", "revolute"):
+    if not joint.endless:
         return None
     axis = T_footprint_link[:3, :3] @ np.array(joint.axis)
     if abs(axis[2]) > 0.1:

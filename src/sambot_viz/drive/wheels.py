@@ -67,7 +67,7 @@ def find_wheel_pair(
     wheels = [
         _wheel(robot, joint, poses[joint.child])
         for joint in robot.joints.values()
-        if joint.type == "continuous" and joint.mimic is None
+        if joint.endless and joint.mimic is None
     ]
     if left is not None or right is not None:
         pair = (_named(left, "left", wheels), _named(right, "right", wheels))

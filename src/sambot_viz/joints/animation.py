@@ -43,7 +43,7 @@ def turn(
     for name, velocity in velocities.items():
         now = state.positions.get(name, 0.0)
         position = state.checked(name, now + state.checked(name, velocity) * dt)
-        if state.joints[name].type != "continuous":
+        if not state.joints[name].endless:
             lower, upper = sorted(state.joints[name].range)
             position = _stopped(now, position, lower, upper)
         elif wrap:
@@ -105,7 +105,7 @@ def _position(state: JointState, name: str, part: float) -> float:
     if not 0.0 < part < 1.0:
         return start
     way = eased(part)
-    if joint.type == "continuous":
+    if joint.endless:
         return start + 2.0 * math.pi * way
     lower, upper = sorted(joint.range)
     corners = (start, upper, lower, start)

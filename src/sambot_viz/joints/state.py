@@ -196,13 +196,13 @@ class JointState:
     def over_limit(self) -> tuple[str, ...]:
         """Return the joints whose position is outside their range, with followers.
 
-        A continuous joint has no limit (its range is the slider's), and neither has a
-        mimic joint whose file gives none.
+        A joint without an end has no limit (its range is the slider's), and neither
+        has a mimic joint whose file gives none.
         """
         over: list[str] = []
         for name, value in self.all_positions().items():
             joint = self._joints[name]
-            if joint.type == "continuous" or joint.limit is None:
+            if joint.endless or joint.limit is None or None in joint.limit.ends:
                 continue
             lower, upper = sorted(joint.range)
             if not lower <= value <= upper:

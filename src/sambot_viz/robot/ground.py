@@ -185,7 +185,7 @@ def axle_of(joint: Joint | None, T_root_link: Matrix) -> Matrix | None:
     Returns:
         None where the joint does not turn without end about a level axis.
     """
-    if joint is None or joint.type != "continuous":
+    if joint is None or not joint.endless:
         return None
     axle: Matrix = T_root_link[:3, :3] @ np.array(joint.axis)
     return axle if any(joint.axis) and abs(float(axle[2])) < _LEVEL else None

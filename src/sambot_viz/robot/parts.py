@@ -243,6 +243,13 @@ class Joint:
         return self.type in MOVABLE_TYPES
 
     @property
+    def endless(self) -> bool:
+        """True for a wheel: it turns without end (continuous, or limits of ±inf)."""
+        if self.type == "revolute" and self.limit is not None:
+            return self.limit.ends == (None, None)
+        return self.type == "continuous"
+
+    @property
     def range(self) -> tuple[float, float]:
         """Lower and upper position [rad or m], as joint_state_publisher takes them.
 

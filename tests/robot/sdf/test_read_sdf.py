@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from sambot_viz import Problem, Robot, RobotError, check, load_robot
+from sambot_viz.drive.wheels import find_wheel_pair
+from sambot_viz.joints import JointState
 from sambot_viz.robot.parts import Box, MeshFile
 
 TWO = '<link name="a"/><link name="b"/>'
@@ -313,3 +315,17 @@ def test_every_link_has_an_inertia_and_that_of_the_root_is_no_finding() -> None:
     data = Path(__file__).parents[2] / "data" / "sdf" / "ours" / "mbot.sdf"
     assert load_robot(data).links["base_link"].inertial is not None
     assert not [p for p in check(data) if p.code == "inertia-on-root"]
+
+
+def test_wheels_with_limits_of_inf_drive_and_turn_as_continuous_ones_do() -> None:
+    text = (Path(__file__).parents[3] / "assets" / "sam_bot.sdf").read_text("utf-8")
+    limit = "<limit><lower>-inf</lower><upper>inf</upper></limit></axis>"
+    text = text.replace('type="continuous"', 'type="revolute"')
+    robot = load_robot(text.replace("</axis>", limit))
+
+    assert all(robot.joints[name].endless for name in robot.joint_names)
+    pair = find_wheel_pair(robot)
+    assert (pair.left, pair.right) == ("drivewhl_l_joint", "drivewhl_r_joint")
+    state = JointState(robot)
+    state.set("drivewhl_l_joint", 40.0)
+    assert state.over_limit() == ()

@@ -102,7 +102,7 @@ def _separation(
         share = _SEPARATION_OFF if wheel else _SEPARATION_OFF_MESH
         if abs(fact.number - apart) <= max(1.01 * width, share * apart):
             continue
-        wheels = sum(joint.type == "continuous" for joint in robot.joints.values())
+        wheels = sum(joint.endless for joint in robot.joints.values())
         if fact.number > apart and (len(pairs) > 1 or wheels >= _SKIDDING):
             # Wheels that skid turn as if they were farther apart.
             continue

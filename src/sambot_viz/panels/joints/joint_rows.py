@@ -70,7 +70,7 @@ def _slider(
         most=upper,
         step=_step(joint),
         help=_help(joint),
-        extra={"wheel": True} if joint.type == "continuous" else None,
+        extra={"wheel": True} if joint.endless else None,
         set=lambda value: move(joint, value),
     )
 

@@ -195,7 +195,7 @@ class JointsPanel(Panel):
     # Wheels that keep turning
 
     def _rate_row(self, joints: JointState) -> Sequence[Row]:
-        if all(joints.joints[name].type != "continuous" for name in joints.sliders):
+        if not any(joints.joints[name].endless for name in joints.sliders):
             return ()
         return [
             Row(

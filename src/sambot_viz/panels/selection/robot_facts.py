@@ -85,7 +85,7 @@ def _joint(robot: RobotState, joint: Joint) -> Iterator[Fact]:
     position = robot.joints.all_positions().get(joint.name, joint.start)
     lower, upper = joint.range
     limits = f"{lower:.5g} … {upper:.5g}"
-    if joint.type == "continuous":
+    if joint.endless:
         limits = "turns without limits"
     yield "Joint position", f"{position:.5g} {unit}, {limits}"
     yield "Joint axis", shown_numbers(joint.axis)

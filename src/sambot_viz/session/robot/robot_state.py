@@ -285,7 +285,7 @@ class RobotState:
                 }
                 for name in known:
                     # A wheel that has driven for an hour has turned a thousand times.
-                    if joints.joints[name].type == "continuous":
+                    if joints.joints[name].endless:
                         known[name] = wrap_angle(known[name])
                 self._note(known, {})
 
