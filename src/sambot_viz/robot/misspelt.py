@@ -101,10 +101,11 @@ class _Search:
 
     def _attributes(self, element: Element, tag: str) -> Iterator[Slip]:
         known = self.vocabulary.attributes(tag)
+        unknown = [n for n in element.attributes if n not in known and ":" not in n]
+        if not unknown:
+            return
         free = [name for name in known if name not in element.attributes]
-        for name in element.attributes:
-            if name in known or ":" in name:
-                continue
+        for name in unknown:
             synonym = self.vocabulary.synonyms.get(f"{tag}.{name.lower()}")
             right = synonym if synonym in free else meant(name, free)
             if right is not None:

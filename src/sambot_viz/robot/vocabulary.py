@@ -50,7 +50,7 @@ class Vocabulary:
 
     def attributes(self, tag: str) -> list[str]:
         """Return the attributes of an element."""
-        return self.words[tag].attributes.split()
+        return list(_names(self.words[tag].attributes))
 
     def children(self, tag: str) -> list[str]:
         """Return the children that an element may have and that are looked into."""
@@ -59,7 +59,8 @@ class Vocabulary:
 
     def knows(self, parent: str, tag: str) -> bool:
         """Tell whether an element may be there."""
-        return tag in self.children(parent) or tag in self.words[parent].also.split()
+        word = self.words[parent]
+        return any(tag in _names(part) for part in (word.once, word.many, word.also))
 
     def parents(self, tag: str) -> list[str]:
         """Return the elements in which an element may be."""
@@ -87,6 +88,12 @@ class Vocabulary:
             return []
         repeated = [*word.many.split(), *word.also.split()]
         return [tag for tag in once if tag not in there] + repeated
+
+
+@lru_cache
+def _names(text: str) -> tuple[str, ...]:
+    """Split a list of names once: a model asks for it at each element."""
+    return tuple(text.split())
 
 
 def meant(name: str, names: Iterable[str]) -> str | None:
