@@ -64,6 +64,7 @@ def test_each_mistake_is_quoted() -> None:
     assert len(quoted) >= len(mistakes) > 20
     for trial in quoted:
         assert trial.said and re.match(r"> `\S", trial.said)
+        assert "no problems found" not in trial.said
 
 
 def test_each_snapshot_of_the_tutorial_is_its_picture() -> None:

@@ -152,6 +152,48 @@ def test_a_turning_laser_is_not_a_wheel(checked: Checked) -> None:
     assert checked(body, "wheel-not-on-ground") == []
 
 
+DISC = (
+    '<link name="a"/><link name="b"><visual><origin xyz="0 0 0.1" rpy="{rpy}"/>'
+    '<geometry><cylinder radius="0.1" length="{length}"/></geometry></visual></link>'
+    '<joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+    '<axis xyz="{axis}"/></joint>'
+)
+
+
+@pytest.mark.parametrize(
+    ("rpy", "axis", "advice"),
+    [
+        ("0 0 0", "0 1 0", 'lay it down: <origin xyz="0 0 0.1" rpy="1.5708 0 0"/>'),
+        ("0 0 0", "-2 0 0", 'lay it down: <origin xyz="0 0 0.1" rpy="0 1.5708 0"/>'),
+        ("0 0 0", "0.6 0.8 0", "turn the shape so that its z axis is along the axle"),
+        ("1.5708 0 0", "1 0 0", 'write <axis xyz="0 1 0"/> for joint j'),
+    ],
+)
+def test_a_wheel_across_its_axle_turns_end_over_end(
+    checked: Checked, rpy: str, axis: str, advice: str
+) -> None:
+    body = DISC.format(rpy=rpy, axis=axis, length="0.04")
+    (problem,) = checked(body, "wheel-across-axle")
+    assert problem.message.startswith("the wheel b turns end over end: joint j turns")
+    assert advice in problem.hint
+
+
+@pytest.mark.parametrize(
+    ("rpy", "axis", "length"),
+    [
+        ("1.5708 0 0", "0 1 0", "0.04"),
+        # What swivels about z, and a long roller that is turned about its middle.
+        ("1.5708 0 0", "0 0 1", "0.04"),
+        ("0 0 0", "0 1 0", "0.4"),
+    ],
+)
+def test_what_turns_about_its_middle_line_and_what_is_no_wheel_are_right(
+    checked: Checked, rpy: str, axis: str, length: str
+) -> None:
+    body = DISC.format(rpy=rpy, axis=axis, length=length)
+    assert checked(body, "wheel-across-axle") == []
+
+
 def test_names_that_differ_in_case_name_both(checked: Checked) -> None:
     body = joint("", "fixed").replace('"b"', '"A"')
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around import names_that_must_meet
+from sambot_viz.checks.axles import wheels_across_their_axles
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.mesh_files import (
@@ -50,6 +51,7 @@ RULES: tuple[Rule, ...] = (
     unusable_meshes,
     meshes_of_wrong_size,
     wheels_off_the_ground,
+    wheels_across_their_axles,
     falls_over,
     names_that_differ_in_case,
     names_with_spaces,

@@ -1,0 +1,105 @@
+"""Wheels across their axles: a cylinder stands along z, and an axle does not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from sambot_viz.checks.rule import Subject, listed
+from sambot_viz.errors import Problem
+from sambot_viz.robot.parts import Cylinder, Joint, Shape
+
+_Vector = npt.NDArray[np.float64]
+
+_ACROSS = 0.1
+"""Largest cosine between two directions that are across each other (84°)."""
+
+
+def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
+    """Report wheels that turn end over end, in one finding.
+
+    A wheel turns without end about a level axis, and all that is drawn of it, or all
+    that it touches with, are discs. In a swivelling caster the axis is upright.
+    """
+    robot = subject.robot
+    poses = robot.forward_kinematics()
+    across: dict[str, tuple[Joint, Shape, _Vector]] = {}
+    for joint in robot.joints.values():
+        axle = _axle(joint)
+        if axle is None or abs((poses[joint.child][:3, :3] @ axle)[2]) > _ACROSS:
+            continue
+        link = robot.links[joint.child]
+        for shapes in (link.visuals, link.collisions):
+            if shapes and all(_is_across(shape, axle) for shape in shapes):
+                across.setdefault(link.name, (joint, shapes[0], axle))
+    if not across:
+        return
+    joint, shape, axle = next(iter(across.values()))
+    middle = shape.origin.matrix[:3, 2]
+    lies_flat = abs((poses[joint.child][:3, :3] @ middle)[2]) > _ACROSS
+    turns = "the wheel {} turns" if len(across) == 1 else "the wheels {} turn"
+    yield Problem.at(
+        shape.place if lies_flat else joint.place,
+        "warning",
+        "wheel-across-axle",
+        f"{turns.format(listed(across))} end over end: joint {joint.name} turns "
+        f"about {_named(axle)}, but the middle line of the cylinder is along "
+        f"{_named(middle)}",
+        _laid_down(shape, axle, robot.language)
+        if lies_flat
+        else _turned_axis(joint, middle, robot.language),
+    )
+
+
+def _axle(joint: Joint) -> _Vector | None:
+    """Return the unit axis of a joint that turns without end, in the child link."""
+    if joint.type not in ("continuous", "revolute"):
+        return None
+    if joint.limit is not None and joint.limit.ends != (None, None):
+        return None
+    axis = np.array(joint.axis, dtype=np.float64)
+    length = float(np.linalg.norm(axis))
+    return axis / length if length > 0 else None
+
+
+def _is_across(shape: Shape, axle: _Vector) -> bool:
+    """Tell whether a shape is a disc whose middle line is across the axle."""
+    disc = shape.geometry
+    if not isinstance(disc, Cylinder) or disc.length > disc.radius:
+        return False
+    return abs(float(shape.origin.matrix[:3, 2] @ axle)) < _ACROSS
+
+
+_UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
+
+
+def _named(direction: _Vector) -> str:
+    """Name a direction: "y", or its numbers where it is between x, y and z."""
+    for name, part in zip("xyz", direction, strict=True):
+        if abs(part) > 0.99:
+            return name
+    return _numbers(direction)
+
+
+def _numbers(values: _Vector) -> str:
+    return " ".join(f"{round(float(values[i]), 4) + 0.0:g}" for i in range(3))
+
+
+def _laid_down(shape: Shape, axle: _Vector, language: str) -> str:
+    """Say how a cylinder is laid along its axle."""
+    rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0"}.get(_named(axle))
+    if rpy is None:
+        return "turn the shape so that its z axis is along the axle"
+    xyz = _numbers(shape.origin.matrix[:3, 3])
+    if language == "sdf":
+        return f"lay it down: <pose>{xyz} {rpy}</pose> for the shape"
+    return f'lay it down: <origin xyz="{xyz}" rpy="{rpy}"/> for the shape'
+
+
+def _turned_axis(joint: Joint, middle: _Vector, language: str) -> str:
+    """Say which axis fits a wheel that stands upright."""
+    xyz = _UNITS.get(_named(middle)) or _numbers(middle)
+    written = f"<xyz>{xyz}</xyz>" if language == "sdf" else f'<axis xyz="{xyz}"/>'
+    return f"write {written} for joint {joint.name}"
