@@ -34,7 +34,7 @@ _PART = re.compile(
 """A block, a quotation, or a paragraph."""
 _WRITE = re.compile(r"(?:^|.* )Write `(?P<file>[^`]+)`:$")
 _ADD = re.compile(
-    r"^Add to `(?P<file>[^`]+)`, at the end of `<(?P<tag>\w+)(?P<rest>.*)`:$"
+    r"^Add to `(?P<file>[^`]+)`, at the end of `(?P<start><(?P<tag>\w+)[^`]*)>`:$"
 )
 _APPEND = re.compile(r"^Add to `(?P<file>[^`]+)`, at the end:$")
 _COMMAND = re.compile(r"`(sambot-viz [^`]+)`")
@@ -125,7 +125,7 @@ class Walk:
         added = _ADD.match(self._before)
         assert added, f"where does this go? {self._before!r}"
         text = self.files[added["file"]]
-        begin = text.index(f"<{added['tag']}{added['rest']}")
+        begin = text.index(added["start"])
         close = f"</{added['tag']}>"
         outermost = added["tag"] in ("robot", "model")
         end = text.rindex(close) if outermost else text.index(close, begin)
