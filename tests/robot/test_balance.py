@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sambot_viz import bundled
-from sambot_viz.robot.balance import Balance, Tipping
+from sambot_viz.robot.balance.balance import Balance, Tipping
 from sambot_viz.robot.model import load_robot
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.balance import Balance, Tipping, balance
-from sambot_viz.robot.ground import axle_of
+from sambot_viz.robot.balance.balance import Balance, Tipping, balance
+from sambot_viz.robot.balance.ground import axle_of
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import MeshFile
 

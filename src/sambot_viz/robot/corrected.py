@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.follow_ups import corrected_copy
 from sambot_viz.robot.model import Robot, shapes_of
 from sambot_viz.robot.parts import MeshFile
-from sambot_viz.robot.slip_words import SLIP_CODES
+from sambot_viz.robot.slips.follow_ups import corrected_copy
+from sambot_viz.robot.slips.slip_words import SLIP_CODES
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xml.element import parse_xml

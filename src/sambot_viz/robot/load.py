@@ -10,16 +10,18 @@ from typing import NamedTuple
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.follow_ups import report_slips
 from sambot_viz.robot.gazebo import gazebo_parts
-from sambot_viz.robot.misspelt import find_slips
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
     PathLike,
     open_model,
 )
-from sambot_viz.robot.needs_xacro import (
+from sambot_viz.robot.packages.file_finder import FileFinder
+from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
+from sambot_viz.robot.slips.follow_ups import report_slips
+from sambot_viz.robot.slips.misspelt import find_slips
+from sambot_viz.robot.slips.needs_xacro import (
     OWN_TAGS,
     first_xacro,
     left_over,
@@ -27,8 +29,6 @@ from sambot_viz.robot.needs_xacro import (
     only_names_files,
     undeclared_prefix,
 )
-from sambot_viz.robot.packages.file_finder import FileFinder
-from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xacro.child_result import (

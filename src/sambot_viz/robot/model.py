@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     from sambot_viz.meshes.mesh import Mesh
-    from sambot_viz.robot.balance import Balance
+    from sambot_viz.robot.balance.balance import Balance
     from sambot_viz.robot.model_source import OpenedModel, PathLike
 
 
@@ -143,7 +143,7 @@ class Robot:
         """
         from sambot_viz.meshes.mesh import MeshError
         from sambot_viz.meshes.read_mesh import read_mesh
-        from sambot_viz.robot.balance import balance
+        from sambot_viz.robot.balance.balance import balance
 
         @cache
         def read(path: Path) -> Mesh | None:

@@ -10,7 +10,7 @@ from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
-from sambot_viz.robot.balance import WORLD, Balance, Tipping, balance
+from sambot_viz.robot.balance.balance import WORLD, Balance, Tipping, balance
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import MeshFile
 

@@ -9,7 +9,7 @@ from sambot_viz.displays.scene.lines import chain_segments
 from sambot_viz.displays.scene.marks import BallMark, FaceMark, LinesMark
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.balance import Balance
+from sambot_viz.robot.balance.balance import Balance
 
 BALL_SHARE = 0.035
 """Radius of the ball by the longest side of the robot."""

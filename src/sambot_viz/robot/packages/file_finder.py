@@ -10,7 +10,7 @@ from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
-from sambot_viz.robot.vocabulary import is_one_slip, meant
+from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xml.element import Element
 
 _DOUBTS = {

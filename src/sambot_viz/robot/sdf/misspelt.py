@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from sambot_viz.robot.misspelt import MOST_SLIPS, Slip
 from sambot_viz.robot.sdf.elements import ElementType, model_type
 from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
 from sambot_viz.robot.sdf.habits import attributes_of_urdf, element_of_urdf
-from sambot_viz.robot.vocabulary import meant
+from sambot_viz.robot.slips.misspelt import MOST_SLIPS, Slip
+from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
 _REPEATED = frozenset({"collision", "frame", "joint", "link", "model", "visual"})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.robot.vocabulary import Vocabulary, Word
+from sambot_viz.robot.slips.vocabulary import Vocabulary, Word
 
 _SYNONYMS = {
     "origin": {

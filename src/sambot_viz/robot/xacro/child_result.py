@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.needs_xacro import missing_prefix
 from sambot_viz.robot.packages.package_index import Lookup
+from sambot_viz.robot.slips.needs_xacro import missing_prefix
 from sambot_viz.robot.xacro.child.exchange import (
     ChildAnswer,
     ExpandedAnswer,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem, did_you_mean, nearest
-from sambot_viz.robot.vocabulary import is_one_slip, meant
+from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.source_files import (
     NamedElement,

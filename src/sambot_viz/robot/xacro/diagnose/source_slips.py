@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.vocabulary import meant
+from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from sambot_viz.errors import Place, Problem, did_you_mean, nearest
-from sambot_viz.robot.needs_xacro import OWN_TAGS
-from sambot_viz.robot.vocabulary import meant
+from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
+from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
     line_in,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.ground import Contacts, LinkTree, Meshes, contacts
+from sambot_viz.robot.balance.ground import Contacts, LinkTree, Meshes, contacts
 
 WORLD = "world"
 """A robot with this root link is fixed to the world, as in Gazebo."""

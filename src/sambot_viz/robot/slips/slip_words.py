@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from sambot_viz.robot.findings import tag_text
-from sambot_viz.robot.misspelt import CALL, Slip
-from sambot_viz.robot.needs_xacro import OWN_TAGS, missing_prefix
+from sambot_viz.robot.slips.misspelt import CALL, Slip
+from sambot_viz.robot.slips.needs_xacro import OWN_TAGS, missing_prefix
 from sambot_viz.robot.xml.element import Element
 
 SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-misplaced"})

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.misspelt import CALL, Slip, find_slips
-from sambot_viz.robot.slip_words import slip_in_words
-from sambot_viz.robot.vocabulary import Vocabulary
+from sambot_viz.robot.slips.misspelt import CALL, Slip, find_slips
+from sambot_viz.robot.slips.slip_words import slip_in_words
+from sambot_viz.robot.slips.vocabulary import Vocabulary
 from sambot_viz.robot.xml.element import Element
 
 Read = Callable[[Element, ModelFindings], object]

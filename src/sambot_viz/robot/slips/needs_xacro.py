@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.vocabulary import meant
+from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
 OWN_TAGS = (

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
 
-from sambot_viz.robot.vocabulary import Vocabulary, meant
+from sambot_viz.robot.slips.vocabulary import Vocabulary, meant
 from sambot_viz.robot.xml.element import Element
 
 MOST_SLIPS = 1000
