@@ -329,3 +329,44 @@ def test_wheels_with_limits_of_inf_drive_and_turn_as_continuous_ones_do() -> Non
     state = JointState(robot)
     state.set("drivewhl_l_joint", 40.0)
     assert state.over_limit() == ()
+
+
+@pytest.mark.parametrize(
+    ("moments", "refused"),
+    [
+        ("1 0 0 1 0 2", False),
+        ("1 0 0 1 0 2.000000000001", True),
+        ("1 1.1 0 1 0 1", True),
+        ("0 0 0 0 0 0", False),
+        ("1 0 0 1 0 nan", True),
+        ("1 inf 0 1 0 1", True),
+        ("inf 0 0 1 0 1", False),
+        ("inf 0 0 inf 0 1", True),
+    ],
+)
+def test_an_inertia_is_refused_where_libsdformat_refuses_it(
+    moments: str, refused: bool
+) -> None:
+    tags = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    values = zip(tags, moments.split(), strict=True)
+    inertia = "".join(f"<{tag}>{value}</{tag}>" for tag, value in values)
+    body = f"<inertial><inertia>{inertia}</inertia></inertial>"
+    text = sdf(f'<link name="a">{body}</link>')
+
+    if refused:
+        assert [problem.code for problem in refusal(text)] == ["sdf-inertia"]
+    else:
+        assert load_robot(text).root == "a"
+
+
+@pytest.mark.parametrize("name", ["world", "__model__", "a::b"])
+def test_the_name_of_the_model_may_be_reserved_too(name: str) -> None:
+    (error,) = refusal(sdf('<link name="a"/>', model=f'name="{name}"'))
+
+    assert error.code == "sdf-name-reserved"
+
+
+def test_a_joint_that_is_its_own_child_is_refused() -> None:
+    text = sdf(TWO + joint(kind="fixed").replace("<child>b", "<child>j"))
+
+    assert "sdf-joint-to-frame" in {problem.code for problem in refusal(text)}

@@ -106,10 +106,12 @@ def _refuse_frame(
             element,
         )
         return
-    frame = scope.find(name)
-    while frame is not None and frame.kind != "link":
+    frame, seen = scope.find(name), set[Frame]()
+    while frame is not None and frame.kind != "link" and frame not in seen:
+        # Frames may be attached to each other, which is reported elsewhere.
+        seen.add(frame)
         frame = frame.attached
-    better = frame.name if frame is not None else "…"
+    better = frame.name if frame is not None and frame.kind == "link" else "…"
     findings.reject(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "

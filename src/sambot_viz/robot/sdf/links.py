@@ -167,11 +167,14 @@ def _why_invalid(mass: float, moments: list[float]) -> str:
     if mass < 0:
         return f"the mass {mass:g} is negative"
     if not all(map(math.isfinite, moments)):
-        return ""
+        # One moment on the diagonal may be infinite, whatever body that is.
+        endless = sum(not math.isfinite(moment) for moment in moments)
+        on_diagonal = math.inf in (moments[0], moments[3], moments[5])
+        return "" if endless == 1 and on_diagonal else "a moment of inertia is infinite"
     ixx, ixy, ixz, iyy, iyz, izz = moments
     tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
     low, middle, high = (float(v) for v in np.linalg.eigvalsh(tensor))
-    slack = 1e-12 * max(abs(low), abs(middle), abs(high))
+    slack = 4e-15 * max(abs(low), abs(middle), abs(high))
     if low < -slack:
         return "a moment of inertia is negative"
     if high > low + middle + slack:

@@ -106,6 +106,7 @@ def read_scopes(
         findings: where the problems go.
     """
     reader = _NameReader(written, version, findings)
+    reader.check_name(model)
     top = Scope(Frame(OWN, "model", model))
     stack = [(top, 0)]
     while stack:
@@ -145,7 +146,7 @@ class _NameReader:
 
     def _take(self, scope: Scope, element: Element, kind: str) -> Frame | None:
         """Take the name of an element into a scope; None when it cannot be used."""
-        name = self._checked(element)
+        name = self.check_name(element)
         if not name:
             return None
         other = scope.frames.get(name)
@@ -171,8 +172,8 @@ class _NameReader:
         )
         return new
 
-    def _checked(self, element: Element) -> str:
-        """Return the name of an element, "" when it has none."""
+    def check_name(self, element: Element) -> str:
+        """Return the name of an element, "" when it has none; report a reserved one."""
         name = trimmed(element.get("name") or "")
         reserved = len(name) > 3 and name[:2] == name[-2:] == "__"
         if reserved or name == "world":
@@ -201,7 +202,7 @@ class _NameReader:
         for element in part.children:
             if element.tag not in _INSIDE:
                 continue
-            name = self._checked(element)
+            name = self.check_name(element)
             first = seen.setdefault((element.tag, name), element)
             if name and first is not element:
                 self._report_repeated(name, element, first)
