@@ -143,3 +143,12 @@ def test_what_the_real_tool_takes_in_silence_is_a_warning() -> None:
         "tf2 strips the leading slash of '/a'",
         "'1.5m' is read as 1.5: leave 'm' out",
     )
+
+
+def test_an_angle_of_more_than_a_turn_is_probably_in_degrees() -> None:
+    parsed = parse_static_transform("0 0 0 90 0 -45 a b")
+    assert parsed.warnings == (
+        "roll -45 looks like degrees, but it is in radians: write -0.7854",
+        "yaw 90 looks like degrees, but it is in radians: write 1.5708",
+    )
+    assert parse_static_transform("0 0 0 6.2832 0 -3.14 a b").warnings == ()

@@ -214,7 +214,7 @@ def _output(folder: Path, command: str) -> str:
     if target:
         (folder / target).write_text(out.getvalue(), "utf-8")
         return err.getvalue()
-    return out.getvalue() + err.getvalue()
+    return err.getvalue() + out.getvalue()
 
 
 @contextlib.contextmanager

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
@@ -185,6 +185,7 @@ def _build(
             transform = Transform.from_xyz_xyzw(xyz, xyzw)
         else:
             rpy = [value(name) for name in ("roll", "pitch", "yaw")]
+            warnings.extend(_degrees(rpy))
             transform = Transform.from_xyz_rpy(xyz, rpy)
     except TransformRefused as refused:
         raise StaticTransformError(
@@ -236,6 +237,16 @@ def _number(text: str, label: str, warnings: list[str]) -> float:
             f"Failed to parse {label} as float", f"'{text}' is too large"
         )
     return number
+
+
+def _degrees(rpy: Sequence[float]) -> Iterator[str]:
+    """Yield a warning for each angle of more than a full turn."""
+    for name, angle in zip(("roll", "pitch", "yaw"), rpy, strict=True):
+        if math.tau + 1e-3 < abs(angle) <= 360:
+            yield (
+                f"{name} {angle:g} looks like degrees, but it is in radians: write "
+                f"{math.radians(angle):.5g}"
+            )
 
 
 def _usage() -> str:
