@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from sambot_viz import bundled
-from sambot_viz.robot.balance.balance import Balance, Tipping
+from sambot_viz.robot.balance.balance import Balance, Tipping, convex_hull
 from sambot_viz.robot.model import load_robot
 
 
@@ -99,6 +99,34 @@ def test_on_two_wheels_alone_nothing_keeps_a_robot_upright():
 
     assert polygon(found) == [[0.0, -0.22], [0.0, 0.22]]
     assert found.tipping is None and not found.fixed
+
+
+@pytest.mark.parametrize("roll", ["1.57", "1.5708", "1.571", "1.5707963267948966"])
+def test_a_wheel_that_turns_leaves_the_tipping_angle_as_it_is(roll: str):
+    wheel = "<cylinder radius='0.1' length='0.04'/>"
+    text = link("base", "<box size='0.4 0.3 0.1'/>", 5.0)
+    for name, side in (("left", 0.2), ("right", -0.2)):
+        text += link(name, wheel, 0.5, rpy=f"{roll} 0 0")
+        text += joint(name, f"-0.12 {side} -0.05", "continuous")
+    text += link("caster", "<sphere radius='0.05'/>", 0.1)
+    robot = load_robot(
+        f"<robot name='r'>{text}{joint('caster', '0.14 0 -0.1')}</robot>"
+    )
+    for left in np.linspace(-7.0, 7.0, 29):
+        for right in np.linspace(-4.0, 4.0, 17):
+            found = robot.balance({"left_joint": left, "right_joint": right})
+            assert found is not None
+            # As by hand: the edge from (0.14, 0) to (-0.12, 0.22).
+            assert math.degrees(tipping(found).angle) == pytest.approx(35.95, abs=0.02)
+
+
+def test_a_line_that_is_wide_by_a_rounding_has_two_ends():
+    ends = np.array(((0.0, -0.2), (2e-8, 0.18), (-3e-8, -0.18), (1e-8, 0.2)))
+    for turn in (0.0, 0.4, math.pi / 2):
+        c, s = math.cos(turn), math.sin(turn)
+        found = convex_hull(ends @ np.array(((c, s), (-s, c))))
+        assert len(found) == 2
+        assert math.dist(*found) == pytest.approx(0.4, abs=1e-6)
 
 
 def test_a_robot_that_is_fixed_to_the_world_does_not_tip_over():

@@ -142,25 +142,20 @@ def _support(found: Contacts | None) -> Support | None:
 
 
 def convex_hull(points: Matrix) -> Matrix:
-    """Return the corners of the convex hull, counter-clockwise, (M, 2).
+    """Return the corners of the convex hull, counter-clockwise from the left, (M, 2).
 
     Args:
         points: (N, 2), at least one; points on a line give its two ends.
     """
-    ordered: list[Sequence[float]] = sorted(np.round(points, 9).tolist())
-    apart: list[Sequence[float]] = []
-    for point in ordered:
-        if not apart or math.dist(point, apart[-1]) > SAME_POINT:
-            apart.append(point)
-    if len(apart) < 3:
-        return np.array(apart)
+    ordered: list[list[float]] = np.unique(np.round(points, 9), axis=0).tolist()
     # Andrew's monotone chain.
-    return np.array([*_chain(apart)[:-1], *_chain(apart[::-1])[:-1]])
+    corners = [*_chain(ordered)[:-1], *_chain(ordered[::-1])[:-1]] or ordered
+    return _simplified(np.array(corners))
 
 
-def _chain(points: Sequence[Sequence[float]]) -> list[Sequence[float]]:
+def _chain(points: Sequence[list[float]]) -> list[list[float]]:
     """Return the corners below points that are sorted along x."""
-    chain: list[Sequence[float]] = []
+    chain: list[list[float]] = []
     for point in points:
         while len(chain) > 1 and not _is_left(chain[-2], chain[-1], point):
             chain.pop()
@@ -169,6 +164,41 @@ def _chain(points: Sequence[Sequence[float]]) -> list[Sequence[float]]:
 
 
 def _is_left(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> bool:
-    """Return whether c lies left of the way from a to b, by more than a rounding."""
-    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    return area > SAME_POINT * math.dist(a, b)
+    """Return whether c lies left of the way from a to b."""
+    return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _simplified(ring: Matrix) -> Matrix:
+    """Leave out corners that are on the line between others.
+
+    Only a hull tells them: of points on one line but for a rounding, those that sorting
+    puts in the middle may be the ends of it.
+    """
+    # The corner that is farthest from any is an end, also of a line.
+    ring = np.roll(ring, -_farthest(ring, ring[0]), axis=0)
+    other = _farthest(ring, ring[0])
+    if math.dist(ring[0], ring[other]) <= SAME_POINT:
+        return ring[:1]
+    there, back = ring[: other + 1], np.concatenate((ring[other:], ring[:1]))
+    corners = [*_bends(there)[:-1], *_bends(back)[:-1]]
+    left = min(range(len(corners)), key=lambda at: tuple(corners[at]))
+    return np.roll(corners, -left, axis=0)
+
+
+def _farthest(points: Matrix, point: Matrix) -> int:
+    return int(np.linalg.norm(points - point, axis=1).argmax())
+
+
+def _bends(line: Matrix) -> list[Matrix]:
+    """Return the ends of a line, and its points that are beside the way between them.
+
+    This is the way of Ramer, Douglas and Peucker.
+    """
+    start, way = line[0], line[-1] - line[0]
+    shares: Matrix = (line - start) @ way / float(way @ way)
+    shares = np.minimum(np.maximum(shares, 0.0), 1.0)
+    beside: Matrix = np.linalg.norm(line - start - np.outer(shares, way), axis=1)
+    most = int(beside.argmax())
+    if float(beside[most]) <= SAME_POINT:
+        return [start, line[-1]]
+    return [*_bends(line[: most + 1])[:-1], *_bends(line[most:])]
