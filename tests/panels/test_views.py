@@ -186,6 +186,25 @@ def test_a_side_is_looked_at_without_perspective_and_whole(
     assert camera.look_at == pytest.approx((box[0] + box[1]) / 2)
 
 
+@pytest.mark.parametrize("far", [10.0, 100.0, 1e5])
+@pytest.mark.parametrize("kind", [ORBIT, ABOVE])
+def test_from_however_far_away_a_side_and_a_fit_show_the_robot_at_once(
+    kind: str, far: float, panel: ViewsPanel, client: Client
+) -> None:
+    edit(panel, "views/side", ["front"])
+    near = client.view.values["Distance"]
+    assert 0.3 < near < 3.0
+    edit(panel, "view/type", kind)
+    client.view.zero()
+    if kind == ORBIT:
+        edit(panel, "view/Distance", far)
+    edit(panel, "views/side", ["front"])
+    assert client.view.values["Distance"] == pytest.approx(near)
+    edit(panel, "view/Distance", far)
+    client.view.fit()
+    assert client.view.values["Distance"] == pytest.approx(near)
+
+
 def test_the_top_is_rvizs_own_view(panel: ViewsPanel, client: Client) -> None:
     edit(panel, "views/side", ["top"])
     assert rows_of(panel)["view/type"].value == ABOVE

@@ -118,7 +118,9 @@ class Camera:
         above = np.abs(around @ self.image_up) / (FILLED_HEIGHT * half)
         behind = around @ self.forward
         away = np.maximum(aside, above) - behind
-        return float(max(away.max(), self.near - behind.min()))
+        # The near plane of a parallel camera follows the distance that it has now.
+        near = 0.0 if self.is_parallel else self.near
+        return float(max(away.max(), near - behind.min()))
 
     def shows(self, point: Vector, width: int, height: int, part: float = 1.0) -> bool:
         """Return whether a point is in the picture.
