@@ -341,7 +341,7 @@ def test_wheels_with_limits_of_inf_drive_and_turn_as_continuous_ones_do() -> Non
         ("1 0 0 1 0 nan", True),
         ("1 inf 0 1 0 1", True),
         ("inf 0 0 1 0 1", False),
-        ("inf 0 0 inf 0 1", True),
+        ("1 0 0 inf 0 1", True),
     ],
 )
 def test_an_inertia_is_refused_where_libsdformat_refuses_it(
@@ -370,3 +370,21 @@ def test_a_joint_that_is_its_own_child_is_refused() -> None:
     text = sdf(TWO + joint(kind="fixed").replace("<child>b", "<child>j"))
 
     assert "sdf-joint-to-frame" in {problem.code for problem in refusal(text)}
+
+
+def test_a_nested_model_without_links_is_refused() -> None:
+    (error,) = refusal(sdf('<link name="a"/><model name="m"/>'))
+
+    assert "m has no links" in error.message
+    static = '<model name="m"><static>true</static></model>'
+    assert load_robot(sdf(f'<link name="a"/>{static}')).root == "a"
+
+
+@pytest.mark.parametrize(("version", "refused"), [("1.4", True), ("1.8", False)])
+def test_an_old_axis_needs_its_direction(version: str, refused: bool) -> None:
+    text = sdf(TWO + joint("<axis/>", "continuous"), version)
+
+    if refused:
+        assert "has no <xyz>" in refusal(text)[0].message
+    else:
+        assert load_robot(text).joints["j"].axis == (0.0, 0.0, 1.0)

@@ -123,6 +123,15 @@ class MotionReader:
             return _Z
         name = self._version.expressed_in(axis)
         at = axis.find("xyz") or axis
+        if at is axis and name:
+            # Bringing the file to a newer version makes an empty <xyz> for the frame.
+            self._findings.reject(
+                "sdf-value",
+                f"<axis> of joint {joint.name} has no <xyz>, which a file of this "
+                f"version needs; {REFUSED}",
+                "write <xyz>0 0 1</xyz> into it",
+                axis,
+            )
         frame = self._frames.named(name, at, "expressed_in") if name else None
         turn = np.eye(3)
         if frame is not None:

@@ -13,6 +13,7 @@ import numpy as np
 from sambot_viz.errors import Place
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.sdf.fields import text_in
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.repeated_names import report_repeated
 from sambot_viz.robot.sdf.values import trimmed
@@ -112,6 +113,8 @@ def read_scopes(
     while stack:
         scope, depth = stack.pop()
         reader.read(scope)
+        if scope is not top:
+            reader.check_nested(scope)
         if depth < _MOST_NESTED:
             stack.extend((inner, depth + 1) for inner in scope.nested.values())
     return top
@@ -143,6 +146,17 @@ class _NameReader:
                 self._take(scope, element, element.tag)
             if element.tag in ("link", "joint"):
                 self._check_inside(element)
+
+    def check_nested(self, scope: Scope) -> None:
+        """Report a nested model that has nothing its frame could move with."""
+        static = text_in(scope.model, "static").lower() in ("true", "1")
+        if not static and not scope.nested and not scope.of_kind("link"):
+            self._findings.reject(
+                "sdf-nested-model",
+                f"the nested model {scope.model.get('name')} has no links; {REFUSED}",
+                "delete it: ROS shows nothing of nested models",
+                scope.model,
+            )
 
     def _take(self, scope: Scope, element: Element, kind: str) -> Frame | None:
         """Take the name of an element into a scope; None when it cannot be used."""
