@@ -154,6 +154,11 @@ class _Loader:
         source, findings = self.opened.source, ModelFindings()
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
         tree = self._tree(root, files, findings, expanded)
+        if expanded is not None and findings.problems:
+            from sambot_viz.robot.xacro.diagnose.given_values import name_given_values
+
+            names = (source.label, *map(str, expanded.files))
+            findings.problems[:] = name_given_values(findings.problems, names)
         problems += findings.problems
         read = expanded.files if expanded is not None else ()
         if tree is None or findings.rejected:

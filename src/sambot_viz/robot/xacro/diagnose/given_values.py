@@ -1,0 +1,174 @@
+"""Texts that are no numbers, named where xacro was given them and not at each use.
+
+A property, an argument or a macro's parameter is written once; what is made of it fails
+in every element that uses it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.urdf.attributes import BadNumber, read_number, read_numbers
+from sambot_viz.robot.xacro.diagnose.failed_expansion import line_in
+from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
+from sambot_viz.robot.xml.diagnose.lexer import Token
+
+_NUMBERS = ("number-malformed", "sdf-value", "sdf-number-cut-off")
+"""The codes of problems with a text in place of a number."""
+
+_USE = re.compile(r"\$(?:\{([^}]*)\}|\(\s*arg\s+([^)]*)\))")
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_DEFAULT = re.compile(r"(\w+):?=(\S+)")
+_LOOKS_LIKE_A_NUMBER = re.compile(r"\s*[+-]?[.,]?\d")
+
+
+@dataclass(frozen=True, slots=True)
+class _Given:
+    """A value that a name has.
+
+    Attributes:
+        name: the property, argument or parameter.
+        place: the element that gives the value.
+        owner: that element, for messages.
+        before: what is written before the value: ``value=`` or ``radius:=``.
+        value: the value as it is written.
+    """
+
+    name: str
+    place: Place
+    owner: str
+    before: str
+    value: str
+
+    def written(self, value: str) -> str:
+        """Write a value as this one is written."""
+        quote = '"' if self.before.endswith('"') else ""
+        return f"{self.before}{value}{quote}"
+
+    @property
+    def bad(self) -> BadNumber | None:
+        """What is wrong with it as one number, or as several; None for nothing."""
+        if "$" in self.value or not _LOOKS_LIKE_A_NUMBER.match(self.value):
+            return None
+        try:
+            if self.value.count(",") > 1 or re.search(r",\s", self.value):
+                read_numbers(self.value, 3)
+            for part in self.value.split():
+                read_number(part)
+        except BadNumber as bad:
+            return bad
+        return None
+
+
+def name_given_values(
+    problems: Sequence[Problem], files: Iterable[str]
+) -> list[Problem]:
+    """Return the problems, with those that come from one wrong value as one.
+
+    Args:
+        problems: those of a model that came out of xacro.
+        files: the files that xacro read, as the user would write them.
+    """
+    if not any(problem.code in _NUMBERS for problem in problems):
+        return list(problems)
+    sources = SourceSet.of(files)
+    given = list(_given(sources))
+    found: dict[_Given, Problem] = {}
+    kept: list[Problem] = []
+    for problem in problems:
+        causes = _causes(problem, sources, given)
+        for cause, bad in causes:
+            there = found.get(cause)
+            if there is None or there.severity != "error":
+                found[cause] = _report(problem, cause, bad)
+        if not causes:
+            kept.append(problem)
+    return [*found.values(), *kept]
+
+
+def _report(problem: Problem, cause: _Given, bad: BadNumber) -> Problem:
+    used = Place(problem.file or "", problem.line or 0)
+    better = re.fullmatch('write "(.*)"', bad.hint)
+    return replace(
+        problem,
+        message=f"{cause.written(cause.value)} of {cause.owner} {bad.reason} (used on "
+        f"{line_in(used, cause.place)})",
+        hint=f"write {cause.written(better[1])}" if better else bad.hint,
+        file=cause.place.file,
+        line=cause.place.line,
+        column=cause.place.column,
+    )
+
+
+def _given(sources: SourceSet) -> Iterator[_Given]:
+    """Yield what properties, arguments and parameters of macros are."""
+    for file, source in sources.sources():
+        for token in source.tags:
+            if token.closes or not token.name.startswith("xacro:"):
+                continue
+            place = token_place(source, file, token)
+            yield from _given_by(token, place)
+
+
+def _given_by(token: Token, place: Place) -> Iterator[_Given]:
+    kind, name = token.name.removeprefix("xacro:"), token.get("name") or ""
+    if kind == "macro":
+        for parameter, value in _DEFAULT.findall(token.get("params") or ""):
+            before = f"{parameter}:="
+            yield _Given(parameter, place, f"the macro {name}", before, value)
+        return
+    only = {"property": "value", "arg": "default"}.get(kind)
+    for attribute in token.attributes:
+        before = f'{attribute.name}="'
+        if only is None:
+            owner = f"<{token.name}>"
+            yield _Given(attribute.name, place, owner, before, attribute.value)
+        elif attribute.name == only:
+            owner = f"the {'property' if kind == 'property' else 'argument'} {name}"
+            yield _Given(name, place, owner, before, attribute.value)
+
+
+def _causes(
+    problem: Problem, sources: SourceSet, given: Sequence[_Given]
+) -> list[tuple[_Given, BadNumber]]:
+    """Return the wrong values that the element of a problem is made of."""
+    if problem.code not in _NUMBERS or problem.file is None or problem.line is None:
+        return []
+    waiting = _names_in(_written(problem, sources))
+    seen: set[str] = set()
+    found: list[tuple[_Given, BadNumber]] = []
+    while waiting:
+        name = waiting.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        for one in given:
+            if one.name == name:
+                bad = one.bad
+                if bad is not None:
+                    found.append((one, bad))
+                waiting += _names_in(one.value)
+    return found
+
+
+def _names_in(text: str) -> list[str]:
+    uses = (f"{use[0]} {use[1]}" for use in _USE.findall(text))
+    return [name for use in uses for name in _NAME.findall(use)]
+
+
+def _written(problem: Problem, sources: SourceSet) -> str:
+    """Return an element as it is written, with the text behind its tag."""
+    source = sources.get(problem.file or "")
+    if source is None or problem.line is None:
+        return ""
+    tags: list[Token] = source.tags
+    for number, token in enumerate(tags):
+        first, last = source.line(token.start), source.line(token.end - 1)
+        column = source.column(token.start)
+        if first <= problem.line <= last and problem.column in (None, column):
+            following = tags[number + 1].start if number + 1 < len(tags) else token.end
+            return source.text[token.start : following]
+    return ""
