@@ -46,7 +46,7 @@ def check_launch_file(
         robot: the robot it shows, if known.
 
     Returns:
-        Nothing when the file cannot be read as Python: ROS reports that.
+        Nothing when the file cannot be read as Python.
     """
     _, calls = calls_in(Path(path))
     return [
@@ -103,7 +103,7 @@ def _python(path: Path) -> ast.Module | None:
 
 
 def parse_python(text: str | bytes) -> ast.Module | None:
-    """Read Python without running it; None when it is none, which ROS reports."""
+    """Read Python without running it; None when it is none."""
     try:
         with warnings.catch_warnings():
             # Python warns of odd escapes in the file, on the terminal of the user.

@@ -146,7 +146,7 @@ def _texts(node: yaml.Node) -> tuple[str, ...]:
 
 
 def read_yaml(text: str, path: str, shown: str) -> YamlFile | None:
-    """Read a YAML file; None when it is empty or not YAML, which ROS itself reports."""
+    """Read a YAML file; None when it is empty or not YAML."""
     try:
         root: yaml.Node | None = _LOADER(text).get_single_node()
     except (yaml.YAMLError, RecursionError):

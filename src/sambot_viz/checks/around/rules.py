@@ -39,6 +39,11 @@ from sambot_viz.checks.around.launch_paths import (
 )
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
+from sambot_viz.checks.around.unreadable import (
+    misspelt_key,
+    unreadable_python,
+    unreadable_yaml,
+)
 from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
@@ -51,6 +56,9 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
 """The rules that need only the model."""
 
 IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
+    unreadable_yaml,
+    misspelt_key,
+    unreadable_python,
     joints_of_controllers,
     wheel_sizes_of_controllers,
     unknown_frames,

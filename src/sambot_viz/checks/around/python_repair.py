@@ -1,0 +1,82 @@
+"""What stops a Python file in every version of Python, and where to mend it."""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+
+from sambot_viz.checks.around.yaml_repair import Fault
+
+_CERTAIN = re.compile(
+    "forgot a comma|was never closed|unmatched|does not match|unterminated|"
+    "expected ':'|Missing parentheses|invalid character|non-printable|"
+    "positional argument follows|keyword argument repeated|cannot assign|"
+    "unexpected indent|unindent|expected an indented|inconsistent use of tabs|"
+    "unexpected EOF|after line continuation|cannot contain assignment"
+)
+_NEWER = re.compile(
+    r"\b[fFtT][rR]?[\"']|\b[rR][fFtT][\"']|^\s*(type|match|except)\b|"
+    r"(def|class) \w+\["
+)
+"""Text that one version of Python reads and another does not."""
+
+_MOST_LINES = 200
+_COMMA = "a comma is missing at the end of this line"
+
+
+def fault_in_python(text: str) -> Fault | None:
+    """Return what stops Python; None when it is fine or a version may read it."""
+    error = _error(text)
+    if error is None or error.lineno is None:
+        return None
+    lines = text.splitlines()
+    last = max(error.end_lineno or 0, error.lineno)
+    at = max(1, min(error.lineno, len(lines)))
+    if any(_NEWER.search(line) for line in lines[at - 1 : last]):
+        return None
+    comma = _comma(lines, at, last)
+    if comma is not None:
+        return Fault(comma, _COMMA, "add a comma there")
+    if not _CERTAIN.search(error.msg):
+        return None
+    cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
+    return Fault(at, cause, _hint(error.msg))
+
+
+def _error(text: str) -> SyntaxError | None:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            ast.parse(text)
+    except SyntaxError as error:
+        return error
+    except (ValueError, RecursionError, MemoryError):
+        return None
+    return None
+
+
+def _comma(lines: list[str], first: int, last: int) -> int | None:
+    """The line after which a comma mends the file; None when none does."""
+    code = [line.partition("#")[0].rstrip() for line in lines]
+    candidates = [n for n in range(max(1, first - 2), last + 1) if code[n - 1]]
+    for n in candidates[:_MOST_LINES]:
+        if code[n - 1][-1] in ",([{:=":
+            continue
+        better = [*lines[: n - 1], code[n - 1] + ",", *lines[n:]]
+        again = _error("\n".join(better))
+        if again is None or (again.lineno or 0) > last:
+            return n
+    return None
+
+
+def _hint(message: str) -> str:
+    if "never closed" in message:
+        return "close the bracket"
+    if "unterminated" in message:
+        return "close the quotation mark"
+    if "indent" in message or "tabs" in message:
+        return "write as many blanks before it as before its neighbours"
+    if "expected ':'" in message:
+        return "add a colon at the end of the line"
+    return "correct this line or the one above it"

@@ -1,0 +1,99 @@
+"""Parameter files and launch files that cannot be read: what needs them stops."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.parameters import YamlFile, pairs
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.python_repair import fault_in_python
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.yaml_repair import fault_in
+from sambot_viz.errors import Place, Problem, nearest
+
+_KNOWN = re.compile(
+    r"(.*/)?(ekf|ukf|nav2|amcl|slam|navsat|.*bridge|.*params|.*controllers?)"
+    r"[^/]*\.ya?ml"
+)
+_TEMPLATE = re.compile(r"\{\{|\{%|<%")
+_KEY, _LIKENESS = "ros__parameters", 0.84
+
+
+def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
+    """Report parameter files that are no YAML."""
+    read = {file.path for file in around.yaml_files}
+    for path, user in _parameter_files(around):
+        text = around.files.text(path) if path not in read else None
+        if text is None or _TEMPLATE.search(text):
+            continue
+        fault = fault_in(text)
+        if fault is not None:
+            place = Place(around.files.shown(path), fault.line)
+            named = f" ({where(user, place)})" if user else ""
+            yield Problem.at(
+                place,
+                "error",
+                "parameters-yaml",
+                f"this file is no YAML: {fault.cause}; the node that it is for{named} "
+                "does not start",
+                fault.hint,
+            )
+
+
+def misspelt_key(around: Surroundings) -> Iterator[Problem]:
+    """Report ros__parameters with a wrong letter."""
+    users = dict(_parameter_files(around))
+    for file in around.yaml_files:
+        for key, place in _above_parameters(file) if file.path in users else ():
+            user = users[file.path]
+            named = f" ({where(user, place)})" if user else ""
+            yield Problem.at(
+                place,
+                "error",
+                "parameters-key",
+                f"the key {key} is no {_KEY}, with two underscores: the node that the "
+                f"file is for{named} finds no parameters and stops",
+                f"write {_KEY}",
+            )
+
+
+def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
+    """The keys like ros__parameters below the names of nodes."""
+    level = [file.root]
+    for _ in range(4):
+        below = [pair for node in level for pair in pairs(node)][:1000]
+        for key, _value in below:
+            if key.value != _KEY and nearest(key.value, [_KEY], _LIKENESS):
+                yield key.value, Place(file.shown, key.start_mark.line + 1)
+        level = [value for key, value in below if key.value != _KEY]
+
+
+def _parameter_files(around: Surroundings) -> Iterator[tuple[str, Place | None]]:
+    """The files that a launch file names, and those with usual names."""
+    named = {
+        around.own(fact.value): fact.place
+        for launch in reversed(around.launches)
+        for fact in reversed(launch.paths)
+    }
+    for path in around.files.ending(".yaml", ".yml"):
+        if path in named or _KNOWN.fullmatch(path):
+            yield path, named.get(path)
+
+
+def unreadable_python(around: Surroundings) -> Iterator[Problem]:
+    """Report launch files, and a setup.py, that are no Python."""
+    read = {launch.path for launch in around.launches}
+    paths = [p for p in around.files.ending("launch.py") if p not in read]
+    for path in (*paths, *(p for p in around.files.paths if p == "setup.py")):
+        text = around.files.text(path)
+        fault = fault_in_python(text) if text else None
+        if fault is not None:
+            stops = "colcon build" if path == "setup.py" else "ros2 launch"
+            yield Problem.at(
+                Place(around.files.shown(path), fault.line),
+                "error",
+                "python-syntax",
+                f"this file is no Python: {fault.cause}; {stops} stops with it",
+                fault.hint,
+            )

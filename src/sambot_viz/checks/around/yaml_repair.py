@@ -1,0 +1,152 @@
+"""What stops a YAML file, found by the small change that makes it readable."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import yaml
+from yaml.parser import ParserError
+from yaml.scanner import ScannerError
+
+_YAML: Any = yaml
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
+_NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
+_BEFORE = 3
+_LONGEST = 50_000
+"""Longer texts are not read again and again [characters]."""
+
+
+class Fault(NamedTuple):
+    """What is wrong in a text.
+
+    Attributes:
+        line: its line, from 1.
+        cause: what is wrong there.
+        hint: what to write.
+    """
+
+    line: int
+    cause: str
+    hint: str
+
+
+def fault_in(text: str) -> Fault | None:
+    """Return what stops YAML from being read; None when it can be read."""
+    error = _error(text)
+    if error is None:
+        return None
+    lines = text.splitlines()
+    at = min(_line(error), len(lines) - 1)
+    changes = _candidates(lines, at, error) if len(text) <= _LONGEST else ()
+    for line, better, cause, hint in changes:
+        again = _error(
+            "\n".join([*lines[:line], *better, *lines[line + len(better) :]])
+        )
+        if again is None or _line(again) > max(at, line):
+            return Fault(line + 1, cause, hint)
+    return Fault(at + 1, f"{error.problem}", "correct this line or the one above it")
+
+
+def _error(text: str) -> yaml.MarkedYAMLError | None:
+    """The first place where the text is no YAML; aliases are not followed."""
+    try:
+        for _ in _YAML.parse(text, _LOADER):
+            pass
+    except (ScannerError, ParserError) as error:
+        return error
+    except (yaml.YAMLError, RecursionError):
+        return None
+    return None
+
+
+def _line(error: yaml.MarkedYAMLError) -> int:
+    return error.problem_mark.line if error.problem_mark else 0
+
+
+class _Candidate(NamedTuple):
+    """Lines to write from a line on, counted from 0, and what that means."""
+
+    line: int
+    better: list[str]
+    cause: str
+    hint: str
+
+
+def _candidates(
+    lines: list[str], at: int, error: yaml.MarkedYAMLError
+) -> Iterator[_Candidate]:
+    tabs = [n for n, line in enumerate(lines) if "\t" in _indent(line)]
+    for width in (2, 4, 8) if tabs else ():
+        better = [_indent(x).replace("\t", " " * width) + x.lstrip() for x in lines]
+        yield _Candidate(
+            tabs[0],
+            better[tabs[0] :],
+            "a tab is in the indentation of this line",
+            "write blanks for the tab",
+        )
+    near = [n for n in range(at, -1, -1) if lines[n].strip()][: _BEFORE + 1]
+    start = error.context_mark
+    if start is not None and start.line < len(lines) and start.line not in near:
+        near.append(start.line)
+    for change in (_colon, _quote, _bracket):
+        for n in near:
+            yield from change(lines, n)
+    yield from _indentation(lines, near)
+
+
+def _indent(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
+
+
+def _colon(lines: list[str], n: int) -> Iterator[_Candidate]:
+    for pattern, cause in (
+        (_NO_COLON, "there is no colon after {}"),
+        (_NO_BLANK, "there is no blank after the colon of {}"),
+    ):
+        match = pattern.fullmatch(lines[n].partition(" #")[0].rstrip())
+        if match is not None:
+            better = f"{match[2]}: {match[3]}"
+            yield _Candidate(
+                n, [match[1] + better], cause.format(match[2]), f"write {better}"
+            )
+
+
+def _quote(lines: list[str], n: int) -> Iterator[_Candidate]:
+    code = lines[n].partition(" #")[0].rstrip()
+    for mark in "\"'":
+        if code.count(mark) % 2:
+            value = code[code.index(mark) :] + mark
+            yield _Candidate(
+                n,
+                [code + mark],
+                f"a quotation mark {mark} is opened and not closed",
+                f"write {value}",
+            )
+
+
+def _bracket(lines: list[str], n: int) -> Iterator[_Candidate]:
+    code = lines[n].partition(" #")[0].rstrip()
+    for mark in "]}":
+        yield _Candidate(
+            n,
+            [code.removesuffix(",") + mark],
+            f"the bracket {mark} is missing at the end of this line",
+            f"add {mark}",
+        )
+
+
+def _indentation(lines: list[str], near: list[int]) -> Iterator[_Candidate]:
+    for n in near:
+        before = [_indent(lines[k]) for k in range(n) if lines[k].strip()]
+        after = [_indent(x) for x in lines[n + 1 :] if x.strip()]
+        for indent in dict.fromkeys((*before[-1:], *after[:1])):
+            if indent != _indent(lines[n]):
+                yield _Candidate(
+                    n,
+                    [indent + lines[n].lstrip()],
+                    "the indentation of this line is that of no other line here",
+                    f"write {len(indent)} blanks before it",
+                )
