@@ -75,3 +75,31 @@ def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     model.write_text(content, "utf-8")
     viewer.wait_for(f"!({shows(NOTE)})")
     viewer.wait_for(f"!({shows('Problems')})")
+
+
+def test_what_was_refused_goes_away_with_its_joint_and_comes_back_from_a_fold(
+    viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    # An error of the page fails the test: `open_viewer` sees to that.
+    viewer = open_viewer(viz.url)
+    viewer.wait_for_nodes(node_of(viz, LINK))
+    user, content = viewer.user, model.read_text("utf-8")
+    assert "${name}_joint" in content
+    for end in ("axle", "joint"):
+        other = "joint" if end == "axle" else "axle"
+        joint = user.row("Joints", f"drivewhl_l_{other}")
+        user.enter(joint.one("textbox"), "")
+        user.until(lambda: "Enter a number" in user.see().text)
+        model.write_text(content.replace("${name}_joint", f"${{name}}_{end}"), "utf-8")
+        user.row("Joints", f"drivewhl_l_{end}")
+        viewer.wait_for("!document.querySelector('.validation')")
+        names = [f"drivewhl_{side}_{end}" for side in "lr"]
+        user.until(lambda names=names: user.rows("Joints") == names)
+
+    user.unfold("Displays", "Grid")
+    user.enter(user.row("Displays", "Grid", "Cell Size").one("textbox"), "")
+    user.until(lambda: "Enter a number" in user.see().text)
+    user.unfold("Displays", "Grid", fold=True)
+    user.until(lambda: "Enter a number" not in user.see().text)
+    user.unfold("Displays", "Grid")
+    user.until(lambda: "Enter a number" in user.see().text)

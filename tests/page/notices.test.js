@@ -57,3 +57,19 @@ test("typing again, or the next edit, ends a refusal; other sentences stay", () 
   refuse("joint/a");
   assert.equal(notice.value?.text, "Saved");
 });
+
+test("a row that is gone refuses nothing, nor does another of its name", () => {
+  const panels = (...names) => ({
+    panels: { joints: names.map((name) => ({ id: `joint/${name}`, in: "", kind: "slider" })) },
+  });
+  rows.take("session", panels("a", "b"));
+  refuse("joint/a", "Enter a number");
+  rows.take("session", panels("a"));
+  assert.equal(refusals.get("joint/a"), "Enter a number");
+  rows.take("session", panels("b"));
+  assert.equal(refusals.size, 0);
+  sayRefused("joint/b", "joint/b: not now");
+  rows.take("session", panels("a"));
+  assert.equal(refusals.size, 0);
+  assert.equal(notice.value, null);
+});

@@ -26,17 +26,20 @@ export class RowList {
       element.remove();
       this.slots.delete(id);
     }
-    const elements = rows.map(({ id, facts, view }) => {
+    const elements = rows.map(({ id }) => {
       const slot = this.slots.get(id) || { element: document.createElement("div"), facts: "" };
       this.slots.set(id, slot);
       slot.element.className = "slot";
-      if (slot.facts !== facts) {
-        slot.facts = facts;
-        render(view(), slot.element);
-      }
       return slot.element;
     });
+    // A row is drawn in its place: what it shows over all else must be in the document.
     this.order(elements);
+    for (const { id, facts, view } of rows) {
+      const slot = this.slots.get(id);
+      if (!slot || slot.facts === facts) continue;
+      slot.facts = facts;
+      render(view(), slot.element);
+    }
   }
 
   /** @param {HTMLElement[]} elements */

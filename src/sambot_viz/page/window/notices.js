@@ -24,17 +24,23 @@ export function tell(text, level = "ok") {
  */
 export const refusals = new Map();
 
+/** Stops waiting for the end of the row that has refused a value. */
+let unlisten = () => {};
+
 /** @param {string} id @param {string} [why] */
 export function refuse(id, why) {
   const told = [...refusals.keys()];
   // What was refused before is over.
   if (notice.value?.row && notice.value.text !== why) notice.set(null);
   refusals.clear();
+  unlisten();
   if (why) {
     refusals.set(id, why);
     rows.putBack(id);
   }
   for (const other of new Set([...told, id])) rows.notify(other);
+  // A row that is gone refuses nothing; another of its name may come.
+  if (why && rows.get(id)) unlisten = rows.listen(id, () => rows.get(id) || refuse(id));
 }
 
 /**
