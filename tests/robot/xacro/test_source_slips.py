@@ -98,6 +98,30 @@ def test_a_misspelt_word_of_xacro_is_named_at_its_line(
     assert problem.hint.startswith(f"write {right.split()[0]}")
 
 
+@pytest.mark.parametrize("prefix", ["Xacro", "XACRO", "xarco", "xaco"])
+@pytest.mark.parametrize("tag", ["property", "if", "wheel"])
+def test_a_misspelt_prefix_is_answered_with_the_right_one(
+    changed: Change, tmp_path: Path, prefix: str, tag: str
+) -> None:
+    wrong = MODEL.replace(f"xacro:{tag}", f"{prefix}:{tag}")
+    problems = changed("r.urdf.xacro", MODEL, wrong)
+
+    lines = wrong.splitlines()
+    for problem in problems:
+        opening, *closing = re.findall(r"xacro:\w+", problem.hint)
+        assert problem.line is not None
+        lines[problem.line - 1] = lines[problem.line - 1].replace(
+            f"{prefix}:{tag}", opening
+        )
+        for right in closing:
+            end = lines.index(f"  </{prefix}:{tag}>")
+            lines[end] = f"  </{right}>"
+    assert problems
+    assert "example.org" not in str(problems)
+    (tmp_path / "r.urdf.xacro").write_text("\n".join(lines))
+    assert check(tmp_path / "r.urdf.xacro") == []
+
+
 @pytest.mark.parametrize(
     ("wrong", "fix"),
     [

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.diagnose.lexer import CURLY, LexicalError, LexicalErrorKind
+from sambot_viz.robot.xml.diagnose.lexer import (
+    CURLY,
+    LexicalError,
+    LexicalErrorKind,
+    Token,
+)
 from sambot_viz.robot.xml.diagnose.prolog import other_file_problem, prolog_problems
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 from sambot_viz.robot.xml.diagnose.structure import structure_problems
@@ -18,6 +23,8 @@ _LARGEST = 1_000_000
 """In a longer text [characters] only the place that expat names is reported."""
 
 _UTF16 = "saved as UTF-16"
+_LIKENESS = 0.75
+"""How like a declared prefix a misspelt one is."""
 _KNOWN_PREFIXES = {"xacro": "http://www.ros.org/wiki/xacro"}
 
 _MISLEADING: frozenset[LexicalErrorKind] = frozenset(
@@ -136,6 +143,12 @@ def _prefix_problems(source: SourceText, file: str) -> list[Problem]:
             prefix = name.partition(":")[0] if ":" in name else ""
             if not prefix or prefix in known:
                 continue
+            near = nearest(prefix.lower(), sorted({*known, "xacro"}), _LIKENESS)
+            if near is not None and near != prefix:
+                problems.append(_prefix_misspelt(source, file, token, name, near))
+                prefix = near
+            if prefix in known:
+                continue
             known.add(prefix)
             address = _KNOWN_PREFIXES.get(prefix, f"http://example.org/{prefix}")
             root, line = opened[0], source.line(opened[0].start)
@@ -147,6 +160,23 @@ def _prefix_problems(source: SourceText, file: str) -> list[Problem]:
             code = "xml-prefix-undeclared"
             problems.append(source.error(file, code, root.start, message, hint))
     return problems
+
+
+def _prefix_misspelt(
+    source: SourceText, file: str, token: Token, name: str, near: str
+) -> Problem:
+    """Report a name whose prefix was meant to be another: <Xacro:property>."""
+    right = f"{near}:{name.partition(':')[2]}"
+    hint = f"write <{right} …>" if name == token.name else f"write {right}"
+    if name == token.name and token.kind == "open":
+        hint += f" and </{right}>"
+    return source.error(
+        file,
+        "xml-prefix-undeclared",
+        token.start,
+        f"the prefix of {name} is not declared; did you mean {near}:?",
+        hint,
+    )
 
 
 _ROWS: dict[LexicalErrorKind, tuple[str, str]] = {
