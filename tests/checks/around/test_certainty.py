@@ -243,6 +243,26 @@ def test_a_python_file_that_is_none_does_no_harm(
     assert time.process_time() - begin < 3
 
 
+@pytest.mark.parametrize(
+    ("ros_type", "gz_type"),
+    [
+        ("geometry_msgs/msg/Vector3", "gz.msgs.Vector3d"),
+        ("geometry_msgs/msg/AccelWithCovarianceStamped", "gz.msgs.Accel"),
+        ("sensor_msgs/msg/CompressedImage", "gz.msgs.Image"),
+        ("std_msgs/msg/Float32", "ignition.msgs.Float"),
+        ("our_msgs/msg/Imus", "our.msgs.LaserScam"),
+    ],
+)
+def test_a_type_that_is_no_misspelt_one_is_not_judged(
+    copied: Copied, ros_type: str, gz_type: str
+) -> None:
+    package = copied("gz")
+    with (package / BRIDGE).open("a") as file:
+        file.write(f"- topic_name: /more\n  ros_type_name: {ros_type}\n")
+        file.write(f"  gz_type_name: {gz_type}\n  direction: GZ_TO_ROS\n")
+    assert codes(package) == []
+
+
 def test_links_out_of_the_package_are_not_followed_for_an_untrusted_model(
     copied: Copied, tmp_path: Path
 ) -> None:

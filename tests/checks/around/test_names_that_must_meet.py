@@ -416,6 +416,73 @@ MISTAKES = [
         (BRIDGE, 'ros_type_name: "sensor_msgs/msg/Imu"'),
         "write gz.msgs.IMU",
     ),
+    one(
+        "bridge-types",
+        BRIDGE,
+        'ros_type_name: "sensor_msgs/msg/LaserScan"',
+        'ros_type_name: "sensor_msgs/msg/PointCloud2"',
+        (BRIDGE, 'gz_type_name: "gz.msgs.LaserScan"'),
+        "write sensor_msgs/msg/LaserScan",
+        name="of the lidar",
+    ),
+    Mistake(
+        "bridge-types",
+        (
+            (BRIDGE, "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"),
+            (BRIDGE, "gz.msgs.LaserScan", "gz.msgs.PointCloudPacked"),
+        ),
+        (BRIDGE, "gz.msgs.PointCloudPacked"),
+        (MODEL, "<topic>scan</topic>"),
+        "write gz.msgs.LaserScan, and sensor_msgs/msg/LaserScan in ROS",
+        (
+            (BRIDGE, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"),
+            (BRIDGE, "gz.msgs.PointCloudPacked", "gz.msgs.LaserScan"),
+        ),
+        name="that the sensor does not send",
+    ),
+    Mistake(
+        "bridge-types",
+        (
+            (BRIDGE, "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"),
+            (MODEL, "      <topic>scan</topic>\n", ""),
+        ),
+        (BRIDGE, "sensor_msgs/msg/PointCloud2"),
+        (BRIDGE, 'gz_type_name: "gz.msgs.LaserScan"'),
+        "write sensor_msgs/msg/LaserScan",
+        ((BRIDGE, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"),),
+        name="of the reader",
+    ),
+    *(
+        one(
+            "bridge-type-unknown",
+            BRIDGE,
+            right,
+            wrong,
+            (BRIDGE, other),
+            f"write {right}",
+            name=wrong,
+        )
+        for right, wrong, other in (
+            ("gz.msgs.LaserScan", "gz.msgs.LaserScam", '- ros_topic_name: "/scan"'),
+            ("gz.msgs.IMU", "gz.msgs.Imu", '- ros_topic_name: "/demo/imu"'),
+            ("gz.msgs.Clock", "gz.msg.Clock", '- ros_topic_name: "/clock"'),
+            (
+                "sensor_msgs/msg/LaserScan",
+                "sensor_msgs/LaserScan",
+                '- ros_topic_name: "/scan"',
+            ),
+            (
+                "sensor_msgs/msg/LaserScan",
+                "sensor_msg/msg/LaserScan",
+                '- ros_topic_name: "/scan"',
+            ),
+            (
+                "nav_msgs/msg/Odometry",
+                "nav_msgs/msg/Odometery",
+                '- ros_topic_name: "/demo/odom"',
+            ),
+        )
+    ),
     Mistake(
         "bridge-direction",
         ((BRIDGE, "direction: ROS_TO_GZ", "direction:  GZ_TO_ROS"),),

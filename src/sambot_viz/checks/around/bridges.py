@@ -24,35 +24,6 @@ _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
 _BRIDGE = "parameter_bridge"
 _SCOPED = ("world/", "model/")
 
-_PAIRS: dict[str, tuple[str, ...]] = {
-    "geometry_msgs/msg/Pose": ("Pose",),
-    "geometry_msgs/msg/PoseArray": ("Pose_V",),
-    "geometry_msgs/msg/PoseStamped": ("Pose",),
-    "geometry_msgs/msg/PoseWithCovariance": ("PoseWithCovariance",),
-    "geometry_msgs/msg/PoseWithCovarianceStamped": ("PoseWithCovariance",),
-    "geometry_msgs/msg/TransformStamped": ("Pose",),
-    "geometry_msgs/msg/Twist": ("Twist",),
-    "geometry_msgs/msg/TwistStamped": ("Twist",),
-    "geometry_msgs/msg/Wrench": ("Wrench",),
-    "geometry_msgs/msg/WrenchStamped": ("Wrench",),
-    "nav_msgs/msg/Odometry": ("Odometry", "OdometryWithCovariance"),
-    "rosgraph_msgs/msg/Clock": ("Clock",),
-    "sensor_msgs/msg/BatteryState": ("BatteryState",),
-    "sensor_msgs/msg/CameraInfo": ("CameraInfo",),
-    "sensor_msgs/msg/FluidPressure": ("FluidPressure",),
-    "sensor_msgs/msg/Image": ("Image",),
-    "sensor_msgs/msg/Imu": ("IMU",),
-    "sensor_msgs/msg/JointState": ("Model",),
-    "sensor_msgs/msg/LaserScan": ("LaserScan",),
-    "sensor_msgs/msg/MagneticField": ("Magnetometer",),
-    "sensor_msgs/msg/NavSatFix": ("NavSat",),
-    "sensor_msgs/msg/PointCloud2": ("PointCloudPacked",),
-    "tf2_msgs/msg/TFMessage": ("Pose_V",),
-}
-"""ROS type → the types of Gazebo that ros_gz_bridge turns it into, as of Jazzy."""
-
-_GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
-
 
 @dataclass(frozen=True, slots=True)
 class BridgeEntry:
@@ -109,25 +80,6 @@ def _listed(mappings: Iterator[dict[str, Fact]]) -> Iterator[BridgeEntry]:
             continue
         yield BridgeEntry(
             ros, gz, ros_type, gz_type, given.get("direction", Fact(_BOTH, ros.place))
-        )
-
-
-def bridge_types(around: Surroundings) -> Iterator[Problem]:
-    """Report entries whose two types do not belong together."""
-    for entry in entries(around):
-        fitting = _PAIRS.get(entry.ros_type.value)
-        if fitting is None or entry.kind in fitting or entry.kind not in _GZ_TYPES:
-            continue
-        place = entry.gz_type.place
-        package = entry.gz_type.value.rpartition(".")[0]
-        yield Problem.at(
-            place,
-            "warning",
-            "bridge-types",
-            f"the bridge cannot turn {entry.gz_type.value} into {entry.ros_type.value} "
-            f"({where(entry.ros_type.place, place)}): nothing arrives on "
-            f"{entry.ros.value}",
-            f"write {package}.{fitting[0]}",
         )
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.bridge_types import bridge_types, unknown_bridge_types
 from sambot_viz.checks.around.bridges import (
     bridge_directions,
     bridge_topics,
-    bridge_types,
     scoped_frames,
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
@@ -68,6 +68,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     world_frames,
     planes,
     unknown_topics,
+    unknown_bridge_types,
     bridge_types,
     bridge_directions,
     bridge_topics,

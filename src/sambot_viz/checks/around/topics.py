@@ -82,6 +82,14 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
         )
 
 
+def kinds_read(around: Surroundings) -> dict[str, Fact]:
+    """Return the topics that nodes read, each with its type and the line of it."""
+    return {
+        bare(parameter.fact.value): Fact(kind, parameter.place)
+        for parameter, kind in _used(around)
+    }
+
+
 def _of_a_node(around: Surroundings, topic: str) -> bool:
     """True for a topic below the name of a node or controller of the package."""
     owner = topic.rpartition("/")[0]

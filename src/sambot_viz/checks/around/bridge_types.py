@@ -1,0 +1,183 @@
+"""The two types of a topic that a bridge carries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from sambot_viz.checks.around.bridges import BridgeEntry, entries
+from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, taken
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.topics import kinds_read
+from sambot_viz.errors import Problem, nearest
+
+_PAIRS: dict[str, tuple[str, ...]] = {
+    "geometry_msgs/msg/Pose": ("Pose",),
+    "geometry_msgs/msg/PoseArray": ("Pose_V",),
+    "geometry_msgs/msg/PoseStamped": ("Pose",),
+    "geometry_msgs/msg/PoseWithCovariance": ("PoseWithCovariance",),
+    "geometry_msgs/msg/PoseWithCovarianceStamped": ("PoseWithCovariance",),
+    "geometry_msgs/msg/TransformStamped": ("Pose",),
+    "geometry_msgs/msg/Twist": ("Twist",),
+    "geometry_msgs/msg/TwistStamped": ("Twist",),
+    "geometry_msgs/msg/Wrench": ("Wrench",),
+    "geometry_msgs/msg/WrenchStamped": ("Wrench",),
+    "nav_msgs/msg/Odometry": ("Odometry", "OdometryWithCovariance"),
+    "rosgraph_msgs/msg/Clock": ("Clock",),
+    "sensor_msgs/msg/BatteryState": ("BatteryState",),
+    "sensor_msgs/msg/CameraInfo": ("CameraInfo",),
+    "sensor_msgs/msg/FluidPressure": ("FluidPressure",),
+    "sensor_msgs/msg/Image": ("Image",),
+    "sensor_msgs/msg/Imu": ("IMU",),
+    "sensor_msgs/msg/JointState": ("Model",),
+    "sensor_msgs/msg/LaserScan": ("LaserScan",),
+    "sensor_msgs/msg/MagneticField": ("Magnetometer",),
+    "sensor_msgs/msg/NavSatFix": ("NavSat",),
+    "sensor_msgs/msg/PointCloud2": ("PointCloudPacked",),
+    "tf2_msgs/msg/TFMessage": ("Pose_V",),
+}
+"""ROS type → the types of Gazebo that ros_gz_bridge turns it into, as of Jazzy."""
+
+_GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
+_OTHER_GZ_TYPES = frozenset(
+    """
+    Actuators AirSpeed Altimeter AnnotatedAxisAligned2DBox AnnotatedAxisAligned2DBox_V
+    AnnotatedOriented3DBox AnnotatedOriented3DBox_V Boolean Color Contact Contacts
+    Dataframe Double Double_V DVLVelocityTracking Empty Entity EntityFactory
+    EntityFactory_V EntityWrench Float Float_V GUICamera Header Int32 Joy
+    JointTrajectory JointWrench Light Light_V LogPlaybackControl LogPlaybackStatistics
+    LogicalCameraImage Material MaterialColor Param Param_V Pose2D Quaternion
+    SensorNoise StringMsg StringMsg_V Time TrackVisual Twist TwistWithCovariance
+    UInt32 Vector2d Vector3d VideoRecord Visual WorldControl WorldControlState
+    WorldStatistics WrenchVisual
+    """.split()
+)
+_OTHER_ROS_TYPES = frozenset(
+    """
+    geometry_msgs/msg/Point geometry_msgs/msg/Quaternion geometry_msgs/msg/Transform
+    geometry_msgs/msg/TwistWithCovariance geometry_msgs/msg/TwistWithCovarianceStamped
+    geometry_msgs/msg/Vector3 sensor_msgs/msg/Joy sensor_msgs/msg/Range
+    """.split()
+)
+_GZ_PACKAGES = ("gz.msgs", "ignition.msgs")
+_LIKE_TYPE = 0.87
+
+
+def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
+    """Report types that are almost one that a bridge knows."""
+    for entry in entries(around):
+        for fact, near in (
+            (entry.ros_type, _near_ros_type(entry.ros_type.value)),
+            (entry.gz_type, _near_gz_type(entry.gz_type.value)),
+        ):
+            if near is not None:
+                yield Problem.at(
+                    fact.place,
+                    "warning",
+                    "bridge-type-unknown",
+                    f"the bridge does not know the type {fact.value}: nothing arrives "
+                    f"on {entry.ros.value} ({where(entry.ros.place, fact.place)})",
+                    f"write {near}",
+                )
+
+
+def _near_ros_type(written: str) -> str | None:
+    """The known type that is meant; None for a known one and for a quite other one."""
+    known = {*_PAIRS, *_OTHER_ROS_TYPES}
+    parts = [part for part in written.replace(".", "/").split("/") if part]
+    if written in known or len(parts) < 2:
+        return None
+    packages = {name.partition("/")[0] for name in known}
+    package = nearest(parts[0], packages, 0.8)
+    names = [
+        name.rpartition("/")[2] for name in known if name.startswith(f"{package}/")
+    ]
+    name = _near_name(parts[-1], names)
+    return None if name is None else f"{package}/msg/{name}"
+
+
+def _near_gz_type(written: str) -> str | None:
+    package, _, name = written.rpartition(".")
+    known = _GZ_TYPES | _OTHER_GZ_TYPES
+    right = package if package in _GZ_PACKAGES else nearest(package, _GZ_PACKAGES, 0.7)
+    near = _near_name(name, sorted(known)) if right else None
+    better = f"{right}.{near}"
+    return None if near is None or better == written else better
+
+
+def _near_name(name: str, names: Sequence[str]) -> str | None:
+    same = (known for known in names if known.lower() == name.lower())
+    return (
+        name if name in names else next(same, None) or nearest(name, names, _LIKE_TYPE)
+    )
+
+
+def bridge_types(around: Surroundings) -> Iterator[Problem]:
+    """Report entries whose types do not fit each other, or what the model sends."""
+    topics = [*sent(around), *taken(around)]
+    every = entries(around)
+    carried = {bare(entry.gz.value) for entry in every}
+    left = {t.kind for t in topics if t.wanted and bare(t.name.value) not in carried}
+    for entry in every:
+        fitting = _PAIRS.get(entry.ros_type.value)
+        if fitting is None or entry.kind not in _GZ_TYPES:
+            continue
+        own = [t for t in topics if bare(t.name.value) == bare(entry.gz.value)]
+        if entry.kind not in fitting:
+            yield _mismatch(entry, fitting, own, around)
+        elif own and entry.kind not in {*left, *(t.kind for t in own)}:
+            yield _misfit(entry, own[0])
+
+
+def _mismatch(
+    entry: BridgeEntry,
+    fitting: Sequence[str],
+    own: Sequence[GazeboTopic],
+    around: Surroundings,
+) -> Problem:
+    """Two types that do not belong together; the model or a reader says which."""
+    better, why = f"{_package(entry)}.{fitting[0]}", ""
+    wrong, other = entry.gz_type, entry.ros_type
+    ros_type = _ros_type(entry.kind, entry.ros_type.value)
+    reader = kinds_read(around).get(bare(entry.ros.value))
+    sender = next((t for t in own if t.kind == entry.kind), None)
+    if sender is not None:
+        why = f"; {sender.what} sends {entry.kind}"
+    elif not own and reader is not None and ros_type.endswith(f"/{reader.value}"):
+        why = f"; {where(reader.place, entry.ros_type.place)} reads {reader.value}"
+    if why:
+        better, wrong, other = ros_type, entry.ros_type, entry.gz_type
+    return Problem.at(
+        wrong.place,
+        "warning",
+        "bridge-types",
+        f"the bridge cannot turn {entry.gz_type.value} into {entry.ros_type.value} "
+        f"({where(other.place, wrong.place)}): nothing arrives on "
+        f"{entry.ros.value}{why}",
+        f"write {better}",
+    )
+
+
+def _misfit(entry: BridgeEntry, topic: GazeboTopic) -> Problem:
+    """A type that is not that of the topic in Gazebo."""
+    ros_type = _ros_type(topic.kind, entry.ros_type.value)
+    place = entry.gz_type.place
+    return Problem.at(
+        place,
+        "warning",
+        "bridge-types",
+        f"the bridge expects {entry.gz_type.value} on {entry.gz.value}, but "
+        f"{topic.what} uses it for {topic.kind} ({where(topic.name.place, place)}): "
+        "nothing passes",
+        f"write {_package(entry)}.{topic.kind}, and {ros_type} in ROS",
+    )
+
+
+def _package(entry: BridgeEntry) -> str:
+    return entry.gz_type.value.rpartition(".")[0]
+
+
+def _ros_type(kind: str, written: str) -> str:
+    """The type of ROS for one of Gazebo; of several, that most like the written."""
+    fitting = [name for name, kinds in _PAIRS.items() if kind in kinds]
+    return nearest(written, fitting, 0.0) or written
