@@ -346,7 +346,9 @@ def test_the_mass_of_a_robot_is_told_when_it_is_unfolded(displays: Displays) -> 
     assert list(displays.panel.moved_by) == []
     displays.unfold(*names)
     assert displays.below(*names) == ["Mass", "Inertia", "Balance", "Total Mass"]
-    assert displays.named(*names, "Total Mass").value == "unknown: no link has a mass"
+    row = displays.named(*names, "Total Mass")
+    assert row.value == "unknown: no link has a mass"
+    assert row.extra == {"wraps": True}
     assert len(displays.panel.moved_by) == 1
 
 

@@ -208,6 +208,24 @@ def test_a_robot_that_nothing_tips_over_or_supports_says_so(
     assert model_of(session).status.rows["Balance"].level == "Ok"
 
 
+def test_links_of_sdf_that_do_not_say_their_mass_are_named(show: Show) -> None:
+    weight = "<inertial><pose>0.01234567 0 0 0 0 0</pose><mass>3</mass></inertial>"
+    joints = "".join(
+        f"<joint name='{end}_joint' type='fixed'><parent>base</parent>"
+        f"<child>{end}</child></joint>"
+        for end in ("mast", "lamp")
+    )
+    text = (
+        f"<sdf version='1.9'><model name='r'><link name='base'>{weight}</link>"
+        f"<link name='mast'/><link name='lamp'/>{joints}</model></sdf>"
+    )
+    found = facts(show(robot=load_robot(text), fixed="base"))
+    assert found["Total Mass"] == (
+        "5 kg, with SDF's 1 kg each for mast, lamp without <inertial>"
+    )
+    assert found["Center of Mass"] == "0.0074; 0; 0 m in base"
+
+
 def test_a_robot_without_masses_says_so(show: Show, nodes: Nodes) -> None:
     robot = load_robot(
         "<robot name='r'><link name='base'><visual><geometry><sphere radius='1'/>"

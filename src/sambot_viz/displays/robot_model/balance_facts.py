@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
+import numpy as np
+
 from sambot_viz.displays.display import DisplayContext, Status, numbers
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix
@@ -15,6 +17,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import MeshFile
 
 _MOST_NAMES = 6
+_DECIMALS = 4
 _SIDES = (
     "front",
     "front left",
@@ -65,11 +68,14 @@ def balance_facts(robot: Robot, found: Balance | None) -> Mapping[str, str]:
     if found is None:
         return {"Total Mass": _UNKNOWN}
     mass = f"{found.mass:.5g} kg"
+    if assumed := _assumed(robot):
+        each = "" if len(assumed) == 1 else " each"
+        mass += f", with SDF's 1 kg{each} for {_listed(assumed)} without <inertial>"
     if found.massless:
         mass += f", without {_listed(found.massless)}, whose mass is not given"
     return {
         "Total Mass": mass,
-        "Center of Mass": f"{numbers(found.center.tolist())} m in {robot.root}",
+        "Center of Mass": f"{_place(found.center)} m in {robot.root}",
         "Stands On": _stands_on(found),
         "Tips Over At": _tips_over(found),
     }
@@ -84,6 +90,20 @@ def balance_status(found: Balance | None) -> Status:
         return Status("Ok", "OK")
     sides = _sides(tipping)
     return Status("Warn", f"The robot falls over {sides} in this pose")
+
+
+def _assumed(robot: Robot) -> Sequence[str]:
+    """Return the links of an SDF that do not say their mass."""
+    if robot.language != "sdf":
+        return ()
+    # What is not written has no place in the file.
+    links = robot.links.values()
+    return [link.name for link in links if link.inertial and not link.inertial.place]
+
+
+def _place(point: Matrix) -> str:
+    """Write a point, to a tenth of a millimetre: a panel is narrow."""
+    return numbers(np.round(point, _DECIMALS).tolist())
 
 
 def _stands_on(found: Balance) -> str:

@@ -20,7 +20,7 @@ import { ValidationMessage } from "../cells/validation_message.js";
 
 /** Why a viewer's controls are grey. */
 const VIEW_ONLY = "View only: request control to change it";
-/** A status that is longer is below its name, over the whole width. */
+/** A status, or another sentence, that is longer is below its name, over the whole width. */
 const BESIDE = 24;
 const NUMBERS = new Set(["int", "float", "slider", "vector"]);
 const TEXTS = new Set(["text", "file", "frame", "color"]);
@@ -87,7 +87,8 @@ const alone = (row) => row.kind === "group" || row.whole;
 /** @param {Row} row */
 function rowClass(row) {
   const classes = ["row", `k-${row.kind}`, `l-${row.level || "none"}`];
-  const long = row.kind === "status" && String(row.value).length > BESIDE;
+  const wraps = row.kind === "status" || row.wraps;
+  const long = wraps && String(row.value).length > BESIDE;
   const states = { bold: row.bold, off: row.off, unticked: row.value === false, alone: alone(row) };
   for (const [name, on] of Object.entries({ ...states, long })) if (on) classes.push(name);
   return classes.join(" ");

@@ -315,7 +315,9 @@ class DisplaysPanel(Panel):
                 unfolded = self._lazy.is_unfolded(row.id)
                 row = replace(row, extra={"lazy": not unfolded})
                 if unfolded:
-                    of_list[path] = [*self._fact_rows(display, facts[path], row.id)]
+                    rows = self._fact_rows(display, facts[path], row.id)
+                    # They are sentences.
+                    of_list[path] = [replace(r, extra={"wraps": True}) for r in rows]
             yield row
             if path in notes:
                 yield Row(f"{row.id}/:note", row.parent, "note", value=notes[path])
