@@ -14,6 +14,7 @@ from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
 from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
 from sambot_viz.robot.urdf.robot_parts import RobotParts, read_parts
+from sambot_viz.robot.urdf.sdf_habits import report_sdf_habits
 from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
@@ -56,6 +57,7 @@ def read_urdf(
     if robot is None:
         return None
     _check_version(robot, findings)
+    report_sdf_habits(robot, findings)
     materials = MaterialTable(findings, find_texture)
     for element in robot.find_all("material"):
         materials.add_global(element)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.robot.slips.vocabulary import Vocabulary, Word
 
+_PLACE = {"origin": "position offset translation location transform"}
 _SYNONYMS = {
     "origin": {
         "xyz": "pos position trans translation translate location offset",
@@ -26,6 +27,10 @@ _SYNONYMS = {
         "velocity": "vel speed",
     },
     "mimic": {"joint": "name", "multiplier": "ratio factor mult gear"},
+    "joint": _PLACE,
+    "visual": _PLACE,
+    "collision": _PLACE,
+    "inertial": _PLACE,
     "geometry": {"box": "cube cuboid", "sphere": "ball"},
 }
 _WORDS = {
