@@ -305,6 +305,17 @@ def test_a_model_outside_of_any_package_is_compared_with_nothing(
     assert codes(package) == []
 
 
+def test_a_footprint_may_keep_a_distance(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / NAV2, "robot_radius: 0.3", "robot_radius: 0.5")
+    assert codes(package) == []
+    edit(package / NAV2, "robot_radius: 0.5", "robot_radius: 1.2")
+    assert codes(package) == ["footprint-size"]
+    bumper = '<visual><geometry><box size="1.4 0.1 0.1"/></geometry></visual>'
+    edit(package / MODEL, '<link name="base_link">', f'<link name="base_link">{bumper}')
+    assert codes(package) == []
+
+
 def test_the_shape_of_an_arm_does_not_count_for_the_footprint(copied: Copied) -> None:
     package = copied("gz")
     arm = (

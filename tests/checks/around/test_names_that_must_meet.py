@@ -684,6 +684,15 @@ MISTAKES = [
         "write 0.3",
         name="in centimetres",
     ),
+    one(
+        "footprint-size",
+        NAV2,
+        "robot_radius: 0.3",
+        "robot_radius: 0.6",
+        (MODEL, '<link name="${prefix}_link">'),
+        "write 0.3",
+        name="twice as large",
+    ),
 ]
 
 

@@ -22,7 +22,9 @@ from sambot_viz.robot.parts import Box, Cylinder, MeshFile, Shape, Sphere
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _SMALLEST_GAP = 0.03
 _SHARE = 0.15
-_FAR_TOO_LARGE = 5.0
+_TOO_LARGE, _TOO_LARGE_WITH_ARM = 2.0, 5.0
+"""So many times what the robot needs: less may be meant to keep a distance."""
+
 _STEPS = 16
 
 
@@ -31,12 +33,12 @@ Points = npt.NDArray[np.float64]
 
 
 class _Reach(NamedTuple):
-    """The points of the collision shapes on the floor.
+    """The points of shapes on the floor.
 
     Attributes:
         points: (N, 2) [m], in the base frame.
         links: the link of each.
-        complete: no shape is left out.
+        complete: no shape is left out, of those that no arm moves.
     """
 
     points: Points
@@ -56,9 +58,7 @@ def footprints(around: Surroundings) -> Iterator[Problem]:
             said = _said(given)
             if said is None or frame not in around.robot.links:
                 continue
-            reach = _reach(around.robot, frame)
-            if len(reach.points):
-                yield from _compare(around.robot, said, reach)
+            yield from _compare(around.robot, frame, said)
 
 
 def _said(given: Mapping[str, Parameter]) -> Parameter | None:
@@ -69,7 +69,10 @@ def _said(given: Mapping[str, Parameter]) -> Parameter | None:
     return given.get("robot_radius")
 
 
-def _compare(robot: Robot, said: Parameter, reach: _Reach) -> Iterator[Problem]:
+def _compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
+    reach = _reach(robot, frame, visuals=False)
+    if not len(reach.points):
+        return
     radius = said.fact.number
     polygon = _polygon(said.fact.value) if radius is None else None
     if polygon is not None:
@@ -81,7 +84,6 @@ def _compare(robot: Robot, said: Parameter, reach: _Reach) -> Iterator[Problem]:
     else:
         return
     farthest = int(outside.argmax())
-    needed = float(_lengths(reach.points).max())
     place = robot.links[reach.links[farthest]].place
     if outside[farthest] > max(_SMALLEST_GAP, _SHARE * size):
         yield _finding(
@@ -92,12 +94,26 @@ def _compare(robot: Robot, said: Parameter, reach: _Reach) -> Iterator[Problem]:
             "what Nav2 believes to be free",
             _needed(said, reach),
         )
-    elif reach.complete and size > _FAR_TOO_LARGE * needed:
+    else:
+        yield from _too_large(robot, frame, said, size)
+
+
+def _too_large(
+    robot: Robot, frame: str, said: Parameter, size: float
+) -> Iterator[Problem]:
+    """Compare with all shapes: a part that is only visible may need the room."""
+    reach = _reach(robot, frame, visuals=True)
+    lengths = _lengths(reach.points)
+    needed = float(lengths.max())
+    arm = len(_rigid(robot)) < len(robot.links)
+    most = (_TOO_LARGE_WITH_ARM if arm else _TOO_LARGE) * needed
+    if reach.complete and size > most:
+        place = robot.links[reach.links[int(lengths.argmax())]].place
         yield _finding(
             said,
-            f"the {said.name} reaches {number(size)} m, but the collision shapes only "
-            f"{number(needed)} m ({where(place, said.place)}): Nav2 finds no way "
-            "through",
+            f"the {said.name} reaches {number(size)} m, but the shapes of the robot "
+            f"only {number(round(needed, 3))} m ({where(place, said.place)}): Nav2 "
+            "keeps out of passages that it fits through",
             _needed(said, reach),
         )
 
@@ -157,15 +173,22 @@ def _outside(polygon: Points, points: Points) -> Points:
     return np.where(inside, 0.0, distance)
 
 
-def _reach(robot: Robot, frame: str) -> _Reach:
-    """Project the collision shapes that always have the same place onto the floor."""
+def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
+    """Project the shapes that always have the same place onto the floor.
+
+    Args:
+        robot: the robot.
+        frame: the base frame.
+        visuals: the visual shapes as well as the collision shapes.
+    """
     poses = robot.forward_kinematics()
     T_frame_root = np.linalg.inv(poses[frame])
     found: list[Points] = []
     links: list[str] = []
     complete = True
     for name in _rigid(robot):
-        for shape in robot.links[name].collisions:
+        link = robot.links[name]
+        for shape in (*link.collisions, *(link.visuals if visuals else ())):
             points = _points(shape, T_frame_root @ poses[name])
             complete = complete and points is not None
             if points is not None:
