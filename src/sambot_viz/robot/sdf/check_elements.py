@@ -185,7 +185,8 @@ class _ElementChecker:
             return
         habit = element_of_urdf(element)
         if habit is not None:
-            self._findings.warn("sdf-urdf-habit", habit.message, habit.hint, element)
+            report = self._findings.reject if habit.refused else self._findings.warn
+            report("sdf-urdf-habit", habit.message, habit.hint, element)
             return
         near = did_you_mean(element.tag, parent.children)
         self._findings.warn(

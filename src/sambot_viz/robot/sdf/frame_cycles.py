@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
+from sambot_viz.robot.sdf.habits import origin_in_place_of_pose
 from sambot_viz.robot.sdf.scopes import Frame
 from sambot_viz.robot.sdf.wording import REFUSED
 from sambot_viz.robot.xml.element import Element
@@ -78,6 +79,8 @@ def _is_implicit(joint: Frame) -> bool:
 
 def _report_joint(joint: Frame, findings: ModelFindings) -> None:
     """Report a joint without relative_to whose child counts from the joint."""
+    if origin_in_place_of_pose(joint.element):
+        return
     parent = text_in(joint.element, "parent") or "the_parent_link"
     child = text_in(joint.element, "child")
     pose = joint.element.find("pose")

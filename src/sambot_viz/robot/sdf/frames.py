@@ -72,7 +72,9 @@ class FramePoses:
         frame.T_base_frame = pose_of(frame.element, self._findings)
         frame.attached = self._attached(frame, scope)
         base = self._base_of_pose(frame.element, scope)
-        frame.base = base or frame.attached or scope.own
+        # What counts from an unknown frame counts from no other, which could be a ring.
+        usual = scope.own if self._names_base(frame.element) else frame.attached
+        frame.base = base or usual or scope.own
 
     def _attached(self, frame: Frame, scope: Scope) -> Frame | None:
         """Return the frame that counts where the pose names none, if it is said."""
@@ -82,6 +84,10 @@ class FramePoses:
         if frame.kind != "frame" or not name:
             return None
         return self._named(name, frame.element, "attached_to", scope)
+
+    def _names_base(self, owner: Element) -> bool:
+        pose = owner.find("pose")
+        return pose is not None and self._version.relative_to(pose) != ""
 
     def _base_of_pose(self, owner: Element, scope: Scope) -> Frame | None:
         """Return the frame that the <pose> of an element names, or None."""

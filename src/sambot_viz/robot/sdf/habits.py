@@ -151,9 +151,34 @@ def _origin(element: Element, parent: Element) -> Habit:
     links = [end.text.strip() for end in map(parent.find, ("parent", "child")) if end]
     above, child = links if len(links) == 2 else ("parent_link", "the child")
     name = parent.get("name")
+    if _counts_from(parent, child):
+        return Habit(
+            f"SDF has no <origin>: without <pose> joint {name} counts from its child "
+            f"link {child}, and {child}'s pose counts from {name}; {REFUSED}",
+            f'write <pose relative_to="{above}">{pose}</pose>',
+            refused=True,
+        )
     return Habit(
         f"SDF has no <origin>; ROS ignores it, so the link {child} stays in the middle "
         f"of {above}",
         f'write <pose relative_to="{above}">{pose}</pose>, and '
         f'<pose relative_to="{name}"/> in the link {child}',
     )
+
+
+def origin_in_place_of_pose(joint: Element) -> bool:
+    """Tell whether the finding about the <origin> of a joint says where it is."""
+    return joint.find("pose") is None and joint.find("origin") is not None
+
+
+def _counts_from(joint: Element, child: str) -> bool:
+    """Tell whether a joint without <pose> has a child link that counts from it."""
+    model = joint.parent
+    if model is None or not origin_in_place_of_pose(joint):
+        return False
+    poses = (
+        link.find("pose")
+        for link in model.find_all("link")
+        if link.get("name") == child
+    )
+    return any(p and p.get("relative_to") == joint.get("name") for p in poses)

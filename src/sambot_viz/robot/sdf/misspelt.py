@@ -8,12 +8,16 @@ from itertools import islice
 from sambot_viz.robot.sdf.elements import ElementType, model_type
 from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
 from sambot_viz.robot.sdf.habits import attributes_of_urdf, element_of_urdf
+from sambot_viz.robot.sdf.old_versions import Version, version_of
 from sambot_viz.robot.slips.misspelt import MOST_SLIPS, Slip
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
 _REPEATED = frozenset({"collision", "frame", "joint", "link", "model", "visual"})
 """Elements of which more than the first one counts."""
+
+_SYNONYMS = {("pose", "frame"): "relative_to"}
+"""Element and attribute → what the attribute is called since version 1.7."""
 
 
 def sdf_slips(document: Element) -> list[Slip]:
@@ -24,14 +28,24 @@ def sdf_slips(document: Element) -> list[Slip]:
     Args:
         document: its root element.
     """
+    version = version_of(document.get("version") or "")
     for child in document.children:
         if child.tag == "model":
-            return list(islice(_below(child, model_type()), MOST_SLIPS))
+            slips = _below(child, model_type())
+            known = (s for s in slips if not _is_old(s, version))
+            return list(islice(known, MOST_SLIPS))
     for child in document.children:
         if meant(child.tag, ["model"]) and child.tag not in ("world", "light", "actor"):
             slips = _below(child, model_type())
             return [Slip(child, "model"), *islice(slips, MOST_SLIPS)]
     return []
+
+
+def _is_old(slip: Slip, version: Version | None) -> bool:
+    """Tell whether a file of its version may have the attribute."""
+    if version is None or slip.attribute is None:
+        return False
+    return version.knows(slip.element, slip.attribute)
 
 
 def _below(top: Element, known: ElementType) -> Iterator[Slip]:
@@ -68,7 +82,8 @@ def _attributes(element: Element, known: ElementType) -> Iterator[Slip]:
         return
     free = [name for name in known.attributes if name not in element.attributes]
     for name in unknown:
-        right = meant(name, free)
+        synonym = _SYNONYMS.get((element.tag, name))
+        right = synonym if synonym in free else meant(name, free)
         if right is not None:
             free.remove(right)
             yield Slip(element, right, name)

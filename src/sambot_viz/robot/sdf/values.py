@@ -34,6 +34,7 @@ _START = re.compile(
 # A stream knows no hexadecimal number, and none that is not finite.
 _STREAMED = re.compile(rf"[ \t\n\r\v\f]*([+-]?{_DECIMAL})(e?)", re.IGNORECASE)
 _INTEGER = re.compile(r"[+-]?(?:0x[0-9a-f]+|[0-9]+)", re.IGNORECASE)
+_SEPARATORS = re.compile(r"[\s,;]+")
 _SMALLEST = 2.2250738585072014e-308
 _COUNTS = {3: "three", 4: "four", 6: "six", 7: "seven"}
 
@@ -167,7 +168,13 @@ def read_vector(text: str, count: int) -> tuple[float, ...]:
 def _vector_complaint(text: str, count: int) -> tuple[str, str]:
     needed = _COUNTS.get(count, "two")
     if re.search("[,;]", text):
-        better = " ".join(part for part in re.split(r"[\s,;]+", text) if part)
+        apart = _SEPARATORS.sub(" ", text).split()
+        pointed = re.sub(r"(?<=\d),(?=\d)", ".", text)
+        with_points = _SEPARATORS.sub(" ", pointed).split()
+        if len(apart) != count == len(with_points):
+            better = " ".join(with_points)
+            return "has decimal commas; numbers have a point", f"write {better}"
+        better = " ".join(apart)
         return "has commas; numbers are separated by blanks only", f"write {better}"
     parts = words_of(text)
     if len(parts) < count and all(_START.match(part) for part in parts):
