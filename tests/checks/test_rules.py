@@ -537,6 +537,54 @@ def test_a_weight_in_front_of_the_wheels_makes_a_robot_fall(checked: Checked) ->
     )
 
 
+def test_a_caster_in_the_air_is_named_where_the_robot_needs_it(
+    checked: Checked,
+) -> None:
+    (problem,) = checked(cart(caster="0.2 0 0.05"), "wheel-not-on-ground")
+    assert problem.severity == "warning"
+    assert problem.message == (
+        "the robot falls over: caster ends 0.05 m above the ground, which left and "
+        "right touch, and its centre of mass is not above them"
+    )
+    assert problem.hint == (
+        "lower the origin of joint caster_joint by 0.05 m, or correct the radius"
+    )
+    for height in ("0", "0.01"):
+        assert checked(cart(caster=f"0.2 0 {height}"), "wheel-not-on-ground") == []
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        (cart(weight="0.002 0 0", caster="0.2 0 0.05"), "it balances"),
+        (cart(caster="0.2 0 0.05").replace("caster", "lamp"), "it is no caster"),
+        (cart(caster="0.2 0 0.05", more=BATTERY), "a weight is missing"),
+        (
+            cart(
+                caster="0.2 0 0.05",
+                more='<link name="nose"><visual><geometry><sphere radius="0.05"/>'
+                '</geometry></visual></link><joint name="n" type="fixed"><parent '
+                'link="base_link"/><child link="nose"/><origin xyz="0.2 0 0.01"/>'
+                "</joint>",
+            ),
+            "something else is near the ground",
+        ),
+        (
+            cart(
+                caster="0.2 0 0.05",
+                more='<link name="world"/><joint name="w" type="fixed"><parent '
+                'link="world"/><child link="base_link"/></joint>',
+            ),
+            "it is fixed",
+        ),
+    ],
+)
+def test_a_caster_in_the_air_may_be_right(
+    checked: Checked, body: str, why: str
+) -> None:
+    assert checked(body, "wheel-not-on-ground") == [], why
+
+
 @pytest.mark.parametrize(
     ("body", "why"),
     [

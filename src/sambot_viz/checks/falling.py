@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
-from sambot_viz.robot.balance.balance import Balance, Tipping, balance
-from sambot_viz.robot.balance.ground import axle_of
+from sambot_viz.robot.balance.balance import SAME_POINT, Balance, Tipping, balance
+from sambot_viz.robot.balance.ground import Contacts, axle_of, contacts
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import MeshFile
 
@@ -20,6 +24,8 @@ _SMALLEST_SHARE = 0.02
 """A centre of mass that is less beyond the edge may be right [size of the robot]."""
 _CAUGHT = 0.05
 """What is lower keeps it from falling, nearly level [size of the robot]."""
+_CASTER = re.compile("(?<!broad)cast[eo]r", re.IGNORECASE)
+"""What is called so is meant to stand on the ground."""
 _FEWEST_WHEELS = 2
 _FEWEST_CONTACTS = 3
 
@@ -27,8 +33,9 @@ _FEWEST_CONTACTS = 3
 def falls_over(subject: Subject) -> Iterator[Problem]:
     """Report a robot on wheels that falls over where all its joints are at the start.
 
-    Only where that is certain: three links stand on the ground, two of them are wheels,
-    all shapes are known, and all links that collide have a mass.
+    Only where that is certain: all shapes are known, all links that collide have a
+    mass, and three links stand on the ground, two of them wheels; or two wheels alone,
+    and there is a caster above the ground.
     """
     robot, unknown = subject.robot, False
 
@@ -42,20 +49,63 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
     poses = robot.forward_kinematics()
     found = balance(robot, poses, mesh_of)
-    if found is None or found.support is None or unknown:
+    if found is None or found.support is None or found.fixed or unknown:
         return
-    contacts, size = found.support.links, found.support.size
-    wheels = [link for link in contacts if _is_wheel(robot, link, poses)]
-    if len(wheels) < _FEWEST_WHEELS or len(contacts) < _FEWEST_CONTACTS:
+    on_ground, size = found.support.links, found.support.size
+    wheels = [link for link in on_ground if _is_wheel(robot, link, poses)]
+    if len(wheels) < _FEWEST_WHEELS:
         return
     if any(robot.links[link].collisions for link in found.massless):
         return
-    caught = balance(robot, poses, mesh_of, _CAUGHT * size)
-    tipping, later = found.tipping, None if caught is None else caught.tipping
-    enough = _SMALLEST_SHARE * size
-    if tipping is None or later is None or -later.margin < enough:
+    if len(on_ground) < _FEWEST_CONTACTS:
+        feet = contacts(robot, poses, mesh_of, math.inf)
+        if feet is not None and _beside_axle(found, feet, wheels):
+            yield from _caster_in_the_air(robot, feet, wheels)
         return
-    yield _problem(robot, found, tipping)
+    caught = balance(robot, poses, mesh_of, _CAUGHT * size)
+    later = None if caught is None else caught.tipping
+    if found.tipping and later and -later.margin >= _SMALLEST_SHARE * size:
+        yield _problem(robot, found, found.tipping)
+
+
+def _beside_axle(found: Balance, feet: Contacts, wheels: Sequence[str]) -> bool:
+    """Return whether the weight is not above the line on which two wheels stand."""
+    one, other = (np.mean(feet.points[link][:, :2], axis=0) for link in wheels)
+    axle = other - one
+    if float(np.linalg.norm(axle)) < SAME_POINT or found.support is None:
+        return False
+    across: Matrix = np.array((-axle[1], axle[0])) / np.linalg.norm(axle)
+    reach = float(np.abs((found.support.polygon - one) @ across).max())
+    enough = reach + _SMALLEST_SHARE * feet.size
+    return abs(float((found.center[:2] - one) @ across)) > enough
+
+
+def _caster_in_the_air(
+    robot: Robot, feet: Contacts, wheels: Sequence[str]
+) -> Iterator[Problem]:
+    """Report the lowest caster of a robot that stands on two wheels alone."""
+    gaps = {
+        link: float(points[:, 2].min()) - feet.height
+        for link, points in feet.points.items()
+        if link not in wheels
+    }
+    if not gaps or min(gaps.values()) < _CAUGHT * feet.size:
+        return
+    above = {joint.child: joint for joint in robot.joints.values()}
+    casters = [link for link in gaps if link in above and _CASTER.search(link)]
+    if not casters:
+        return
+    caster = min(casters, key=lambda link: gaps[link])
+    joint = above[caster]
+    yield Problem.at(
+        joint.place,
+        "warning",
+        "wheel-not-on-ground",
+        f"the robot falls over: {caster} ends {gaps[caster]:.3g} m above the ground, "
+        f"which {listed(wheels)} touch, and its centre of mass is not above them",
+        f"lower the origin of joint {joint.name} by {gaps[caster]:.3g} m, or correct "
+        "the radius",
+    )
 
 
 def _is_wheel(robot: Robot, link: str, poses: Mapping[str, Matrix]) -> bool:
@@ -71,13 +121,13 @@ def _problem(robot: Robot, found: Balance, tipping: Tipping) -> Problem:
     }
     heaviest = robot.links[max(masses, key=lambda name: masses[name])]
     place = heaviest.place if heaviest.inertial is None else heaviest.inertial.place
-    contacts = () if found.support is None else found.support.links
+    on_ground = () if found.support is None else found.support.links
     return Problem.at(
         place or heaviest.place,
         "warning",
         "falls-over",
         f"the robot falls over: its centre of mass is {number(-tipping.margin)} m "
-        f"beyond what it stands on, which is {listed(contacts)}",
+        f"beyond what it stands on, which is {listed(on_ground)}",
         f"move weight, such as that of {heaviest.name}, between the wheels, or add a "
         "caster; RobotModel > Mass Properties > Balance shows where it is",
     )
