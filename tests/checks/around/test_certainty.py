@@ -305,6 +305,16 @@ def test_a_model_outside_of_any_package_is_compared_with_nothing(
     assert codes(package) == []
 
 
+def test_the_left_of_a_robot_that_drives_backwards_is_the_other(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / MODEL, ">left_wheel_joint<", ">x<")
+    edit(package / MODEL, ">right_wheel_joint<", ">left_wheel_joint<")
+    edit(package / MODEL, ">x<", ">right_wheel_joint<")
+    assert codes(package) == ["drive-sides"]
+    edit(package / MODEL, '<axis xyz="0 1 0"/>', '<axis xyz="0 -1 0"/>')
+    assert codes(package) == []
+
+
 def test_a_footprint_may_keep_a_distance(copied: Copied) -> None:
     package = copied("gz")
     edit(package / NAV2, "robot_radius: 0.3", "robot_radius: 0.5")

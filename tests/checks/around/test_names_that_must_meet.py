@@ -129,6 +129,66 @@ MISTAKES = [
         (MODEL, '<link name="lidar_link"/>'),
         "write lidar_link",
     ),
+    Mistake(
+        "drive-sides",
+        (
+            (MODEL, ">left_wheel_joint</left_joint>", ">x</left_joint>"),
+            (MODEL, ">right_wheel_joint<", ">left_wheel_joint<"),
+            (MODEL, ">x<", ">right_wheel_joint<"),
+        ),
+        (MODEL, "<left_joint>right_wheel_joint<"),
+        (MODEL, "<right_joint>left_wheel_joint<"),
+        "exchange right_wheel_joint and left_wheel_joint",
+        (
+            (MODEL, ">right_wheel_joint</left_joint>", ">x</left_joint>"),
+            (MODEL, ">left_wheel_joint<", ">right_wheel_joint<"),
+            (MODEL, ">x<", ">left_wheel_joint<"),
+        ),
+    ),
+    Mistake(
+        "drive-sides",
+        (
+            (
+                EKF,
+                "",
+                CONTROLLER.replace("left_wheel_joint", "x")
+                .replace("right_wheel_joint", "left_wheel_joint")
+                .replace('"x"', '"right_wheel_joint"'),
+            ),
+        ),
+        (EKF, 'left_wheel_names: ["right_wheel_joint"]'),
+        (EKF, 'right_wheel_names: ["left_wheel_joint"]'),
+        "exchange right_wheel_joint and left_wheel_joint",
+        (
+            (EKF, '["right_wheel_joint"]', '["x"]'),
+            (EKF, '["left_wheel_joint"]', '["right_wheel_joint"]'),
+            (EKF, '["x"]', '["left_wheel_joint"]'),
+        ),
+        name="of a controller",
+    ),
+    *(
+        one(
+            "gazebo-element-unknown",
+            MODEL,
+            f"<{right}>{value}</{right}>",
+            f"<{wrong}>{value}</{wrong}>",
+            (MODEL, f'<plugin filename="{plugin}'),
+            f"write <{right}>",
+            package=package,
+            name=wrong,
+        )
+        for right, wrong, value, plugin, package in (
+            ("wheel_separation", "wheel_seperation", 0.4, "gz-sim-diff-drive", "gz"),
+            ("odom_topic", "odom_topc", "/demo/odom", "gz-sim-diff-drive", "gz"),
+            (
+                "wheel_diameter",
+                "wheel_diametre",
+                0.2,
+                "libgazebo_ros_diff_drive.so",
+                "classic",
+            ),
+        )
+    ),
     one(
         "drive-wheel-separation",
         MODEL,
@@ -625,6 +685,36 @@ MISTAKES = [
         '"world": "my_world"',
         ("world/room.sdf", '<world name="room">'),
         "write room",
+    ),
+    *(
+        Mistake(
+            "launch-world-name",
+            (
+                (
+                    LAUNCH,
+                    "            spawn,",
+                    '            Node(package="ros_gz_sim", executable="create",\n'
+                    f"            {given}),",
+                ),
+            ),
+            (LAUNCH, given),
+            ("world/room.sdf", '<world name="room">'),
+            "write room",
+            ((LAUNCH, "my_world", "room"),),
+            name=name,
+        )
+        for name, given in (
+            ("of create", 'arguments=["-world", "my_world", "-name", "cart"]'),
+            ("of its parameters", 'parameters=[{"world": "my_world"}]'),
+        )
+    ),
+    one(
+        "cmake-project-name",
+        "CMakeLists.txt",
+        "project(cart_description)",
+        "project(cart)",
+        ("package.xml", "<name>cart_description</name>"),
+        "write project(cart_description)",
     ),
     Mistake(
         "folder-not-installed",

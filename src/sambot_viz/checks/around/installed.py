@@ -17,6 +17,7 @@ from sambot_viz.robot.parts import MeshFile
 
 _COMMENT = re.compile(r"#[^\n]*")
 _INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
+_PROJECT = re.compile(r"\bproject\s*\(\s*\"?([A-Za-z0-9_.-]+)\b", re.IGNORECASE)
 _AUTO = re.compile(r"\bament_auto_package\s*\(([^()]*)\)")
 _UNCERTAIN = re.compile(
     r"\b(foreach|macro|function|include|add_subdirectory|file)\s*\(", re.IGNORECASE
@@ -172,3 +173,26 @@ def _by_setup(text: str, shown: str) -> Installed | None:
         if isinstance(node, ast.keyword) and node.arg == "data_files":
             place = Place(shown, node.value.lineno)
     return None if place is None else Installed(frozenset(parts), place)
+
+
+def project_name(around: Surroundings) -> Iterator[Problem]:
+    """Compare the project in CMakeLists.txt with the name in package.xml."""
+    text = _COMMENT.sub("", around.files.text("CMakeLists.txt") or "")
+    project = _PROJECT.search(text)
+    name = around.files.name
+    if project is None or project[1] == name or "ament_package" not in text:
+        return
+    place = Place(
+        around.files.shown("CMakeLists.txt"), text.count("\n", 0, project.start()) + 1
+    )
+    manifest = around.files.text("package.xml") or ""
+    line = manifest.count("\n", 0, max(manifest.find("<name>"), 0)) + 1
+    other = Place(around.files.shown("package.xml"), line)
+    yield Problem.at(
+        place,
+        "error",
+        "cmake-project-name",
+        f"CMakeLists.txt calls the package {project[1]}, package.xml calls it {name} "
+        f"({where(other, place)}): what is installed is not found",
+        f"write project({name})",
+    )

@@ -11,6 +11,11 @@ from sambot_viz.checks.around.bridges import (
     scoped_frames,
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.drives import (
+    exchanged_sides,
+    exchanged_sides_of_controllers,
+    misspelt_elements,
+)
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.frames import (
     moved_twice,
@@ -26,7 +31,7 @@ from sambot_viz.checks.around.generations import (
     started_twice,
     xacro_py,
 )
-from sambot_viz.checks.around.installed import not_installed
+from sambot_viz.checks.around.installed import not_installed, project_name
 from sambot_viz.checks.around.joints import (
     joints_of_controllers,
     unknown_joints,
@@ -52,6 +57,8 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     unknown_joints,
     unknown_references,
     wheel_sizes,
+    exchanged_sides,
+    misspelt_elements,
 )
 """The rules that need only the model."""
 
@@ -61,6 +68,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_python,
     joints_of_controllers,
     wheel_sizes_of_controllers,
+    exchanged_sides_of_controllers,
     unknown_frames,
     two_parents,
     moved_twice,
@@ -82,6 +90,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     missing_files,
     unread_parameters,
     world_names,
+    project_name,
     not_installed,
     footprints,
 )

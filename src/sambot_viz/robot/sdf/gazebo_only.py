@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import and_list
 from sambot_viz.robot.xml.element import Element
 
@@ -34,7 +30,6 @@ _SETTINGS = frozenset(
 
 _MOST_NAMES = 4
 _NOTHING_TO_DO = "nothing has to be done"
-_WHEEL_JOINTS = ("left_joint", "right_joint")
 
 
 def is_for_gazebo(element: Element) -> bool:
@@ -42,14 +37,11 @@ def is_for_gazebo(element: Element) -> bool:
     return element.tag in _KINDS or element.tag in ("surface", "physics")
 
 
-def note_gazebo_only(
-    model: Element, joints: Iterable[str], findings: ModelFindings
-) -> None:
-    """Note what has no effect on the picture, and wheels that a plugin will not find.
+def note_gazebo_only(model: Element, findings: ModelFindings) -> None:
+    """Note what has no effect on the picture.
 
     Args:
         model: the <model>.
-        joints: the names of its joints.
         findings: where the notes go.
     """
     found: dict[str, list[Element]] = {}
@@ -59,8 +51,6 @@ def note_gazebo_only(
         element = stack.pop()
         if element.tag in _KINDS:
             found.setdefault(element.tag, []).append(element)
-            if element.tag == "plugin":
-                _check_wheels(element, list(joints), findings)
             continue
         if element.tag in _SETTINGS:
             settings.setdefault(element.tag, element)
@@ -96,18 +86,3 @@ def _note_kind(tag: str, elements: list[Element], findings: ModelFindings) -> No
         _NOTHING_TO_DO,
         elements[0].place,
     )
-
-
-def _check_wheels(plugin: Element, joints: list[str], findings: ModelFindings) -> None:
-    """Warn of a joint that a plugin drives and that does not exist."""
-    for child in plugin.children:
-        name = trimmed(child.text)
-        if child.tag in _WHEEL_JOINTS and name and name not in joints:
-            findings.warn(
-                "sdf-plugin-joint",
-                f"the plugin {plugin.get('name')} drives the joint {name}, which does "
-                f"not exist ({did_you_mean(name, joints)}): in Gazebo the robot will "
-                "not move",
-                f"write the name of a joint into <{child.tag}>",
-                child,
-            )

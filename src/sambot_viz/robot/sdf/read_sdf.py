@@ -51,7 +51,7 @@ def read_sdf(
     root = root_link(scope, findings)
     if root is not None:
         check_tree(scope, root, ends, findings)
-    note_gazebo_only(model, [j.name for j in scope.of_kind("joint")], findings)
+    note_gazebo_only(model, findings)
     holders = {e.child: e.joint for e in reversed(ends)}
     reader = SdfLinkReader(frames, findings, find_mesh)
     links = {
