@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.gazebo import Fact
@@ -147,6 +148,22 @@ def _spawned_into(launch: LaunchFile) -> Iterator[Fact]:
         if call_name(call.func) == "IncludeLaunchDescription":
             if source is not None and source.endswith(_SPAWNS):
                 yield from _world_argument(launch, keyword(call, "launch_arguments"))
+        elif launch.values.text(keyword(call, "executable")) == "create":
+            yield from _world_of_create(launch, call)
+
+
+def _world_of_create(launch: LaunchFile, call: ast.Call) -> Iterator[Fact]:
+    """What a node of ros_gz_sim is told, in arguments or parameters."""
+    text, items = launch.values.text, launch.values.items
+    if text(keyword(call, "package")) != "ros_gz_sim":
+        return
+    given = items(keyword(call, "arguments"))
+    for option, value in pairwise(given):
+        name = text(value)
+        if text(option) == "-world" and name:
+            yield Fact(name, launch.place(value))
+    for item in items(keyword(call, "parameters")):
+        yield from _world_argument(launch, item)
 
 
 def _world_argument(launch: LaunchFile, given: ast.expr | None) -> Iterator[Fact]:
