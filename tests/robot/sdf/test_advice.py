@@ -60,6 +60,10 @@ def test_the_model_of_these_tests_is_good(checked: Checked) -> None:
         ("0.4 0.3 0.15", "0,4, 0,3, 0,15"),
         ("0.4 0.3 0.15", "0.4, 0.3, 0.15"),
         (POSE, ORIGIN),
+        (
+            "<box><size>0.4 0.3 0.15</size></box>",
+            '<box length="0.4" width="0.3" height="0.15"/>',
+        ),
         ('relative_to="arm_joint"', 'relativ_to="arm_joint"'),
         ('relative_to="arm_joint"', 'relative-to="arm_joint"'),
         ('relative_to="base"', 'relativ_to="base"'),
@@ -94,3 +98,22 @@ def test_the_frame_of_an_old_version_is_left_alone(checked: Checked) -> None:
     text = MODEL.replace("1.8", "1.6").replace('relative_to="base"', 'frame="base"')
 
     assert checked(text) == []
+
+
+def test_a_sensor_beside_the_links_is_sent_into_a_link(checked: Checked) -> None:
+    sensor = '<sensor name="lidar" type="gpu_lidar"/>'
+
+    (problem,) = checked(MODEL.replace("  </model>", f"{sensor}</model>"))
+
+    assert (problem.severity, problem.hint) == ("warning", "move it into a <link>")
+    inside = checked(MODEL.replace("    </link>", f"{sensor}</link>", 1))
+    assert [problem.severity for problem in inside] == ["info"]
+
+
+def test_a_mesh_that_is_named_as_in_urdf_is_one_problem(checked: Checked) -> None:
+    mesh = '<mesh filename="package://bot/arm.stl"/>'
+    box = "<box><size>0.4 0.3 0.15</size></box>"
+
+    (problem,) = checked(MODEL.replace(box, mesh))
+
+    assert problem.hint == "write <mesh><uri>package://bot/arm.stl</uri></mesh>"

@@ -107,3 +107,21 @@ def test_a_pose_is_not_taken_for_an_origin() -> None:
     )
     origin = load_robot(text).joints["j"].origin
     assert np.array_equal(origin.matrix, np.eye(4))
+
+
+def test_a_box_of_three_lengths_is_answered_with_its_size() -> None:
+    text = '<link name="a"><visual><geometry><box {}/></geometry></visual></link>'
+    lengths = text.format('length="0.4" width="0.3" height="0.2"')
+
+    (problem,) = found(f'<robot name="r">{lengths}</robot>')
+
+    assert problem.hint == 'write size="0.4 0.3 0.2"'
+
+
+def test_a_missing_moment_of_inertia_is_a_possible_one() -> None:
+    inertia = '<inertia ixx="0.01" iyy="0.5" ixy="0" ixz="0"/>'
+    inertial = f'<inertial><mass value="1"/>{inertia}</inertial>'
+
+    (problem,) = found(f'<robot name="r"><link name="a">{inertial}</link></robot>')
+
+    assert problem.hint == 'add iyz="0" izz="0.5"'

@@ -240,3 +240,14 @@ def test_an_argument_in_the_name_of_a_package_is_named(
 
     assert problem.code == "xacro-argument-placeholder"
     assert problem.hint == "give it on the command line: model:=blue"
+
+
+@pytest.mark.parametrize("right", ["${size}", "$(arg kind)"])
+def test_a_name_in_round_brackets_is_answered_with_the_right_ones(
+    changed: Change, right: str
+) -> None:
+    name = re.sub(r"\W|arg ", "", right)
+
+    (problem,) = changed("r.urdf.xacro", "$(arg arm)", f"$({name})")
+
+    assert problem.hint.startswith(f"write {right}; ")

@@ -179,6 +179,15 @@ class _ElementChecker:
         )
 
     def _report_unknown(self, element: Element, parent: ElementType) -> None:
+        if element.tag == "sensor" and parent.name == "model":
+            self._findings.warn(
+                "sdf-element-unknown",
+                f"{tag_text(element)} is directly in <model>, where Gazebo ignores it: "
+                "a sensor belongs to the link that carries it",
+                "move it into a <link>",
+                element,
+            )
+            return
         if ":" in element.tag or is_for_gazebo(element):
             return
         if self._version.knows_element(element):

@@ -49,6 +49,9 @@ def note_gazebo_only(model: Element, findings: ModelFindings) -> None:
     stack = [model]
     while stack:
         element = stack.pop()
+        if element.tag == "sensor" and element.parent is model:
+            # That is a problem of its own.
+            continue
         if element.tag in _KINDS:
             found.setdefault(element.tag, []).append(element)
             continue

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sambot_viz.robot.sdf.wording import REFUSED, and_list, described
+from sambot_viz.robot.slips.three_lengths import size_of_three
 from sambot_viz.robot.xml.element import Element
 
 
@@ -66,6 +67,13 @@ def attributes_of_urdf(element: Element, names: list[str]) -> Habit | None:
         )
     if element.tag == "material":
         return _unnamed_material(element)
+    size = size_of_three(element) if element.tag == "box" else None
+    if size is not None:
+        return Habit(
+            f"<box> of {described(element)} has its lengths as attributes, which SDF "
+            "does not know; the box gets the default size of 1 1 1, one metre",
+            f"write <box><size>{size}</size></box>",
+        )
     known, effect = _VALUES.get(element.tag, ((), ""))
     if not known or any(name not in known for name in names):
         return None

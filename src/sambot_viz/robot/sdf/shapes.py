@@ -79,7 +79,9 @@ class ShapeReader:
         uri = text_in(element, "uri") or "__default__"
         scale = vector_in(element, "scale", (1.0, 1.0, 1.0))
         at = element.find("uri") or element
-        return MeshFile(uri, scale, self._find_mesh(uri, at))
+        # A file that is named as in URDF is reported, and ROS looks for none.
+        as_urdf = at is element and element.get("filename") is not None
+        return MeshFile(uri, scale, None if as_urdf else self._find_mesh(uri, at))
 
     def _check_submesh(self, submesh: Element) -> None:
         if not text_in(submesh, "name"):

@@ -73,8 +73,7 @@ def _refuse_world(world: Element, findings: ModelFindings) -> None:
         "sdf-world",
         f"this is a world for Gazebo{more}; ROS reads an SDF file with one <model> "
         "directly in <sdf>",
-        "open the file of the robot, for example "
-        "src/description/sam_bot_description.sdf",
+        "open the file of the robot",
         world,
     )
 

@@ -6,6 +6,7 @@ read ends the link, and what was read before it stays.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 from collections.abc import Callable
 from pathlib import Path
@@ -25,7 +26,13 @@ from sambot_viz.robot.parts import (
     Shape,
     Sphere,
 )
-from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
+from sambot_viz.robot.slips.three_lengths import size_of_three
+from sambot_viz.robot.urdf.attributes import (
+    AttributeReader,
+    BadNumber,
+    Unreadable,
+    read_number,
+)
 from sambot_viz.robot.urdf.material_table import MaterialTable
 from sambot_viz.robot.xml.element import Element
 
@@ -82,7 +89,7 @@ class LinkReader:
             raise reader.fail(
                 "inertia-incomplete",
                 f"<inertia> of {reader.owner} lacks {', '.join(missing)}",
-                f"add {' '.join(f'{key}=…' for key in missing)}".replace("…", '"0"'),
+                f"add {_moments_to_add(inertia, missing)}",
                 inertia,
             )
         moments = (reader.number(inertia, key) for key in _INERTIA)
@@ -215,7 +222,7 @@ class LinkReader:
         return Unreadable(element.tag)
 
     def _size(self, element: Element, reader: AttributeReader) -> Vector3:
-        reader.required(element, "size", "1 1 1")
+        reader.required(element, "size", size_of_three(element) or "1 1 1")
         return reader.vector(element, "size", (0.0, 0.0, 0.0))
 
     def _radius_and_length(
@@ -250,6 +257,18 @@ class LinkReader:
         filename = reader.required(element, "filename", "package://…/meshes/….stl")
         scale = reader.vector(element, "scale", (1.0, 1.0, 1.0))
         return MeshFile(filename, scale, self._find_mesh(filename, element))
+
+
+def _moments_to_add(inertia: Element, missing: list[str]) -> str:
+    """Write what is missing: a moment is like the others, a product is 0."""
+    numbers: dict[str, float] = {}
+    for text in filter(None, map(inertia.get, ("ixx", "iyy", "izz"))):
+        with contextlib.suppress(BadNumber):
+            numbers[text] = read_number(text)
+    # The largest one fits any two: none is more than the sum of the others.
+    like = max(numbers, key=numbers.__getitem__, default="0.01")
+    values = {key: like if key[1] == key[2] else "0" for key in missing}
+    return " ".join(f'{key}="{value}"' for key, value in values.items())
 
 
 def _has_shapes(link: Element) -> bool:

@@ -135,6 +135,20 @@ class FailedExpansion:
         return "" if folder.is_dir() else f"; the folder {folder} does not exist either"
 
     @property
+    def as_expression(self) -> str:
+        """How a name is written that stands in $(…) alone: "write ${width}; "."""
+        name = self.found[0].strip()
+        running = [macro for macro, _ in self.failure.macros]
+        known = {p.name for p in self.named("property")}
+        for macro in self.named("macro"):
+            if macro.name in running:
+                known.update(parameters(macro.params))
+        if name in known:
+            return f"write ${{{name}}}; "
+        is_argument = any(arg.name == name for arg in self.named("arg"))
+        return f"write $(arg {name}); " if is_argument else ""
+
+    @property
     def near_file(self) -> str:
         """A file of the folder with nearly the name: "did you mean …? If not, "."""
         folder = Path(self.found[0].strip()).parent

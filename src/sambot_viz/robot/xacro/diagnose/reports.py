@@ -130,7 +130,8 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         r"Unknown substitution command \[([^\]]*)\]",
         "xacro-substitution",
         "xacro does not know $({0})",
-        "xacro knows $(find …), $(arg …), $(env …), $(optenv …), $(cwd), $(eval …)",
+        "{x.as_expression}xacro knows $(find …), $(arg …), $(env …), $(optenv …), "
+        "$(cwd), $(eval …)",
         r"\$\(%s",
     ),
     (
