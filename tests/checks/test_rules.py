@@ -195,6 +195,21 @@ def test_what_turns_about_its_middle_line_and_what_is_no_wheel_are_right(
     assert checked(body, "wheel-across-axle") == []
 
 
+@pytest.mark.parametrize(
+    ("name", "axis"),
+    [("left_wheel", "0 1 0"), ("caster_wheel", None), ("disc", None)],
+)
+def test_only_a_wheel_that_does_not_swivel_is_told_to_lie_across_an_upright_axle(
+    checked: Checked, name: str, axis: str | None
+) -> None:
+    body = DISC.format(rpy="1.5708 0 0", axis="0 0 1", length="0.04")
+
+    problems = checked(body.replace('"b"', f'"{name}"'), "wheel-across-axle")
+
+    advice = [] if axis is None else [f'write <axis xyz="{axis}"/> for joint j']
+    assert [problem.hint for problem in problems] == advice
+
+
 def test_names_that_differ_in_case_name_both(checked: Checked) -> None:
     body = joint("", "fixed").replace('"b"', '"A"')
 

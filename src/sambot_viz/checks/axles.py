@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -9,10 +10,12 @@ import numpy.typing as npt
 
 from sambot_viz.checks.rule import Subject, listed
 from sambot_viz.errors import Problem
+from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Shape
 
 _Vector = npt.NDArray[np.float64]
 
+_SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 _ACROSS = 0.1
 """Largest cosine between two directions that are across each other (84°)."""
 
@@ -21,14 +24,18 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     """Report wheels that turn end over end, in one finding.
 
     A wheel turns without end about a level axis, and all that is drawn of it, or all
-    that it touches with, are discs. In a swivelling caster the axis is upright.
+    that it touches with, are discs. In a swivelling caster the axis is upright; that
+    of a link that is called a wheel, and nothing else, is not.
     """
     robot = subject.robot
     poses = robot.forward_kinematics()
     across: dict[str, tuple[Joint, Shape, _Vector]] = {}
     for joint in robot.joints.values():
         axle = _axle(joint)
-        if axle is None or abs((poses[joint.child][:3, :3] @ axle)[2]) > _ACROSS:
+        if axle is None:
+            continue
+        upright = abs((poses[joint.child][:3, :3] @ axle)[2])
+        if upright > _ACROSS and (upright < 0.99 or not _only_rolls(joint, robot)):
             continue
         link = robot.links[joint.child]
         for shapes in (link.visuals, link.collisions):
@@ -62,6 +69,13 @@ def _axle(joint: Joint) -> _Vector | None:
     axis = np.array(joint.axis, dtype=np.float64)
     length = float(np.linalg.norm(axis))
     return axis / length if length > 0 else None
+
+
+def _only_rolls(joint: Joint, robot: Robot) -> bool:
+    """Tell whether a link at the end of the tree is a wheel that does not swivel."""
+    names = f"{joint.name} {joint.child}".lower()
+    at_end = all(other.parent != joint.child for other in robot.joints.values())
+    return at_end and "wheel" in joint.child.lower() and not _SWIVELS.search(names)
 
 
 def _is_across(shape: Shape, axle: _Vector) -> bool:
