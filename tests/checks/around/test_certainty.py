@@ -158,7 +158,9 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
 def test_a_folder_may_be_installed_in_many_ways(text: str, copied: Copied) -> None:
     package = copied("gz")
     ending = "" if "ament_auto" in text else "ament_package()\n"
-    (package / "CMakeLists.txt").write_text(f"project(x)\n{text}\n{ending}")
+    (package / "CMakeLists.txt").write_text(
+        f"project(cart_description)\n{text}\n{ending}"
+    )
     assert codes(package) == []
 
 
