@@ -95,9 +95,12 @@ const about = (act) => {
 /** @param {number} dx @param {number} dy [px] */
 const turn = (dx, dy) =>
   about(() => {
+    const c = controls();
+    // Without perspective, only TopDownOrtho looks straight down.
+    const pole = c.camera.fov < 1 ? 3 * POLE : 0;
     // From above, RViz turns the picture; else it turns the camera.
-    if (above()) controls().rotate(TURN * dx, 0, false);
-    else controls().rotate(-TURN * dx, -TURN * dy, false);
+    if (above()) c.rotate(TURN * dx, 0, false);
+    else c.rotate(-TURN * dx, Math.max(-TURN * dy, pole - c.polarAngle), false);
   });
 /** Metres at the focal point per pixel. @param {number} distance */
 const metres = (distance) =>

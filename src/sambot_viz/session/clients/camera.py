@@ -37,8 +37,9 @@ SAME_WAY = 1e-6
 """A camera at rest looks at its target, with at most this deviation [rad]."""
 FARTHEST = 1e12
 """A camera with larger numbers is not taken from a browser [m]."""
-STRAIGHT_DOWN = 1e-4
-"""A camera that leans by less looks straight down [rad]."""
+STRAIGHT_DOWN = 2e-3
+"""A camera that leans by less looks straight down: a page that has just been told of
+TopDownOrtho still keeps its camera 0.001 away from the pole [rad]."""
 
 Report = tuple[int, Camera | None]
 """The height of a browser's picture [pixels], and its camera."""
@@ -172,7 +173,7 @@ def same_picture(one: Camera, two: Camera) -> bool:
     """Whether two cameras show the same, to a fraction of a pixel."""
     if (one.scale is None) != (two.scale is None):
         return False
-    if one.is_parallel != two.is_parallel:
+    if one.scale is None and one.is_parallel != two.is_parallel:
         return False
     if one.scale is not None and two.scale is not None:
         pixel = 0.5 / two.scale
