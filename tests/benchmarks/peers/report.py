@@ -313,7 +313,9 @@ def write_docs(results: Results, repository: Path) -> None:
 
 
 def _replace(path: Path, lines: Sequence[str]) -> None:
-    before, _, rest = path.read_text("utf-8").partition(BEGIN)
+    before, found, rest = path.read_text("utf-8").partition(BEGIN)
+    if not found:
+        return
     _, _, after = rest.partition(END)
     text = "\n".join([BEGIN, "", *lines, "", END])
     path.write_text(before + text + after, "utf-8")
