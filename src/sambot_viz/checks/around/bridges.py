@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from sambot_viz.checks.around.gazebo import Fact, sensors
+from sambot_viz.checks.around.files.gazebo import Fact, sensors
 from sambot_viz.checks.around.gazebo_topics import (
     GazeboTopic,
     bare,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.gazebo import Fact
-from sambot_viz.checks.around.launch import LaunchFile
-from sambot_viz.checks.around.launch_values import SHARE
-from sambot_viz.checks.around.parameters import flag
+from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Place, Problem

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from sambot_viz.checks.around.gazebo import Fact, plugins
+from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.bridges import entries
-from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import (
     StateFilter,

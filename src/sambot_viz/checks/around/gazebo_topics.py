@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from sambot_viz.checks.around.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.robot.xml.element import Element
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.gazebo import Generation, Plugin
+from sambot_viz.checks.around.files.gazebo import Generation, Plugin
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Place, Problem

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from sambot_viz.checks.around.gazebo import Fact
-from sambot_viz.checks.around.launch_values import SHARE
+from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name, parse_python

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from sambot_viz.checks.around.gazebo import Fact, plugins
+from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Place, Problem, nearest

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import PurePosixPath
 
-from sambot_viz.checks.around.gazebo import Fact
-from sambot_viz.checks.around.launch import LaunchFile, LaunchNode
-from sambot_viz.checks.around.launch_values import keyword
-from sambot_viz.checks.around.parameters import YamlFile
+from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.launch import LaunchFile, LaunchNode
+from sambot_viz.checks.around.files.launch_values import keyword
+from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name

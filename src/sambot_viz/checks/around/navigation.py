@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from sambot_viz.checks.around.parameters import Parameter
+from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.surroundings import Surroundings
 
 _INPUT = re.compile(r"(odom|imu|pose|twist)\d+")

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz.checks.around.gazebo import Plugin, plugins
-from sambot_viz.checks.around.launch import LaunchFile, read_launch
-from sambot_viz.checks.around.launch_values import SHARE
-from sambot_viz.checks.around.package_files import PackageFiles
-from sambot_viz.checks.around.parameters import Parameter, YamlFile, read_yaml
+from sambot_viz.checks.around.files.gazebo import Plugin, plugins
+from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.package_files import PackageFiles
+from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
 from sambot_viz.robot.model import Robot
 
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from sambot_viz.checks.around.bridges import entries
-from sambot_viz.checks.around.gazebo import Fact, Plugin
+from sambot_viz.checks.around.files.gazebo import Fact, Plugin
+from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import filters, is_open
-from sambot_viz.checks.around.parameters import Parameter
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem, nearest

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.parameters import YamlFile, pairs
+from sambot_viz.checks.around.files.parameters import YamlFile, pairs
+from sambot_viz.checks.around.files.python_repair import fault_in_python
+from sambot_viz.checks.around.files.yaml_repair import fault_in
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.python_repair import fault_in_python
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.yaml_repair import fault_in
 from sambot_viz.errors import Place, Problem, nearest
 
 _KNOWN = re.compile(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.checks.around.gazebo import Fact, plugins
+from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number

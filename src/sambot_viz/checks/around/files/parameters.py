@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from sambot_viz.checks.around.gazebo import Fact
+from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

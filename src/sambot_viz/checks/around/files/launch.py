@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz.checks.around.gazebo import Fact, Generation
-from sambot_viz.checks.around.launch_values import SHARE, LaunchValues, keyword
+from sambot_viz.checks.around.files.gazebo import Fact, Generation
+from sambot_viz.checks.around.files.launch_values import SHARE, LaunchValues, keyword
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 

@@ -1,0 +1,1 @@
+"""What the files around a model say: plugins, parameters, launch files, folders."""
