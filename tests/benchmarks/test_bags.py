@@ -19,16 +19,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from large_recording import TOPICS, messages, write
 from mcap.reader import make_reader
-from mcap.writer import CompressionType, Writer
 from rosbags.rosbag2 import Reader
 
 from sambot_viz.sources.bag import Bag, open_bag
 
 SIZE = 1_100_000_000
-TOPICS = ("/tf", "/joint_states", "/odom", "/scan", "/points", "/tf_static")
-START = 1_700_000_000 * 10**9
-STEP = 4_000_000
 OPENING = 1.0
 JUMP = 0.05
 MEMORY = 100.0
@@ -46,21 +43,6 @@ insert into schema values (3, 'humble');
 """Those of Humble, the last one that records db3 by default."""
 
 
-def messages() -> Iterator[tuple[int, int, bytes]]:
-    """Yield what a robot with a lidar records: number of the topic, time and bytes."""
-    rng = random.Random(1)
-    small = [rng.randbytes(size) for size in (120, 300, 1500, 3000)]
-    cloud = rng.randbytes(400_000)
-    yield 5, START, small[1]
-    number = total = 0
-    while total < SIZE:
-        number += 1
-        kind = 4 if number % 27 == 0 else number % 4
-        data = cloud if kind == 4 else small[kind]
-        yield kind, START + number * STEP, data
-        total += len(data)
-
-
 def write_db3(path: Path) -> None:
     with closing(sqlite3.connect(path)) as connection:
         connection.execute("pragma synchronous = off")
@@ -71,27 +53,9 @@ def write_db3(path: Path) -> None:
         )
         connection.executemany(
             "insert into messages(topic_id, timestamp, data) values (?, ?, ?)",
-            ((kind + 1, at, data) for kind, at, data in messages()),
+            ((kind + 1, at, data) for kind, at, data in messages(SIZE)),
         )
         connection.commit()
-
-
-def write(path: Path, *, chunks: bool) -> None:
-    """Write the messages by rosbag2's default in chunks, or as `fastwrite` does."""
-    with path.open("wb") as stream:
-        writer = Writer(
-            stream,
-            768 * 1024,
-            CompressionType.NONE,
-            use_chunking=chunks,
-            enable_crcs=False,
-        )
-        writer.start("ros2", "benchmark")
-        schema = writer.register_schema("a/msg/A", "ros2msg", b"uint8[] a")
-        channels = [writer.register_channel(name, "cdr", schema) for name in TOPICS]
-        for kind, at, data in messages():
-            writer.add_message(channels[kind], at, data, at)
-        writer.finish()
 
 
 @pytest.fixture(scope="module", params=[True, False], ids=["chunks", "fastwrite"])
@@ -99,7 +63,7 @@ def large(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Path]:
     path = tmp_path_factory.mktemp("bags") / "large.mcap"
-    write(path, chunks=request.param)
+    write(path, SIZE, chunks=request.param)
     yield path
     path.unlink()
 

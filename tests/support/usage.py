@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import re
 import time
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,10 +35,14 @@ class Usage:
 
 
 def usage(process: int) -> Usage:
-    """What a process has taken so far; without Linux the test is skipped."""
-    folder = Path("/proc") / str(process)
-    if not folder.is_dir():
+    """What a process has taken so far; without Linux the test is skipped.
+
+    Raises:
+        OSError: there is no such process.
+    """
+    if not Path("/proc").is_dir():
         pytest.skip("reads /proc")
+    folder = Path("/proc") / str(process)
     fields = (folder / "stat").read_text("utf-8").rpartition(")")[2].split()
     cpu = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
     text = (folder / "status").read_text("utf-8")
@@ -46,6 +52,32 @@ def usage(process: int) -> Usage:
         if (found := re.search(rf"{name}:\s+(\d+)", text))
     )
     return Usage(cpu, memory, peak, time.perf_counter())
+
+
+def family(process: int) -> Iterator[int]:
+    """The number of a process, and those of all that it has started."""
+    yield process
+    for children in (Path("/proc") / str(process)).glob("task/*/children"):
+        with suppress(OSError):
+            for child in children.read_text("utf-8").split():
+                yield from family(int(child))
+
+
+def family_usage(process: int) -> Usage:
+    """What a process and all that it has started have taken so far.
+
+    What has ended meanwhile does not count.
+    """
+    parts: list[Usage] = []
+    for member in family(process):
+        with suppress(OSError):
+            parts.append(usage(member))
+    return Usage(
+        sum(part.cpu for part in parts),
+        sum(part.memory for part in parts),
+        sum(part.peak for part in parts),
+        time.perf_counter(),
+    )
 
 
 def forget_peak(process: int) -> None:

@@ -8,24 +8,19 @@ from __future__ import annotations
 
 import json
 import os
-import random
 import re
 import select
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
-from mcap.writer import CompressionType, Writer
+from large_recording import MOVING as TOPICS
 from tests.benchmarks.peers.driven import NotMeasured
 from tests.benchmarks.peers.environments import Environment
 from tests.benchmarks.peers.viewers import Found
+from usage import family_usage
 
-TOPICS = ("/tf", "/joint_states", "/odom", "/scan", "/points")
-START = 1_700_000_000 * 10**9
-STEP = 4_000_000
-"""Between two messages [ns]."""
 JUMP = """
 import json, random, resource, sys, time
 OPEN
@@ -65,31 +60,6 @@ def jump(reader, at):
     for topic in TOPICS:
         next(iter(reader.iter_messages([topic], end_time=at, reverse=True)))
 """
-
-
-def write(path: Path, size: int) -> None:
-    """Write a recording of about `size` bytes."""
-    with path.open("wb") as stream:
-        writer = Writer(stream, 768 * 1024, CompressionType.NONE, enable_crcs=False)
-        writer.start("ros2", "benchmark")
-        schema = writer.register_schema("a/msg/A", "ros2msg", b"uint8[] a")
-        channels = [writer.register_channel(name, "cdr", schema) for name in TOPICS]
-        for kind, at, data in _messages(size):
-            writer.add_message(channels[kind], at, data, at)
-        writer.finish()
-
-
-def _messages(size: int) -> Iterator[tuple[int, int, bytes]]:
-    rng = random.Random(1)
-    small = [rng.randbytes(length) for length in (120, 300, 1500, 3000)]
-    cloud = rng.randbytes(400_000)
-    number = total = 0
-    while total < size:
-        number += 1
-        kind = 4 if number % 27 == 0 else number % 4
-        data = cloud if kind == 4 else small[kind]
-        yield kind, START + number * STEP, data
-        total += len(data)
 
 
 def measure_library(ours: bool, recording: Path, found: Found) -> None:
@@ -152,17 +122,11 @@ def _wait_for_address(process: subprocess.Popen[str]) -> None:
 def _settled_memory(process: int) -> float:
     """The memory once the process has computed next to nothing for a second [MB]."""
     end = time.perf_counter() + 90.0
-    before = _ticks(process)
+    before = now = family_usage(process)
     while time.perf_counter() < end:
         time.sleep(1.0)
-        now = _ticks(process)
-        if now - before < 0.05 * os.sysconf("SC_CLK_TCK"):
+        now = family_usage(process)
+        if now.share_since(before) < 0.05:
             break
         before = now
-    pages = Path(f"/proc/{process}/statm").read_text("utf-8").split()[1]
-    return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
-def _ticks(process: int) -> int:
-    fields = Path(f"/proc/{process}/stat").read_text("utf-8").rpartition(")")[2].split()
-    return int(fields[11]) + int(fields[12])
+    return now.memory

@@ -8,15 +8,15 @@ import select
 import subprocess
 import tempfile
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from tests.benchmarks.peers.environments import Environment
 from tests.benchmarks.peers.peers import DRIVERS, Viewer
 from tests.benchmarks.peers.robots import Model
+from usage import Usage, family, family_usage
 
 LONGEST = 120.0
 """How long a driver may take for an answer [s]."""
@@ -24,19 +24,6 @@ LONGEST = 120.0
 
 class NotMeasured(Exception):
     """A peer does not do what is measured; says why."""
-
-
-@dataclass(frozen=True, slots=True)
-class Load:
-    """What a driver and its children have taken so far: computing [s], memory [MB]."""
-
-    cpu: float
-    memory: float
-    at: float
-
-    def share_since(self, before: Load) -> float:
-        """Of one core, since then: 0.5 is half of it."""
-        return (self.cpu - before.cpu) / (self.at - before.at)
 
 
 class Driven:
@@ -77,19 +64,9 @@ class Driven:
         """The answer to what was told."""
         return self._answer()
 
-    def load(self) -> Load:
+    def load(self) -> Usage:
         """What it has taken until now, with its children."""
-        cpu = memory = 0.0
-        for process in _tree(self._process.pid):
-            try:
-                fields = (process / "stat").read_text("utf-8").rpartition(")")[2]
-                pages = int((process / "statm").read_text("utf-8").split()[1])
-            except OSError:
-                continue
-            ticks = sum(map(int, fields.split()[11:13]))
-            cpu += ticks / os.sysconf("SC_CLK_TCK")
-            memory += pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-        return Load(cpu, memory, time.perf_counter())
+        return family_usage(self._process.pid)
 
     def _answer(self) -> dict[str, Any]:
         assert self._process.stdout is not None
@@ -108,18 +85,6 @@ class Driven:
     def _last_words(self) -> str:
         lines = self._log.read_text("utf-8", "replace").strip().splitlines()
         return lines[-1][:160] if lines else "ended without a word"
-
-
-def _tree(process: int) -> Iterator[Path]:
-    folder = Path("/proc") / str(process)
-    yield folder
-    for children in folder.glob("task/*/children"):
-        try:
-            found = children.read_text("utf-8").split()
-        except OSError:
-            continue
-        for child in found:
-            yield from _tree(int(child))
 
 
 @contextmanager
@@ -154,7 +119,7 @@ def drive(viewer: Viewer, environment: Environment, model: Model) -> Generator[D
 
 def _end(process: subprocess.Popen[str]) -> None:
     """Close what it reads, which ends it; insist when that does not."""
-    children = [int(folder.name) for folder in _tree(process.pid)][1:]
+    children = [*family(process.pid)][1:]
     for stream in (process.stdin, process.stdout):
         if stream is not None:
             stream.close()

@@ -13,12 +13,13 @@ from functools import partial
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from tests.benchmarks.peers.driven import Driven, Load, NotMeasured, drive
+from tests.benchmarks.peers.driven import Driven, NotMeasured, drive
 from tests.benchmarks.peers.environments import Environment
 from tests.benchmarks.peers.peers import Viewer
 from tests.benchmarks.peers.picture import Watched
 from tests.benchmarks.peers.robots import Model
 from tests.benchmarks.peers.watchers import Frame, Watchers, watching
+from usage import Usage
 
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.devtools import BrowserError
@@ -148,7 +149,7 @@ def measure_moving(
             cost(driven, None, "one", 1, found)
             cost(driven, None, "all", 10_000, found)
             return
-        first: Load | None = None
+        first: Usage | None = None
         for count in CLIENTS:
             with watching(*socket_of(viewer, driven), count) as clients:
                 load = driven.load()
