@@ -88,13 +88,7 @@ class Camera:
         if fov == self.fov:
             return self
         away = self.distance * math.tan(self.fov / 2.0) / math.tan(fov / 2.0)
-        return replace(
-            self,
-            position=self.look_at - self.forward * away,
-            fov=fov,
-            near=max(0.01, away - ORTHO_HEIGHT),
-            far=max(FAR, 2.0 * away),
-        )
+        return self._from_away(away, fov)
 
     def placed(self, position: Vector, look_at: Vector, up: Vector) -> Camera:
         """Return the same camera at another place."""
@@ -161,13 +155,16 @@ class Camera:
             away, fov = ORTHO_HEIGHT, 2.0 * math.atan(half / ORTHO_HEIGHT)
         else:
             away = half / math.tan(fov / 2.0)
+        return replace(self._from_away(away, fov), scale=None)
+
+    def _from_away(self, away: float, fov: float) -> Camera:
+        """Return a camera so far from `look_at`, which shows what is around it."""
         return replace(
             self,
             position=self.look_at - self.forward * away,
             fov=fov,
             near=max(0.01, away - ORTHO_HEIGHT),
             far=max(FAR, 2.0 * away),
-            scale=None,
         )
 
     def as_orthographic(self, height: int) -> Camera:
