@@ -212,7 +212,8 @@ def test_a_private_session_changes_no_file_of_poses(
     with Visualizer(model, poses=poses, session="private") as viz:
         first, second = (protocol(viz.viser.get_port()) for _ in range(2))
         for client in (first, second):
-            client.wait_until(lambda c=client: "poses/save" in c.rows)
+            client.settle(viz.viser)
+            assert "poses/save" in client.rows
             assert client.row("poses/names")["value"] == ["given"]
         first.act("poses/save", "of a visitor")
         first.wait_until(lambda: "of a visitor" in first.row("poses/names")["value"])
