@@ -23,7 +23,8 @@ from sambot_viz.robot.slips.follow_ups import report_slips
 from sambot_viz.robot.slips.misspelt import find_slips
 from sambot_viz.robot.slips.needs_xacro import (
     OWN_TAGS,
-    first_xacro,
+    first_own,
+    first_substitution,
     left_over,
     missing_prefixes,
     only_names_files,
@@ -100,24 +101,26 @@ class _Loader:
 
     def load(self) -> LoadedModel:
         problems = list(self.opened.source.problems)
-        undeclared = undeclared_prefix(self.opened.document, self.opened.source.path)
+        document, path = self.opened.document, self.opened.source.path
+        own = first_own(document)
+        undeclared = undeclared_prefix(document, own, path)
         if undeclared is not None:
             # urdfdom does not look at prefixes: for ROS this is plain URDF.
-            return self._robot(self.opened.document, None, [*problems, undeclared])
-        xacro = first_xacro(self.opened.document)
+            return self._robot(document, None, [*problems, undeclared])
+        xacro = own or first_substitution(document)
         if xacro is None:
-            problems += missing_prefixes(self.opened.document)
-            return self._robot(self.opened.document, None, problems)
-        if calls := left_over(self.opened.document, self.opened.source.path):
-            return self._robot(self.opened.document, None, [*problems, *calls])
+            problems += missing_prefixes(document)
+            return self._robot(document, None, problems)
+        if calls := left_over(document, path):
+            return self._robot(document, None, [*problems, *calls])
         try:
             expanded = self.expanded()
         except RobotError as error:
-            if not only_names_files(self.opened.document):
+            if not only_names_files(document):
                 raise
             # urdfdom accepts "$(arg …)" in a file name and does not find the file.
             problems += [replace(p, severity="warning") for p in error.problems]
-            return self._robot(self.opened.document, None, problems)
+            return self._robot(document, None, problems)
         problems += _note_ending(self.opened.source, xacro)
         problems += expanded.problems
         return self._robot(expanded.root, expanded, problems)

@@ -76,10 +76,11 @@ class _Search:
             element, tag, slip = stack.pop()
             if slip is not None:
                 yield slip
-            if tag not in self.vocabulary.words:
+            word = self.vocabulary.words.get(tag)
+            if word is None:
                 continue
             yield from self._attributes(element, tag)
-            if not self.vocabulary.words[tag].opaque:
+            if element.children and not word.opaque:
                 stack.extend(reversed(list(self._children(element, tag))))
 
     def _children(
@@ -88,9 +89,10 @@ class _Search:
         """Yield the children, which element each is meant to be, and its slip."""
         free: list[str] | None = None
         left = MOST_SLIPS
+        known = self.vocabulary.words[tag].has
         for number, child in enumerate(element.children):
             slip = None
-            is_known = self.vocabulary.knows(tag, child.tag) or ":" in child.tag
+            is_known = child.tag in known or ":" in child.tag
             if not is_known and left:
                 if free is None:
                     present = [other.tag for other in element.children]
@@ -100,7 +102,7 @@ class _Search:
             yield child, child.tag if slip is None else slip.right, slip
 
     def _attributes(self, element: Element, tag: str) -> Iterator[Slip]:
-        known = self.vocabulary.attributes(tag)
+        known = self.vocabulary.words[tag].named
         unknown = [n for n in element.attributes if n not in known and ":" not in n]
         if not unknown:
             return
@@ -142,7 +144,7 @@ class _Search:
         fitting = [
             other
             for other in once
-            if other in free and names <= set(self.vocabulary.attributes(other))
+            if other in free and names <= set(self.vocabulary.words[other].named)
         ]
         return fitting[0] if len(fitting) == 1 else None
 

@@ -6,6 +6,7 @@ The content decides, not the ending of the file name.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem
@@ -22,24 +23,24 @@ _PARTS = ("include", "macro")
 _SUBSTITUTION = re.compile(r"\$[{(]")
 
 
-def first_xacro(document: Element) -> Element | None:
-    """Find the first element for which a document needs xacro, or None.
+def first_own(document: Element) -> Element | None:
+    """Find the first of xacro's own elements, or with one of its attributes."""
+    return next(filter(_is_own, document.iter()), None)
 
-    These are xacro's own elements and attributes, and a substitution where URDF needs
-    a value. ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro
-    could fail there although ROS does not use the value. In SDF, which launch files
-    always give to xacro, every substitution counts.
+
+def first_substitution(document: Element) -> Element | None:
+    """Find the first element with an expression where the format needs a value.
+
+    ``$(find …)`` in a Gazebo plugin or in a comment does not count: xacro could fail
+    there although ROS does not use the value. In SDF, which launch files always give to
+    xacro, every substitution counts.
     """
-    for element in document.iter():
-        if _is_own(element):
-            return element
-    return _first_substitution(document)
-
-
-def _first_substitution(document: Element) -> Element | None:
-    """Find the first element with an expression where the format needs a value."""
     if document.tag == "sdf":
-        return next(filter(_has_substitution, document.iter()), None)
+        every = document.iter()
+        return next(
+            (e for e in every if _has_substitution((e.text, *e.attributes.values()))),
+            None,
+        )
     robot = document if document.tag == "robot" else document.find("robot")
     parts = robot.children if robot is not None else []
     return next(
@@ -48,7 +49,7 @@ def _first_substitution(document: Element) -> Element | None:
             for part in parts
             if part.tag in ("link", "joint", "material")
             for element in part.iter()
-            if any(_SUBSTITUTION.search(v) for v in element.attributes.values())
+            if _has_substitution(element.attributes.values())
         ),
         None,
     )
@@ -72,7 +73,7 @@ def left_over(document: Element, path: Path | None) -> list[Problem]:
         return []
     own = [element for element in document.iter() if _is_own(element)]
     calls = [e for e in own if e.tag.startswith(_PREFIX) and not _may_be_own_tag(e.tag)]
-    if len(calls) < len(own) or _first_substitution(document) is not None:
+    if len(calls) < len(own) or first_substitution(document) is not None:
         return []
     return [
         Problem.at(
@@ -92,14 +93,20 @@ def _may_be_own_tag(tag: str) -> bool:
     return meant(tag.removeprefix(_PREFIX), OWN_TAGS) is not None
 
 
-def _has_substitution(element: Element) -> bool:
-    values = (element.text, *element.attributes.values())
-    return any(_SUBSTITUTION.search(value) for value in values)
+def _has_substitution(values: Iterable[str]) -> bool:
+    for value in values:
+        if "$" in value and _SUBSTITUTION.search(value):
+            return True
+    return False
 
 
 def _is_own(element: Element) -> bool:
-    names = (element.tag, *element.attributes)
-    return any(name.startswith(_PREFIX) for name in names)
+    if element.tag.startswith(_PREFIX):
+        return True
+    for name in element.attributes:
+        if name.startswith(_PREFIX):
+            return True
+    return False
 
 
 def only_names_files(document: Element) -> bool:
@@ -145,26 +152,26 @@ def missing_prefixes(document: Element) -> list[Problem]:
     ]
 
 
-def undeclared_prefix(document: Element, path: Path | None) -> Problem | None:
+def undeclared_prefix(
+    document: Element, first: Element | None, path: Path | None
+) -> Problem | None:
     """Make the warning for a .urdf file that uses ``xacro:`` without declaring it.
 
     xacro refuses such a file, but the nodes of ROS read a .urdf file without xacro, and
     they ignore elements they do not know.
 
+    Args:
+        document: the root element.
+        first: the first element that is xacro's own, or None.
+        path: the file; None for a text.
+
     Returns:
         None when the prefix is declared or not used, or when the file is meant for
         xacro by its name: then it is an error.
     """
-    if path is None or path.suffix.lower() != ".urdf":
+    if first is None or path is None or path.suffix.lower() != ".urdf":
         return None
-    first: Element | None = None
-    for element in document.iter():
-        if "xmlns:xacro" in element.attributes:
-            return None
-        names = (element.tag, *element.attributes)
-        if first is None and any(name.startswith(_PREFIX) for name in names):
-            first = element
-    if first is None:
+    if any("xmlns:xacro" in element.attributes for element in document.iter()):
         return None
     return Problem.at(
         first.place,

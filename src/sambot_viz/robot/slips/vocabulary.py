@@ -5,12 +5,12 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 _LIKENESS = 0.7
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Word:
     """One element: what it may have. Names are separated by blanks.
 
@@ -30,6 +30,16 @@ class Word:
     one_of: bool = False
     opaque: bool = False
 
+    @cached_property
+    def named(self) -> tuple[str, ...]:
+        """The names of its attributes."""
+        return tuple(self.attributes.split())
+
+    @cached_property
+    def has(self) -> frozenset[str]:
+        """The children that it may have."""
+        return frozenset(f"{self.once} {self.many} {self.also}".split())
+
 
 @dataclass(frozen=True, slots=True)
 class Vocabulary:
@@ -48,19 +58,10 @@ class Vocabulary:
     synonyms: Mapping[str, str] = field(default_factory=dict[str, str])
     enclosed: Mapping[str, str] = field(default_factory=dict[str, str])
 
-    def attributes(self, tag: str) -> list[str]:
-        """Return the attributes of an element."""
-        return list(_names(self.words[tag].attributes))
-
     def children(self, tag: str) -> list[str]:
         """Return the children that an element may have and that are looked into."""
         word = self.words[tag]
         return [*word.once.split(), *word.many.split()]
-
-    def knows(self, parent: str, tag: str) -> bool:
-        """Tell whether an element may be there."""
-        word = self.words[parent]
-        return any(tag in _names(part) for part in (word.once, word.many, word.also))
 
     def parents(self, tag: str) -> list[str]:
         """Return the elements in which an element may be."""
@@ -88,12 +89,6 @@ class Vocabulary:
             return []
         repeated = [*word.many.split(), *word.also.split()]
         return [tag for tag in once if tag not in there] + repeated
-
-
-@lru_cache
-def _names(text: str) -> tuple[str, ...]:
-    """Split a list of names once: a model asks for it at each element."""
-    return tuple(text.split())
 
 
 def meant(name: str, names: Iterable[str]) -> str | None:

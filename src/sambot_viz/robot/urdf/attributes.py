@@ -56,7 +56,7 @@ def read_numbers(text: str, count: int) -> tuple[float, ...]:
     parts = text.split()
     if "," in text or ";" in text:
         raise BadNumber(*_without_commas(text, count))
-    numbers = tuple(_component(part, text) for part in parts)
+    numbers = tuple([_component(part, text) for part in parts])
     if len(numbers) != count:
         needed = _WORDS.get(count, str(count))
         have = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
@@ -287,7 +287,7 @@ class AttributeReader:
         self, element: Element, name: str, values: tuple[float, ...]
     ) -> tuple[float, ...]:
         """The numbers, each brought into the range that can be shown."""
-        if name in _NOT_DRAWN or all(-LARGEST <= v <= LARGEST for v in values):
+        if name in _NOT_DRAWN or max(map(abs, values)) <= LARGEST:
             return values
         self.findings.warn(
             "number-too-large",

@@ -7,7 +7,6 @@ read ends the link, and what was read before it stays.
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 from collections.abc import Callable
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from sambot_viz.robot.parts import (
     Link,
     Material,
     MeshFile,
+    Origin,
     Shape,
     Sphere,
 )
@@ -121,24 +121,20 @@ class LinkReader:
         Each has the last material before it, or the `current` one.
         """
         shapes: list[Shape] = []
-        for element in link.find_all(tag):
-            loss = self._loss(link, name, element)
+        elements = link.find_all(tag)
+        bodies = len(link.find_all("collision")) if tag == "visual" else 0
+        for number, element in enumerate(elements, 1):
+            loss = _loss(name, tag, len(elements) - number, bodies)
             try:
-                shape = self._shape(element, f"a {tag} of link {name}", loss)
+                geometry, origin = self._solid(element, f"a {tag} of link {name}", loss)
                 if tag == "visual":
                     current = self._material(element, name, loss) or current
             except Unreadable:
                 complete = False
                 continue
             if complete:
-                shapes.append(dataclasses.replace(shape, material=current))
+                shapes.append(_shape(element, geometry, origin, current))
         return shapes, complete
-
-    def _loss(self, link: Element, name: str, element: Element) -> str:
-        later = _later_shapes(link, element)
-        if later:
-            return f"ROS loads {name} without this shape and the {later} after it"
-        return f"ROS loads {name} without this shape"
 
     def _material(self, visual: Element, link: str, loss: str) -> Material | None:
         element = visual.find("material")
@@ -154,14 +150,12 @@ class LinkReader:
             raise Unreadable("material without name")
         return self._materials.of_visual(element)
 
-    def _shape(self, element: Element, owner: str, loss: str) -> Shape:
+    def _solid(
+        self, element: Element, owner: str, loss: str
+    ) -> tuple[Geometry, Origin]:
         reader = AttributeReader(self._findings, self._findings.error, owner, loss)
         origin = reader.origin(element)
-        geometry = self._geometry(element, owner, loss, reader)
-        inner = element.find("geometry")
-        solid = inner.children[0].place if inner and inner.children else None
-        name = element.get("name") or ""
-        return Shape(geometry, origin, None, name, element.place, solid)
+        return self._geometry(element, owner, loss, reader), origin
 
     def _geometry(
         self, shape: Element, owner: str, loss: str, reader: AttributeReader
@@ -184,9 +178,11 @@ class LinkReader:
                 "give each shape its own element",
                 element.children[1],
             )
-        return self._solid(element.children[0], owner, reader)
+        return self._geometry_of(element.children[0], owner, reader)
 
-    def _solid(self, element: Element, owner: str, reader: AttributeReader) -> Geometry:
+    def _geometry_of(
+        self, element: Element, owner: str, reader: AttributeReader
+    ) -> Geometry:
         match element.tag:
             case "box":
                 return Box(self._size(element, reader))
@@ -222,7 +218,8 @@ class LinkReader:
         return Unreadable(element.tag)
 
     def _size(self, element: Element, reader: AttributeReader) -> Vector3:
-        reader.required(element, "size", size_of_three(element) or "1 1 1")
+        if element.get("size") is None:
+            reader.required(element, "size", size_of_three(element) or "1 1 1")
         return reader.vector(element, "size", (0.0, 0.0, 0.0))
 
     def _radius_and_length(
@@ -275,16 +272,29 @@ def _has_shapes(link: Element) -> bool:
     return any(child.tag in ("visual", "collision") for child in link.children)
 
 
-def _later_shapes(link: Element, element: Element) -> str:
-    """Name what urdfdom reads after this shape, and loses with it."""
-    visuals, collisions = link.find_all("visual"), link.find_all("collision")
-    order = [*visuals, *collisions]
-    rest = order[order.index(element) + 1 :]
-    shapes = sum(1 for other in rest if other.tag == "visual")
-    bodies = len(rest) - shapes
+def _shape(
+    element: Element, geometry: Geometry, origin: Origin, material: Material | None
+) -> Shape:
+    inner = element.find("geometry")
+    solid = inner.children[0].place if inner and inner.children else None
+    name = element.get("name") or ""
+    return Shape(geometry, origin, material, name, element.place, solid)
+
+
+def _loss(name: str, tag: str, later: int, bodies: int) -> str:
+    """Say what urdfdom loses with a shape.
+
+    Args:
+        name: of the link.
+        tag: of the shape.
+        later: how many of its tag come after it.
+        bodies: how many collisions come after all of these.
+    """
     parts = [
         f"{count} {word}{'' if count == 1 else 's'}"
-        for count, word in ((shapes, "visual"), (bodies, "collision"))
+        for count, word in ((later, tag), (bodies, "collision"))
         if count
     ]
-    return " and ".join(parts)
+    if not parts:
+        return f"ROS loads {name} without this shape"
+    return f"ROS loads {name} without this shape and the {' and '.join(parts)} after it"

@@ -22,6 +22,7 @@ _MOST_ELEMENTS = 2_000_000
 """About 1 GB of memory; 200,000 links with joints are 1.2 million elements."""
 _MOST_CHARACTERS = 64_000_000
 """Limit for values and texts of a document that defines entities of its own."""
+_NOTHING = frozenset[str]()
 
 
 def parse_xml(text: str, file: str, *, most_elements: int = _MOST_ELEMENTS) -> Element:
@@ -77,21 +78,21 @@ class _TreeBuilder:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         line = self._parser.CurrentLineNumber
         place = Place(self._file, line, self._parser.CurrentColumnNumber + 1)
-        element = Element(tag, attributes, place)
+        parent = self._stack[-1] if self._stack else None
+        # Each field is given: their defaults would be calls, at every element.
+        element = Element(tag, attributes, place, [], "", parent, {}, _NOTHING, None)
         self._look_inside_tag(element, line)
         self._check_limits(attributes)
-        if self._stack:
-            element.parent = self._stack[-1]
-            self._stack[-1].children.append(element)
-        else:
+        if parent is None:
             self._root = element
+        else:
+            parent.children.append(element)
         self._stack.append(element)
         self._pieces.append([])
 
     def _look_inside_tag(self, element: Element, line: int) -> None:
         start = self._parser.CurrentByteIndex
-        end = self._data.find(b">", start)
-        tag = self._data[start:end]
+        tag = self._data[start : self._data.find(b">", start)]
         if b"\n" not in tag and b"\t" not in tag:
             return
         lines: dict[str, int] = {}
@@ -124,7 +125,9 @@ class _TreeBuilder:
 
     def _end(self, _tag: str) -> None:
         element = self._stack.pop()
-        element.text = "".join(self._pieces.pop())
+        pieces = self._pieces.pop()
+        if pieces:
+            element.text = "".join(pieces)
 
     def _characters(self, data: str) -> None:
         self._pieces[-1].append(data)
@@ -189,7 +192,10 @@ class Element:
 
     def find(self, tag: str) -> Element | None:
         """Return the first child with that tag, or None."""
-        return next((child for child in self.children if child.tag == tag), None)
+        for child in self.children:
+            if child.tag == tag:
+                return child
+        return None
 
     def find_all(self, tag: str) -> list[Element]:
         """Return all children with that tag, in document order."""
@@ -205,7 +211,8 @@ class Element:
         while stack:
             element = stack.pop()
             yield element
-            stack.extend(reversed(element.children))
+            if element.children:
+                stack.extend(reversed(element.children))
 
     def line_of(self, attribute: str | None) -> int:
         """Return the line of an attribute, or of the tag where no more is known."""
