@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,13 +20,10 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
-GROUPS = {
-    "tests/browser/tasks/": "tasks",
-    "tests/browser/": "browser",
-    "tests/golden/": "golden",
-    "tests/jupyter/": "jupyter",
-}
-"""What a test's name begins with → the tests that one worker runs."""
+PAGES = ("tests/browser/", "tests/golden/", "tests/jupyter/")
+"""What the names of tests begin with that open pages: they compute, and they wait."""
+TOGETHER = ("tests/browser/tasks/", "tests/jupyter/")
+"""Folders whose tests share servers and pages."""
 TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
 """The environment variable with the order of the browser tasks."""
 
@@ -36,15 +34,31 @@ def pytest_configure() -> None:
 
 
 @pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """Start half as many workers again as there are cores: pages are waited for."""
+    cores = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count()
+    return (cores or 1) * 3 // 2
+
+
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Let one worker of pytest-xdist run the tests that share a browser and pages."""
+    """Let one worker of pytest-xdist run a file, or a folder that shares pages."""
     # Marks do not: xdist 3.8 adds them to an attribute that pytest 9.2 does not have.
     from xdist.scheduler import LoadScopeScheduling
 
     class ByPages(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            fitting = (GROUPS[start] for start in GROUPS if nodeid.startswith(start))
-            return next(fitting, nodeid)
+            fitting = (start for start in TOGETHER if nodeid.startswith(start))
+            return next(fitting, nodeid.partition("::")[0])
+
+        def _assign_work_unit(self, node: Any) -> None:
+            # One worker computes while others wait for their pages; all end with
+            # what is left.
+            pages = node is not self.nodes[0]
+            fitting = (s for s in self.workqueue if s.startswith(PAGES) == pages)
+            if (first := next(fitting, None)) is not None:
+                self.workqueue.move_to_end(first, last=False)
+            super()._assign_work_unit(node)
 
     return ByPages(config, log)
 
