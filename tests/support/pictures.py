@@ -75,8 +75,13 @@ def near_part(a: Mask, b: Mask, pixels: int = 1) -> float:
 
 def flat(image: Image) -> Mask:
     """The pixels in the middle of a square of one colour."""
-    windows = np.lib.stride_tricks.sliding_window_view(image, (PATCH, PATCH), (0, 1))
-    even = (windows.max(axis=(-1, -2)) - windows.min(axis=(-1, -2))).max(axis=-1) <= 2
+    height, width = (size - PATCH + 1 for size in image.shape[:2])
+
+    def of_squares(extreme: np.ufunc) -> Image:
+        rows = extreme.reduce([image[n : n + height] for n in range(PATCH)])
+        return extreme.reduce([rows[:, n : n + width] for n in range(PATCH)])
+
+    even = (of_squares(np.maximum) - of_squares(np.minimum)).max(axis=-1) <= 2
     return np.asarray(np.pad(even, PATCH // 2))
 
 
