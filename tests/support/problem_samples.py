@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import yaml
+from quick_yaml import quick_yaml
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
@@ -90,7 +90,7 @@ def _without_folder(problem: Problem, folder: str) -> Problem:
 @cache
 def all_samples() -> tuple[Sample, ...]:
     """One for every code, in the order of the list."""
-    entries: list[dict[str, Any]] = yaml.safe_load(LIST.read_text("utf-8"))
+    entries: list[dict[str, Any]] = quick_yaml(LIST)
     return tuple(_sample(entry) for entry in entries)
 
 

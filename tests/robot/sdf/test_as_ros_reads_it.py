@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 from expected_robot import assert_as_expected
+from quick_yaml import quick_yaml
 
 from sambot_viz import RobotError, load_robot
 
@@ -26,7 +26,7 @@ DIFFERENT = {
 
 
 def _entries(file: Path) -> list[dict[str, Any]]:
-    return yaml.safe_load(file.read_text("utf-8")) if file.is_file() else []
+    return quick_yaml(file) if file.is_file() else []
 
 
 def _of(file: Path, *, ours: bool = False) -> list[Any]:

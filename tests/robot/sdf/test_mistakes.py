@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from quick_yaml import quick_yaml
 
 from sambot_viz import Problem, check
 
 WRONG = Path(__file__).parents[2] / "data" / "sdf" / "wrong"
-ENTRIES: list[dict[str, Any]] = yaml.safe_load((WRONG / "index.yaml").read_text())
+ENTRIES: list[dict[str, Any]] = quick_yaml(WRONG / "index.yaml")
 
 CODES = {
     "joint-pose-without-relative-to.sdf": "sdf-pose-cycle",

@@ -10,14 +10,15 @@ import pytest
 import yaml
 from inside import session_of
 from made_recording import Message, write_messages
+from quick_yaml import quick_yaml
 from situations import START_NS, good_message
 from status_world import transforms
 from visible_steps import steps_to
 
 from sambot_viz import Visualizer
 
-RECORDED: Mapping[str, Sequence[float]] = yaml.safe_load(
-    (Path(__file__).parent / "statuses.yaml").read_text()
+RECORDED: Mapping[str, Sequence[float]] = quick_yaml(
+    Path(__file__).parent / "statuses.yaml"
 )["marker_life_times"]
 END_S, STEP_S = 8.0, 0.1
 BEFORE_S = 2.5

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+from quick_yaml import quick_yaml
 from situations import display_of, frame_of
 from status_world import Rows, World, statuses_in
 
 HERE = Path(__file__).parent
-RECORDED: Mapping[str, Any] = yaml.safe_load((HERE / "statuses.yaml").read_text())
-DIFFERENCES = yaml.safe_load((HERE / "differences.yaml").read_text())
+RECORDED: Mapping[str, Any] = quick_yaml(HERE / "statuses.yaml")
+DIFFERENCES = quick_yaml(HERE / "differences.yaml")
 GROUPS: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "once": ("each_message_sent_once", {}),
     "often": ("sent_at_5_hz_for_6_s", {"count": 12}),
