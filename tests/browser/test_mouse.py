@@ -136,7 +136,7 @@ def show_alone(
         path = tmp_path / "view.rviz"
         path.write_text(config(kind, **values), "utf-8")
         viz = make_viz(config=path)
-        viewer = open_viewer(viz.url, touch=touch, resolution=1)
+        viewer = open_viewer(viz.url, touch=touch)
         viewer.wait_for_nodes(node_of(viz, "drivewhl_l_link"))
         viewer.wait_for(f"window.sambotVizMouse?.kind === {kind!r}")
         # The camera of the view has taken the place of viser's, at (3, 3, 3).

@@ -59,7 +59,7 @@ def config() -> str:
 
 @pytest.fixture
 def desk(sit: Callable[..., Desk]) -> Desk:
-    desk = sit("S tools", config(), 1.0)
+    desk = sit("S tools", config())
     desk.viewer.wait_for_nodes(node_of(desk.viz, "drivewhl_l_link"))
     is_seen(desk.viewer)
     desk.settle()
@@ -350,7 +350,7 @@ def test_a_button_of_the_toolbar_leaves_select(desk: Desk) -> None:
 
 def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     session = session_of(own)
-    viewer = open_viewer(own.url, width=1024, height=768, touch=True, resolution=1)
+    viewer = open_viewer(own.url, width=1024, height=768, touch=True)
     viewer.wait_for_nodes(node_of(own, "drivewhl_l_link"))
     viewer.settle(own)
     touch, tools = viewer.page.touch, tools_of(session)
