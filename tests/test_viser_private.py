@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 import viser
+from PIL import Image
 from protocol_client import decode_frame
 
 from sambot_viz import viser_private
@@ -40,6 +43,20 @@ def test_what_a_page_receives_is_counted_in_bytes(server: viser.ViserServer) -> 
     server.scene.add_mesh_simple("/mesh", corners, np.zeros((200, 3), np.uint32))
     added = viser_private.scene_bytes(server.scene) - before
     assert 3000 + 4800 + 2400 <= added < 12000
+
+
+def test_the_background_is_one_pixel_of_a_colour(server: viser.ViserServer) -> None:
+    viser_private.fill_background(server.scene, (48, 255, 0))
+    *_, message = viser_private.broadcast_buffer(server).message_from_id.values()
+    ours: Any = message
+    assert (ours.format, ours.depth_data) == ("png", None)
+    with Image.open(io.BytesIO(ours.rgb_data)) as picture:
+        assert (picture.size, picture.mode) == ((1, 1), "RGB")
+        assert picture.getpixel((0, 0)) == (48, 255, 0)
+    server.scene.set_background_image(np.array([[[48, 255, 0]]], np.uint8), "png")
+    *_, message = viser_private.broadcast_buffer(server).message_from_id.values()
+    theirs: Any = message
+    assert ours.redundancy_key() == theirs.redundancy_key()
 
 
 def test_what_goes_to_all_browsers_is_in_one_buffer_with_a_loop_of_its_own(

@@ -24,6 +24,7 @@ from sambot_viz.viser_private.outgoing import (
 )
 from sambot_viz.viser_private.recorder import Recorder
 from sambot_viz.viser_private.scene import (
+    fill_background,
     is_removed,
     node_count,
     remember_prop_types,
@@ -51,6 +52,7 @@ __all__ = [
     "broadcast_buffer",
     "connection_of",
     "drawn_by",
+    "fill_background",
     "input_handle",
     "is_for_all",
     "is_removed",

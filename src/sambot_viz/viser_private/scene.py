@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import itertools
+import struct
+import zlib
 from typing import Any, cast
 
 import viser
@@ -53,6 +55,34 @@ def set_pose(
     if position is not None:
         state.position[:] = position
         send(_messages.SetPositionMessage(state.name, position))
+
+
+def fill_background(scene: viser.SceneApi, color: tuple[int, int, int]) -> None:
+    """Give the picture behind a scene one colour.
+
+    viser's own function loads Pillow for the encoding of one pixel, which is a sixth of
+    what the start of a server computes.
+
+    Args:
+        scene: the scene.
+        color: red, green and blue, 0 to 255.
+    """
+    interface: Any = scene._websock_interface  # pyright: ignore[reportPrivateUsage]
+    interface.queue_message(
+        _messages.BackgroundImageMessage("png", _pixel(color), None)
+    )
+
+
+def _pixel(color: tuple[int, int, int]) -> bytes:
+    """A PNG file of one pixel."""
+    # Width, height, 8 bits for each of red, green and blue.
+    header = struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)
+    row = zlib.compress(bytes((0, *color)))
+    chunks = b"IHDR" + header, b"IDAT" + row, b"IEND"
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+        for chunk in chunks
+    )
 
 
 def share_arrays(handle: viser.SceneNodeHandle, **arrays: object) -> None:

@@ -6,8 +6,6 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Sequence, S
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
 from sambot_viz.displays.display import Display, DisplayContext, Status, robot_displays
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_display import ModelReader
@@ -19,6 +17,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import ConfigItem, DisplayConfig
 from sambot_viz.session.scene.anchors import Anchors
 from sambot_viz.session.signals import Audience, Change, Signal, connect
+from sambot_viz.viser_private import fill_background
 
 
 class Scene:
@@ -107,8 +106,7 @@ class Scene:
         background = options.get("Background Color")
         if background != self._background:
             self._background = self.context.background = background
-            pixel = np.array([[background]], dtype=np.uint8)
-            self.context.scene.set_background_image(pixel, format="png")
+            fill_background(self.context.scene, background)
 
     # Drawing
 
