@@ -36,6 +36,9 @@ def finite(value: Any) -> float | None:
 
     Arrays without dimensions are numbers too.
     """
+    if type(value) is float:
+        # Nearly all are, and each joint of each step is asked.
+        return value if math.isfinite(value) else None
     if isinstance(value, np.ndarray):
         array = cast("npt.NDArray[Any]", value)
         value = array[()] if array.ndim == 0 else None

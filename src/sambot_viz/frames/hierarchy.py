@@ -78,6 +78,11 @@ class FrameHierarchy:
         edge = self._edges.get(plain_name(frame))
         return edge.parent if edge else None
 
+    def transform_of(self, frame: str) -> Transform | None:
+        """Return the latest T_parent_frame, or None for a root or an unknown frame."""
+        edge = self._edges.get(plain_name(frame))
+        return edge.transform if edge else None
+
     def children(self, frame: str) -> tuple[str, ...]:
         """Return the children of a frame in the order in which they became known."""
         return tuple(self._children.get(plain_name(frame), ()))

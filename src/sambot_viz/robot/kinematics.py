@@ -173,13 +173,14 @@ class Kinematics:
 
     def _filled(self, given: Mapping[str, float]) -> _Floats:
         q: _Floats = np.array(self._start)
-        rows: set[int] = set()
+        known, rows, values = self._row, list[int](), list[float]()
         for name, value in given.items():
-            row = self._row_of(name)
-            q[row] = _finite(name, value)
-            rows.add(row)
+            rows.append(known[name] if name in known else self._row_of(name))
+            values.append(_finite(name, value))
+        q[rows] = values
+        moved = set(rows)
         for follow in self._follows:
-            if follow.row not in rows:
+            if follow.row not in moved:
                 led = follow.multiplier * q[follow.leader] + follow.offset
                 q[follow.row] = min(max(led, -_FARTHEST), _FARTHEST)
         return q

@@ -82,9 +82,10 @@ class FrameNodes:
     def place(self, tree: FrameTree, fixed_frame: str, frames: Iterable[str]) -> None:
         """Send the poses of some frames (and of the roots, if they changed)."""
         for frame in frames:
-            if tree.parent(frame) is not None:
-                # The latest sample of a single step is what tf2 answers for it.
-                self._set(frame, tree.hop(frame).transform.matrix)
+            # The latest sample of a single step is what tf2 answers for it.
+            transform = tree.transform_of(frame)
+            if transform is not None:
+                self._set(frame, transform.matrix)
         self._place_roots(tree, fixed_frame)
 
     def _place_roots(self, tree: FrameTree, fixed_frame: str) -> None:

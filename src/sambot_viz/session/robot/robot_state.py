@@ -370,10 +370,6 @@ class RobotState:
         frames = {n: prefix + plain_name(robot.joints[n].child) for n in moved}
         # A frame that a user attached elsewhere no longer follows its joint, nor does
         # one of which messages say where it is.
-        others = self._added, self._data
-        free = [
-            name
-            for name, frame in frames.items()
-            if not any(frame in other for other in others)
-        ]
+        added, data = self._added, self._data
+        free = [n for n, f in frames.items() if f not in added and f not in data]
         return {frames[name]: T for name, T in joints.transforms(free).items()}
