@@ -94,7 +94,9 @@ def drive(viewer: Viewer, environment: Environment, model: Model) -> Generator[D
     Raises:
         NotMeasured: it does not show it.
     """
-    outside = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    # After the first start modules are compiled, as pip leaves them for users.
+    without = ("PYTHONPATH", "PYTHONDONTWRITEBYTECODE")
+    outside = {k: v for k, v in os.environ.items() if k not in without}
     if viewer.is_ours:
         outside["PYTHONPATH"] = os.environ.get("PYTHONPATH", "")
     if environment.modules is not None:

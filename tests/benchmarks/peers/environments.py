@@ -114,7 +114,8 @@ def _version(python: Path, modules: Path | None, package: str) -> str:
 
 
 def _size(home: Path) -> float:
-    files = (path for path in home.rglob("*") if path.is_file())
+    # Compiled modules come with the first start.
+    files = (p for p in home.rglob("*") if p.is_file() and p.suffix != ".pyc")
     return sum(p.stat().st_size for p in files if not p.is_symlink()) / 1e6
 
 
