@@ -18,6 +18,8 @@ from sambot_viz.robot.sdf.habits import (
     element_of_urdf,
     says_more_inside,
 )
+from sambot_viz.robot.sdf.left_out import check_left_out, is_needed
+from sambot_viz.robot.sdf.loose_text import text_not_read
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.values import BadValue, trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
@@ -48,6 +50,9 @@ class _ElementChecker:
             read_as_urdf = self._check_attributes(element, known, quiet)
             if known.text.kind and not read_as_urdf:
                 self._check_text(element, known.text)
+            elif not known.text.kind and not known.open and not quiet:
+                self._check_loose_text(element)
+                check_left_out(element, known, self._findings)
             if known.open:
                 continue
             inside: list[tuple[Element, ElementType, bool]] = []
@@ -145,7 +150,8 @@ class _ElementChecker:
             self._findings.reject(
                 "sdf-value",
                 f"<{element.tag}> of {described(element)} is empty; {REFUSED}",
-                f"write a value into it, or delete <{element.tag}>",
+                "write a value into it"
+                + ("" if is_needed(element) else f", or delete <{element.tag}>"),
                 element,
             )
             return
@@ -162,6 +168,17 @@ class _ElementChecker:
             return
         if ignored:
             self._report_ignored(element, shown, text)
+
+    def _check_loose_text(self, element: Element) -> None:
+        """Warn of a text that belongs into an element of its own."""
+        if element.tag == "script" or (
+            element.tag == "geometry" and not element.children
+        ):
+            # It is refused, with the same advice.
+            return
+        habit = text_not_read(element)
+        if habit is not None:
+            self._findings.warn("sdf-text-not-read", habit.message, habit.hint, element)
 
     def _report_ignored(self, element: Element, shown: str, text: str) -> None:
         better = re.sub(r"(?<=\d),(?=\d)", ".", text)

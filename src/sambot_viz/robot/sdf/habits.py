@@ -42,7 +42,12 @@ _VALUES = {
 }
 """Element of URDF → its attributes, and what SDF takes instead."""
 
-_IN_AXIS = ("limit", "dynamics", "mimic")
+
+def effect_of_default(tag: str) -> str:
+    """Return what becomes of an element without values, or ""."""
+    if tag == "material":
+        return "ROS shows it black"
+    return _VALUES.get({"inertial": "mass", "axis2": "axis"}.get(tag, tag), ("", ""))[1]
 
 
 def says_more_inside(element: Element) -> bool:
@@ -135,6 +140,18 @@ def element_of_urdf(element: Element) -> Habit | None:
                 f"{described(element)} has none",
                 f"write {inner} inside <axis>",
             )
+        case "cylinder", "height" if parent.find("length") is None:
+            return Habit(
+                f"SDF calls the height of <cylinder> length; the length of "
+                f"{described(element)} becomes 1 metre",
+                f"write <length>{element.text.strip()}</length>",
+            )
+        case "cylinder" | "sphere", "diameter" if parent.find("radius") is None:
+            return Habit(
+                f"SDF wants the radius of <{parent.tag}>, not the diameter; the radius "
+                f"of {described(element)} becomes 1 metre",
+                f"write <radius>{_half(element.text)}</radius>",
+            )
         case "joint", "safety_controller" | "calibration":
             return Habit(f"SDF has no <{element.tag}>; ROS ignores it", "delete it")
         case _, "gazebo" | "transmission":
@@ -144,6 +161,13 @@ def element_of_urdf(element: Element) -> Habit | None:
             )
         case _:
             return None
+
+
+def _half(text: str) -> str:
+    try:
+        return f"{float(text) / 2:g}"
+    except ValueError:
+        return "…"
 
 
 def _origin(element: Element, parent: Element) -> Habit:

@@ -13,6 +13,7 @@ from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Dynamics, JointType, Limit
 from sambot_viz.robot.sdf.fields import number_in, text_in, vector_in
 from sambot_viz.robot.sdf.frames import FramePoses
+from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.scopes import Frame
 from sambot_viz.robot.sdf.values import trimmed
@@ -166,6 +167,9 @@ class MotionReader:
     def _report_endless(
         self, joint: Frame, limit: Limit, kind: JointType, at: Element
     ) -> None:
+        if at.tag == "limit" and loose_text(at) and not at.children:
+            # The finding about the text says what to write.
+            return
         no_end = limit.ends == (None, None)
         given = [e for e in map(at.find, ("lower", "upper")) if e is not None]
         publisher = (

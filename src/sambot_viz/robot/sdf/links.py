@@ -12,7 +12,9 @@ from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Inertial, Link, Material, Origin, Shape
 from sambot_viz.robot.sdf.fields import colour_in, number_in, pose_of, text_in
 from sambot_viz.robot.sdf.frames import FramePoses
+from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.scopes import Frame
+from sambot_viz.robot.sdf.script_colours import SCRIPT_COLOURS
 from sambot_viz.robot.sdf.shapes import FindMesh, ShapeReader
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED
@@ -20,17 +22,6 @@ from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-_SCRIPT_COLOURS = {
-    "red": "1 0 0 1",
-    "green": "0 1 0 1",
-    "blue": "0 0 1 1",
-    "yellow": "1 1 0 1",
-    "orange": "1 0.5 0 1",
-    "purple": "1 0 1 1",
-    "turquoise": "0 1 1 1",
-    "white": "1 1 1 1",
-    "black": "0 0 0 1",
-}
 
 
 class SdfLinkReader:
@@ -101,8 +92,8 @@ class SdfLinkReader:
         missing = [tag for tag in ("uri", "name") if not text_in(script, tag)]
         if not missing:
             return
-        words = text_in(script, "name").lower()
-        rgba = next((c for w, c in _SCRIPT_COLOURS.items() if w in words), None)
+        words = (text_in(script, "name") or trimmed(script.text)).lower()
+        rgba = next((c for w, c in SCRIPT_COLOURS.items() if w in words), None)
         rgba = rgba or "0.5 0.5 0.5 1"
         self._findings.reject(
             "sdf-script",
@@ -119,6 +110,9 @@ class SdfLinkReader:
             return
         what = next((c.tag for c in material.children), None)
         if script is not None and not text_in(script, "uri"):
+            return
+        if loose_text(material):
+            # The finding about the text says what to write.
             return
         self._findings.warn(
             "material-without-colour",

@@ -9,6 +9,7 @@ from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Box, Cylinder, Geometry, MeshFile, Sphere
 from sambot_viz.robot.sdf.fields import length_in, text_in, vector_in
+from sambot_viz.robot.sdf.loose_text import text_not_read
 from sambot_viz.robot.sdf.wording import REFUSED, described
 from sambot_viz.robot.xml.element import Element
 
@@ -78,10 +79,9 @@ class ShapeReader:
             self._check_submesh(submesh)
         uri = text_in(element, "uri") or "__default__"
         scale = vector_in(element, "scale", (1.0, 1.0, 1.0))
-        at = element.find("uri") or element
-        # A file that is named as in URDF is reported, and ROS looks for none.
-        as_urdf = at is element and element.get("filename") is not None
-        return MeshFile(uri, scale, None if as_urdf else self._find_mesh(uri, at))
+        # A mesh without a name is reported, and ROS looks for no such file.
+        at = element.find("uri")
+        return MeshFile(uri, scale, self._find_mesh(uri, at) if at else None)
 
     def _check_submesh(self, submesh: Element) -> None:
         if not text_in(submesh, "name"):
@@ -116,6 +116,12 @@ class ShapeReader:
             )
         else:
             message = f"{described(shape)} has no shape"
+        if geometry is not None and not geometry.children:
+            habit = text_not_read(geometry)
+            if habit is not None:
+                message = f"{habit.message}; {REFUSED}"
+                self._findings.reject("sdf-geometry", message, habit.hint, geometry)
+                return
         self._findings.reject(
             "sdf-geometry",
             f"{message}; {REFUSED}",

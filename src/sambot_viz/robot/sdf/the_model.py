@@ -6,6 +6,7 @@ import numpy as np
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import pose_of
+from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.old_versions import NEWEST, OLDEST, Version, version_of
 from sambot_viz.robot.sdf.wording import REFUSED, and_list
 from sambot_viz.robot.xml.element import Element
@@ -93,6 +94,14 @@ def _refuse_without_model(document: Element, findings: ModelFindings) -> None:
 
 def _check_rest(document: Element, findings: ModelFindings) -> None:
     """Report what is beside the model: ROS does not see it."""
+    text = loose_text(document)
+    if text:
+        findings.warn(
+            "sdf-text-not-read",
+            f"the text {text} directly in <sdf> is not read",
+            "delete it",
+            document,
+        )
     for element in document.children:
         if element.tag == "include":
             findings.reject(
