@@ -48,6 +48,12 @@ CASES = [
     (ROBOT.format("") + "end\n", "xml-not-well-formed", 4, "junk"),
     (ROBOT.format("") + "</robot>\n", "xml-closing-tag-surplus", 4, "nothing"),
     ("<robot/>\n<link/>\n</robot>", "xml-root-closed-early", 1, "slash"),
+    (
+        "<sdf>\n<model>\n</model>\n<link/>\n</model>\n</sdf>",
+        "xml-closed-early",
+        3,
+        "early",
+    ),
     ("<robot>\n<link/>\n", "xml-root-not-closed", 2, "never closed"),
     ("<robot>\n <link>\n  <visual>\n", "xml-root-not-closed", 3, "inside <visual>"),
     ("<robot>\n<link name='a'>\n<link name='b'/>", "xml-tag-not-closed", 2, "link"),

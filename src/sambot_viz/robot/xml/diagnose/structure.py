@@ -24,6 +24,13 @@ _TOP_LEVEL = frozenset({"link", "joint", "transmission", "gazebo", "ros2_control
 
 _HOLDS_NO_LINKS = frozenset({"link", "visual", "collision", "inertial", "geometry"})
 
+_BELONGS = {
+    "model": frozenset({"link", "joint", "frame"}),
+    "link": frozenset({"visual", "collision", "inertial"}),
+    "joint": frozenset({"parent", "child", "axis"}),
+}
+"""Element → what is in it and never beside it: then it was closed too early."""
+
 _MOST = 12
 """Most problems reported: further ones usually follow from the first."""
 
@@ -32,6 +39,8 @@ _MOST = 12
 class _Open:
     token: Token
     children: list[Token] = field(default_factory=list["Token"])
+    ends: list[Token] = field(default_factory=list["Token"])
+    """The tags that close the children, in document order."""
 
 
 def structure_problems(source: SourceText, file: str) -> list[Problem]:
@@ -98,6 +107,8 @@ class _Walk:
         name, opened = token.name, self.stack[-1].token
         if name == opened.name:
             self.stack.pop()
+            if self.stack:
+                self.stack[-1].ends.append(token)
         elif name.lower() == opened.name.lower():
             self._misspelt(opened, token)
         elif name in names:
@@ -107,7 +118,7 @@ class _Walk:
             del self.stack[depth:]
         elif difflib.SequenceMatcher(None, name, opened.name).ratio() >= 0.7:
             self._misspelt(opened, token)
-        else:
+        elif not self._closed_early(self.stack[-1], token):
             self._surplus(token)
 
     def _misspelt(self, opened: Token, closed: Token) -> None:
@@ -165,6 +176,26 @@ class _Walk:
             if (stray or outdented) and self._line(child) > self._line(opened):
                 return child.start
         return closed.start if closed else 0
+
+    def _closed_early(self, around: _Open, right: Token) -> bool:
+        """Report an element of that name whose content goes on behind its end."""
+        name = right.name
+        early = next((t for t in reversed(around.ends) if t.name == name), None)
+        if early is None:
+            return False
+        behind = [child for child in around.children if child.start > early.start]
+        if not any(child.name in _BELONGS.get(name, ()) for child in behind):
+            return False
+        end = self._line(early)
+        self._add(
+            "xml-closed-early",
+            early.start,
+            f"line {end} closes </{name}> too early, before the content that starts "
+            f"with {behind[0].shown} on line {self._line(behind[0])}",
+            f"delete </{name}> on line {end}; the one on line {self._line(right)} is "
+            "the right one",
+        )
+        return True
 
     def _surplus(self, token: Token) -> None:
         """A closing tag that nothing opened."""
