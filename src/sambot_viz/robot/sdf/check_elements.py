@@ -20,6 +20,7 @@ from sambot_viz.robot.sdf.habits import (
 )
 from sambot_viz.robot.sdf.left_out import check_left_out, is_needed
 from sambot_viz.robot.sdf.loose_text import text_not_read
+from sambot_viz.robot.sdf.misplaced import advised_place
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.values import BadValue, trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
@@ -214,12 +215,13 @@ class _ElementChecker:
             report = self._findings.reject if habit.refused else self._findings.warn
             report("sdf-urdf-habit", habit.message, habit.hint, element)
             return
-        near = did_you_mean(element.tag, parent.children)
+        near, tag = did_you_mean(element.tag, parent.children), f"<{element.tag}>"
         self._findings.warn(
             "sdf-element-unknown",
-            f"SDF knows no <{element.tag}> in <{parent.name}> ({near}); ROS ignores it "
-            "and all that is in it",
-            f"delete <{element.tag}>, or write what it is meant to say as SDF has it",
+            f"SDF knows no {tag} in <{parent.name}> ({near}); ROS ignores it and all "
+            "that is in it",
+            advised_place(element)
+            or f"delete {tag}, or write what it is meant to say as SDF has it",
             element,
         )
 

@@ -34,7 +34,12 @@ _NOTHING_TO_DO = "nothing has to be done"
 
 def is_for_gazebo(element: Element) -> bool:
     """Tell whether ROS never looks at an element and what is in it."""
-    return element.tag in _KINDS or element.tag in ("surface", "physics")
+    return is_tag_for_gazebo(element.tag)
+
+
+def is_tag_for_gazebo(tag: str) -> bool:
+    """Tell whether ROS never looks at elements with that tag."""
+    return tag in _KINDS or tag in ("surface", "physics")
 
 
 def note_gazebo_only(model: Element, findings: ModelFindings) -> None:

@@ -72,6 +72,8 @@ def attributes_of_urdf(element: Element, names: list[str]) -> Habit | None:
         )
     if element.tag == "material":
         return _unnamed_material(element)
+    if element.tag == "pose":
+        return _pose(element, names)
     size = size_of_three(element) if element.tag == "box" else None
     if size is not None:
         return Habit(
@@ -90,16 +92,45 @@ def attributes_of_urdf(element: Element, names: list[str]) -> Habit | None:
     )
 
 
+_PLACES = (("x", "y", "z"), ("roll", "pitch", "yaw"))
+
+
+def _pose(element: Element, names: list[str]) -> Habit | None:
+    """Tell what a <pose> says whose numbers are in attributes, or None."""
+    triples = [
+        element.get(whole) or " ".join(element.get(name) or "0" for name in parts)
+        for whole, parts in zip(("xyz", "rpy"), _PLACES, strict=True)
+    ]
+    if not {"xyz", "rpy", *_PLACES[0], *_PLACES[1]}.issuperset(names):
+        return None
+    message = (
+        f"in SDF the numbers are text inside <pose>; ROS ignores {and_list(names)} of "
+        f"the <pose> of {described(element)}"
+    )
+    if element.text.strip():
+        return Habit(message, f"delete {and_list(names)}: the numbers inside count")
+    kept = "".join(
+        f' {name}="{value}"'
+        for name, value in element.attributes.items()
+        if name not in names
+    )
+    return Habit(message, f"write <pose{kept}>{' '.join(triples)}</pose>")
+
+
 def _as_sdf(element: Element, names: list[str]) -> str:
     """Write attributes of URDF as the elements that SDF has for them."""
     renamed = {"filename": "uri"}
     if element.tag == "mass":
         return f"<mass>{element.get('value')}</mass>"
+    own = ""
+    if element.tag == "mimic" and element.get("joint"):
+        own = f' joint="{element.get("joint")}"'
+        names = [name for name in names if name != "joint"]
     inner = "".join(
         f"<{renamed.get(name, name)}>{element.get(name)}</{renamed.get(name, name)}>"
         for name in names
     )
-    return f"<{element.tag}>{inner}</{element.tag}>"
+    return f"<{element.tag}{own}>{inner}</{element.tag}>"
 
 
 def _unnamed_material(element: Element) -> Habit:
@@ -132,7 +163,7 @@ def element_of_urdf(element: Element) -> Habit | None:
                 "SDF has no <texture> here, and ROS shows no textures of SDF",
                 "put the texture into the mesh file",
             )
-        case "joint", "limit" | "dynamics" | "mimic":
+        case "joint", "limit" | "dynamics" | "mimic" if not element.children:
             names = list(element.attributes)
             inner = _as_sdf(element, names)
             return Habit(

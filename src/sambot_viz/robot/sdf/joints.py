@@ -167,8 +167,9 @@ class MotionReader:
     def _report_endless(
         self, joint: Frame, limit: Limit, kind: JointType, at: Element
     ) -> None:
-        if at.tag == "limit" and loose_text(at) and not at.children:
-            # The finding about the text says what to write.
+        as_text = at.tag == "limit" and loose_text(at) and not at.children
+        if as_text or at.attributes or joint.element.find("limit") is not None:
+            # Another finding says how to write the limits that are meant.
             return
         no_end = limit.ends == (None, None)
         given = [e for e in map(at.find, ("lower", "upper")) if e is not None]

@@ -7,14 +7,18 @@ from itertools import islice
 
 from sambot_viz.robot.sdf.elements import ElementType, model_type
 from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
-from sambot_viz.robot.sdf.habits import attributes_of_urdf, element_of_urdf
+from sambot_viz.robot.sdf.habits import attributes_of_urdf
+from sambot_viz.robot.sdf.misplaced import (
+    beside_model,
+    may_be_slip,
+    misplaced_in,
+    shares,
+)
 from sambot_viz.robot.sdf.old_versions import Version, version_of
+from sambot_viz.robot.sdf.sdf_words import REPEATED, sdf_vocabulary, types_by_tag
 from sambot_viz.robot.slips.misspelt import MOST_SLIPS, Slip
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
-
-_REPEATED = frozenset({"collision", "frame", "joint", "link", "model", "visual"})
-"""Elements of which more than the first one counts."""
 
 _SYNONYMS = {("pose", "frame"): "relative_to"}
 """Element and attribute → what the attribute is called since version 1.7."""
@@ -33,7 +37,7 @@ def sdf_slips(document: Element) -> list[Slip]:
         if child.tag == "model":
             slips = _below(child, model_type())
             known = (s for s in slips if not _is_old(s, version))
-            return list(islice(known, MOST_SLIPS))
+            return [*beside_model(document, child), *islice(known, MOST_SLIPS)]
     for child in document.children:
         if meant(child.tag, ["model"]) and child.tag not in ("world", "light", "actor"):
             slips = _below(child, model_type())
@@ -64,15 +68,35 @@ def _children(
     element: Element, known: ElementType
 ) -> Iterator[tuple[Element, ElementType | None, Slip | None]]:
     """Yield the children, the type that each is meant to have, and its slip."""
-    present = {child.tag for child in element.children}
-    free = [tag for tag in known.children if tag in _REPEATED or tag not in present]
+    slips = {} if known.open else _slips(element, known)
     for child in element.children:
-        right, slip = child.tag, None
-        if right not in known.children and not known.open:
-            right = _meant(child, free) or right
-            slip = Slip(child, right) if right != child.tag else None
-        kind = None if is_for_gazebo(child) else known.children.get(right)
-        yield child, kind, slip
+        slip = slips.get(id(child))
+        kind = known.children.get(child.tag if slip is None else slip.right)
+        if slip is not None and slip.parents:
+            kind = types_by_tag()[slip.right]
+        yield child, None if is_for_gazebo(child) else kind, slip
+
+
+def _slips(element: Element, known: ElementType) -> dict[int, Slip]:
+    """Return the slips among the children by their `id`."""
+    present = {child.tag for child in element.children}
+    free = [tag for tag in known.children if tag in REPEATED or tag not in present]
+    slips: dict[int, Slip] = {}
+    first: Slip | None = None
+    for number, child in enumerate(element.children):
+        slip = None
+        if child.tag not in known.children and may_be_slip(child):
+            right = _meant(child, known, free)
+            slip = Slip(child, right) if right else misplaced_in(number, element, known)
+        shared = None if slip is None or first is None else shares(first, slip)
+        if first is not None and shared is not None:
+            # Both are put into one new element.
+            slips[id(first.element)] = first = shared
+        else:
+            first = slip if slip is not None and slip.around else None
+            if slip is not None:
+                slips[id(child)] = slip
+    return slips
 
 
 def _attributes(element: Element, known: ElementType) -> Iterator[Slip]:
@@ -89,11 +113,8 @@ def _attributes(element: Element, known: ElementType) -> Iterator[Slip]:
             yield Slip(element, right, name)
 
 
-def _meant(child: Element, free: list[str]) -> str | None:
+def _meant(child: Element, known: ElementType, free: list[str]) -> str | None:
     """Return the element that was meant by one that SDF does not know."""
-    if ":" in child.tag or is_for_gazebo(child) or child.tag == "include":
-        return None
-    right = meant(child.tag, free)
-    if right is None or child.find(right) is not None:
-        return None
-    return None if element_of_urdf(child) is not None else right
+    synonym = sdf_vocabulary().synonyms.get(f"{known.name}.{child.tag.lower()}")
+    right = synonym if synonym in free else meant(child.tag, free)
+    return None if right is None or child.find(right) is not None else right

@@ -50,10 +50,13 @@ def report_slips(
         if _MOST < number < len(groups):
             continue
         after = _reading(corrected, read, excused)
+        # What came only with another correction is nothing that ROS says.
         gone: list[Severity] = [
-            found for key, found in before.found.items() if key not in after.found
+            found
+            for key, found in before.found.items()
+            if key in first.found and key not in after.found
         ]
-        refused = before.rejected and not after.rejected
+        refused = first.rejected and before.rejected and not after.rejected
         for done in groups[_MOST:] if number > _MOST else [group]:
             _report(done[0], reports, gone, refused)
         before = after
@@ -145,9 +148,13 @@ def _correct(slip: Slip, copies: dict[int, Element]) -> None:
     elif not slip.parents:
         element.tag = slip.right
     elif slip.target is not None:
-        _move(element, copies[id(slip.target)])
+        for moved in (slip.element, *slip.behind):
+            _move(copies[id(moved)], copies[id(slip.target)])
     else:
         _surround(element, slip.around)
+        for other in slip.behind:
+            if element.parent is not None:
+                _move(copies[id(other)], element.parent)
 
 
 def _move(element: Element, target: Element) -> None:

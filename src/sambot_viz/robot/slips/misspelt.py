@@ -33,6 +33,7 @@ class Slip:
         parents: the elements that a misplaced one may be in; empty for others.
         target: the element that a misplaced one was meant to be in, if one is there.
         around: the elements that are missing around a misplaced one, outermost first.
+        behind: other elements, directly behind a misplaced one, that share its remedy.
     """
 
     element: Element
@@ -41,6 +42,7 @@ class Slip:
     parents: tuple[str, ...] = ()
     target: Element | None = None
     around: tuple[str, ...] = ()
+    behind: tuple[Element, ...] = ()
 
 
 def find_slips(
@@ -128,12 +130,9 @@ class _Search:
             right = self._by_attributes(child, tag, free)
         if right is not None and child.find(right) is None:
             return Slip(child, right)
-        parents = self.vocabulary.parents(child.tag)
-        if not parents or right is not None:
+        if right is not None:
             return None
-        target = self._target(number, parent)
-        around = self.vocabulary.around(tag, child.tag) if target is None else ()
-        return Slip(child, child.tag, None, tuple(parents), target, around)
+        return misplaced(number, parent, tag, self.vocabulary)
 
     def _by_attributes(self, child: Element, tag: str, free: list[str]) -> str | None:
         """Return the only element whose attributes an unknown one has."""
@@ -148,28 +147,53 @@ class _Search:
         ]
         return fitting[0] if len(fitting) == 1 else None
 
-    def _target(self, number: int, parent: Element) -> Element | None:
-        """Find the element in which a misplaced child would count.
 
-        One around it comes first, then the nearest one before it, then one after it.
-        """
-        tag, around = parent.children[number].tag, parent.parent
-        for _ in range(_FAR):
-            if around is None:
-                break
-            if self._takes(around, tag):
-                return around
-            around = around.parent
-        before = parent.children[max(0, number - _FAR) : number]
-        after = parent.children[number + 1 : number + 1 + _FAR]
-        siblings = [*reversed(before), *after]
-        return next((e for e in siblings if self._takes(e, tag)), None)
+def misplaced(
+    number: int, parent: Element, tag: str, vocabulary: Vocabulary
+) -> Slip | None:
+    """Return where a child belongs that its parent does not know; None for nowhere.
 
-    def _takes(self, element: Element, tag: str) -> bool:
-        present = [child.tag for child in element.children]
-        return (
-            element.tag in self.vocabulary.words
-            and not self.vocabulary.words[element.tag].opaque
-            and tag in self.vocabulary.children(element.tag)
-            and tag in self.vocabulary.free(element.tag, present)
-        )
+    Args:
+        number: which child.
+        parent: the element that it is in.
+        tag: what the parent is, or was meant to be.
+        vocabulary: the names of the format.
+    """
+    child = parent.children[number]
+    parents = vocabulary.parents(child.tag)
+    if not parents:
+        return None
+    target = _target(number, parent, vocabulary)
+    around = vocabulary.around(tag, child.tag) if target is None else ()
+    present = [other.tag for other in parent.children]
+    if around and around[0] not in vocabulary.free(tag, present):
+        around = ()
+    return Slip(child, child.tag, None, tuple(parents), target, around)
+
+
+def _target(number: int, parent: Element, vocabulary: Vocabulary) -> Element | None:
+    """Find the element in which a misplaced child would count.
+
+    One around it comes first, then the nearest one before it, then one after it.
+    """
+    tag, around = parent.children[number].tag, parent.parent
+    for _ in range(_FAR):
+        if around is None:
+            break
+        if _takes(around, tag, vocabulary):
+            return around
+        around = around.parent
+    before = parent.children[max(0, number - _FAR) : number]
+    after = parent.children[number + 1 : number + 1 + _FAR]
+    siblings = [*reversed(before), *after]
+    return next((e for e in siblings if _takes(e, tag, vocabulary)), None)
+
+
+def _takes(element: Element, tag: str, vocabulary: Vocabulary) -> bool:
+    present = [child.tag for child in element.children]
+    return (
+        element.tag in vocabulary.words
+        and not vocabulary.words[element.tag].opaque
+        and tag in vocabulary.children(element.tag)
+        and tag in vocabulary.free(element.tag, present)
+    )

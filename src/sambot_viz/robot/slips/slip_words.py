@@ -13,6 +13,10 @@ SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-mispl
 """The codes of these problems."""
 
 
+_SHORT = 60
+"""The longest text that a hint repeats [characters]."""
+
+
 class SlipWords(NamedTuple):
     """The parts of a problem."""
 
@@ -42,9 +46,18 @@ def slip_in_words(slip: Slip, refused: bool) -> SlipWords:
         f"{tag_text(element)} {_inside(element)}is not known; did you mean "
         f"<{right}>? ROS ignores it{effect}"
     )
-    ends = bool(element.children) or bool(element.text.strip())
-    hint = f"write <{right} …> and </{right}>" if ends else f"write <{right} …/>"
-    return SlipWords("element-misspelt", message, hint)
+    return SlipWords("element-misspelt", message, f"write {_renamed(element, right)}")
+
+
+def _renamed(element: Element, right: str) -> str:
+    """Return what to write for an element that gets another name."""
+    text = " ".join(element.text.split())
+    if element.children or len(text) > _SHORT:
+        return f"<{right} …> and </{right}>"
+    if not text:
+        return f"<{right} …/>"
+    values = "".join(f' {name}="{v}"' for name, v in element.attributes.items())
+    return f"<{right}{values}>{text}</{right}>"
 
 
 def _attribute(slip: Slip, attribute: str, effect: str) -> SlipWords:
@@ -66,9 +79,12 @@ def _completed(name: str, value: str) -> str:
 def _misplaced(slip: Slip, effect: str) -> SlipWords:
     element, parent = slip.element, slip.element.parent
     inside = f"<{parent.tag}>" if parent is not None else "the file"
-    tag = tag_text(element)
+    tag, it, mean, belongs = tag_text(element), "it", "means", "it belongs"
+    if slip.behind:
+        tag += f" and {len(slip.behind)} more behind it"
+        it, mean, belongs = "them", "mean", "they belong"
     message = (
-        f"{tag} means nothing in {inside}, where ROS ignores it{effect}; it belongs "
+        f"{tag} {mean} nothing in {inside}, where ROS ignores {it}{effect}; {belongs} "
         f"in {_alternatives(slip.parents)}"
     )
     return SlipWords("element-misplaced", message, _remedy(slip))
@@ -76,8 +92,14 @@ def _misplaced(slip: Slip, effect: str) -> SlipWords:
 
 def _remedy(slip: Slip) -> str:
     tag = f"<{slip.element.tag}>"
+    last = slip.behind[-1] if slip.behind else None
     if slip.target is not None:
         target = slip.target
+        if last is not None:
+            return (
+                f"move </{target.tag}> down, behind the last of them (<{last.tag}> on "
+                f"line {last.place.line})"
+            )
         if _is_around(target, slip.element):
             out_of = slip.element.parent.tag if slip.element.parent is not None else ""
             return f"move {tag} out of <{out_of}>, directly into {tag_text(target)}"
@@ -86,6 +108,8 @@ def _remedy(slip: Slip) -> str:
     if slip.around:
         begin = "".join(f"<{around}>" for around in slip.around)
         end = "".join(f"</{around}>" for around in reversed(slip.around))
+        if last is not None:
+            return f"write {begin} before {tag} and {end} behind </{last.tag}>"
         return f"write {begin} before it and {end} behind it"
     return f"delete {tag}, or move it there"
 
