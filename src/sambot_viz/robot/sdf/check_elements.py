@@ -24,7 +24,10 @@ from sambot_viz.robot.sdf.misplaced import advised_place
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.values import BadValue, trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
+from sambot_viz.robot.slips.units import without_units
 from sambot_viz.robot.xml.element import Element
+
+_PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.IGNORECASE)
 
 
 def check_elements(model: Element, version: Version, findings: ModelFindings) -> None:
@@ -157,18 +160,15 @@ class _ElementChecker:
             )
             return
         try:
-            ignored = text and (
-                _check_pose(element, text)
-                if wanted.kind == "pose"
-                else _check_value(text, wanted)
-            )
+            ignored = text and _check_content(element, text, wanted)
         except BadValue as bad:
+            bad = _without_units(element, text, wanted) or bad
             self._findings.reject(
                 "sdf-value", f"{shown} {bad.reason}; {REFUSED}", bad.hint, element
             )
             return
         if ignored:
-            self._report_ignored(element, shown, text)
+            self._report_ignored(element, shown, text, wanted)
 
     def _check_loose_text(self, element: Element) -> None:
         """Warn of a text that belongs into an element of its own."""
@@ -181,9 +181,14 @@ class _ElementChecker:
         if habit is not None:
             self._findings.warn("sdf-text-not-read", habit.message, habit.hint, element)
 
-    def _report_ignored(self, element: Element, shown: str, text: str) -> None:
+    def _report_ignored(
+        self, element: Element, shown: str, text: str, wanted: Values
+    ) -> None:
         better = re.sub(r"(?<=\d),(?=\d)", ".", text)
+        better = without_units(better, degrees=_in_degrees(element))
         better = re.sub(r"(?<=[\d.])[^\d\s.,+eE-]+", "", better)
+        if wanted.kind in ("vector2", "vector3"):
+            better = " ".join(better.split()[: int(wanted.kind[-1])])
         hint = f"write {better}" if better != text else "write nothing but numbers"
         start = values.read_number(text.split()[0])
         self._findings.warn(
@@ -262,14 +267,41 @@ def _check_value(text: str, wanted: Values) -> bool:
         case "color":
             values.read_colour(text)
         case "vector2" | "vector3":
-            values.read_vector(text, int(wanted.kind[-1]))
+            count = int(wanted.kind[-1])
+            values.read_vector(text, count)
+            words = values.words_of(text)
+            return len(words) != count or _PLAIN.fullmatch(words[-1]) is None
         case _:
             _check_word(text, wanted)
     return False
 
 
+def _check_content(element: Element, text: str, wanted: Values) -> bool:
+    """Check the text of an element as `_check_value` does."""
+    if wanted.kind == "pose":
+        return _check_pose(element, text)
+    return _check_value(text, wanted)
+
+
+def _without_units(element: Element, text: str, wanted: Values) -> BadValue | None:
+    """Say what is wrong with numbers that have units; None when they have none."""
+    plain = without_units(text, degrees=_in_degrees(element))
+    if wanted.kind in ("string", "") or plain == text:
+        return None
+    try:
+        _check_content(element, plain, wanted)
+    except BadValue as bad:
+        return bad
+    reason = "has a unit; SDF knows only metres, radians and kilograms"
+    return BadValue(reason, f"write {plain}")
+
+
+def _in_degrees(element: Element) -> bool:
+    return trimmed(element.get("degrees") or "").lower() in ("true", "1")
+
+
 def _check_pose(element: Element, text: str) -> bool:
-    degrees = trimmed(element.get("degrees") or "").lower() in ("true", "1")
+    degrees = _in_degrees(element)
     rotation_format = trimmed(element.get("rotation_format") or "") or "euler_rpy"
     return values.read_pose(text, degrees, rotation_format).ignored
 

@@ -89,7 +89,8 @@ def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
     except BadValue:
         return np.eye(4)
     _check_length(pose, element, findings)
-    if not degrees:
+    # Where a unit is ignored, that is the finding.
+    if not degrees and not pose.ignored:
         _check_degrees(pose, element, findings)
     T = pose.matrix
     T[:3, 3] = [_bounded(value) for value in T[:3, 3].tolist()]

@@ -175,7 +175,7 @@ def _vector_complaint(text: str, count: int) -> tuple[str, str]:
             better = " ".join(with_points)
             return "has decimal commas; numbers have a point", f"write {better}"
         better = " ".join(apart)
-        return "has commas; numbers are separated by blanks only", f"write {better}"
+        return _separated(text), f"write {better}"
     parts = words_of(text)
     if len(parts) < count and all(_START.match(part) for part in parts):
         only = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
@@ -185,6 +185,11 @@ def _vector_complaint(text: str, count: int) -> tuple[str, str]:
     bad = next((part for part in parts if not _START.match(part)), text)
     reason, hint = _complaint(bad)
     return (reason if bad == text else f"contains {bad}, which {reason}"), hint
+
+
+def _separated(text: str) -> str:
+    marks = "commas" if "," in text else "semicolons"
+    return f"has {marks}; numbers are separated by blanks only"
 
 
 def read_colour(text: str) -> Rgba:
@@ -262,6 +267,9 @@ def read_pose(text: str, degrees: bool, rotation_format: str) -> PoseText:
     if not words:
         return PoseText((0.0,) * 6)
     read = [_finite(word) for word in words]
+    apart = _SEPARATORS.split(text.strip(" ,;"))
+    if len(read) != count == len(apart):
+        raise BadValue(_separated(text), f"write {' '.join(apart)}")
     if len(read) != count:
         raise BadValue(
             f"has {len(read)} numbers, {_COUNTS[count]} are needed",

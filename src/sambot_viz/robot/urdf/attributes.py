@@ -10,9 +10,11 @@ from dataclasses import dataclass
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Origin
+from sambot_viz.robot.slips.units import is_with_unit, without_units
 from sambot_viz.robot.xml.element import Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_SEPARATORS = re.compile(r"[\s,;]+")
 _WORDS = {2: "two", 3: "three", 4: "four"}
 
 
@@ -70,18 +72,17 @@ def _without_commas(text: str, count: int) -> tuple[str, str]:
     A comma between two digits is a decimal comma where only that gives as many numbers
     as are needed.
     """
-    apart = re.split(r"[\s,;]+", text.strip(" ,;"))
+    marks = "commas" if "," in text else "semicolons"
+    cause = f"has {marks}; numbers are separated by blanks only"
+    apart = _SEPARATORS.split(without_units(text).strip(" ,;"))
     if len(apart) == count:
-        better = " ".join(apart)
-        return "has commas; numbers are separated by blanks only", f'write "{better}"'
-    pointed = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    with_points = [
-        part.strip(",") for part in re.split(r"[\s;]+", pointed.strip(" ;,"))
-    ]
+        return cause, f'write "{" ".join(apart)}"'
+    pointed = without_units(re.sub(r"(?<=\d),(?=\d)", ".", text))
+    with_points = _SEPARATORS.split(pointed.strip(" ;,"))
     if len(with_points) == count:
         better = " ".join(with_points)
         return "has a decimal comma; numbers have a point", f'write "{better}"'
-    return "has commas; numbers are separated by blanks only", _filled_up(apart, count)
+    return cause, _filled_up(apart, count)
 
 
 def _filled_up(parts: list[str], count: int) -> str:
@@ -110,6 +111,12 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
         )
     if part.lower().lstrip("+-") in ("nan", "inf", "infinity"):
         return f"contains {part}, which is not a finite number", "write a finite number"
+    if is_with_unit(part):
+        shown = whole.strip() if part.isalpha() or part == "°" else part
+        return (
+            f"has a unit in {shown}; URDF knows only metres, radians and kilograms",
+            f'write "{without_units(whole.strip())}"',
+        )
     if re.fullmatch(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?[A-Za-z°]+", part):
         return (
             f"has a unit in {part}; URDF knows only metres and radians",
@@ -121,8 +128,8 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
             f"contains {part}, which is not a number: plain URDF cannot calculate",
             f'write the number{_value_of(part)}, or use xacro: "{shown}"',
         )
-    if re.fullmatch(r"[+-]?\d+,\d+", part):
-        better = whole.strip().replace(",", ".")
+    if re.fullmatch(r"[+-]?\d+,\d+", part) or is_with_unit(part.replace(",", ".", 1)):
+        better = without_units(whole.strip().replace(",", "."))
         return "has a decimal comma; numbers have a point", f'write "{better}"'
     if re.fullmatch(r"\{[^{}]+\}", part):
         return (

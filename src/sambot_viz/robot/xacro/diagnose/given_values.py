@@ -56,8 +56,11 @@ class _Given:
         try:
             if self.value.count(",") > 1 or re.search(r",\s", self.value):
                 read_numbers(self.value, 3)
-            for part in self.value.split():
-                read_number(part)
+            parts = self.value.split()
+            if len(parts) > 1:
+                read_numbers(self.value, len(parts))
+            else:
+                read_number(self.value)
         except BadNumber as bad:
             return bad
         return None

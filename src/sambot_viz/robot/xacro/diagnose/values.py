@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.slips.units import without_units
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, line_in
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
@@ -35,8 +36,8 @@ def wrong_value(failed: FailedExpansion) -> Problem | None:
 def _not_a_number(
     failed: FailedExpansion, name: str, place: Place, attribute: str, value: str
 ) -> Problem:
-    number = _WITH_UNIT.fullmatch(value)
-    better = number[1].replace(",", ".") if number else None
+    number = _WITH_UNIT.fullmatch(without_units(value.replace(",", ".")))
+    better = number[1] if number else None
     used = line_in(failed.expression_place(), place)
     return failed.pointing_at(place).error(
         "xacro-expression-value",
