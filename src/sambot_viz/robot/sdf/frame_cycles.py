@@ -62,13 +62,27 @@ def _report(ring: list[Frame], findings: ModelFindings) -> None:
         message = "these poses wait for each other: " + " counts from ".join(
             one.name for one in turned
         )
+    holder = _holder(frame) if len(ring) == 1 else None
     findings.reject(
         "sdf-pose-cycle",
         f"{message}; {REFUSED}",
-        "let one of them count from a frame outside the ring: write another "
+        f'write relative_to="{holder}"'
+        if holder
+        else "let one of them count from a frame outside the ring: write another "
         "relative_to",
         frame.element.find("pose") or frame.element,
     )
+
+
+def _holder(link: Frame) -> str | None:
+    """Return the joint that holds a link, where the joint does not count from it."""
+    model = link.element.parent
+    for joint in model.find_all("joint") if model is not None else ():
+        pose = joint.find("pose")
+        base = pose.get("relative_to") if pose is not None else None
+        if text_in(joint, "child") == link.name and base not in (None, link.name):
+            return joint.get("name")
+    return None
 
 
 def _is_implicit(joint: Frame) -> bool:

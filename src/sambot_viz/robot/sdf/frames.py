@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from sambot_viz.errors import did_you_mean
 from sambot_viz.geometry import Matrix, inverse_matrix
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import pose_of, text_in
 from sambot_viz.robot.sdf.frame_cycles import report_cycles
 from sambot_viz.robot.sdf.old_versions import Version
-from sambot_viz.robot.sdf.scopes import Frame, Scope
+from sambot_viz.robot.sdf.scopes import Frame, Scope, canonical_link
+from sambot_viz.robot.sdf.unknown_frames import unknown_frame
 from sambot_viz.robot.sdf.values import trimmed
-from sambot_viz.robot.sdf.wording import REFUSED, described
 from sambot_viz.robot.xml.element import Element
 
 
@@ -104,13 +103,12 @@ class FramePoses:
         found = scope.find(name)
         if found is not None:
             return found
-        near = did_you_mean(name, [*scope.frames, "__model__"])
-        better = near.removeprefix("did you mean '").removesuffix("'?")
+        root = canonical_link(self.scope) if scope is self.scope else None
+        words = unknown_frame(name, at, attribute, scope, root)
         self._findings.reject(
             "sdf-frame-unknown",
-            f'{attribute}="{name}" of {described(at)}: there is no link, joint or '
-            f"frame called {name} ({near}); {REFUSED}",
-            f"write {better}" if better != near else "name one of these, or delete it",
+            words.message,
+            words.hint,
             at,
             attribute,
             cause=f"frame {name}",

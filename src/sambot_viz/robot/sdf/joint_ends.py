@@ -8,7 +8,8 @@ from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
 from sambot_viz.robot.sdf.scopes import Frame, Scope
-from sambot_viz.robot.sdf.wording import REFUSED
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.sdf.wording import REFUSED, described
 from sambot_viz.robot.xml.element import Element
 
 
@@ -59,7 +60,7 @@ def _end(joint: Frame, tag: str, scope: Scope, findings: ModelFindings) -> str |
     if scope.frames.get(name, scope.own).kind == "link":
         return name
     if name == "world":
-        _refuse_world(joint, tag, element, findings)
+        _refuse_world(joint, tag, element, scope, findings)
     elif scope.find(name) is not None or "::" in name:
         _refuse_frame(joint, tag, name, element, scope, findings)
     else:
@@ -77,15 +78,28 @@ def _end(joint: Frame, tag: str, scope: Scope, findings: ModelFindings) -> str |
 
 
 def _refuse_world(
-    joint: Frame, tag: str, element: Element, findings: ModelFindings
+    joint: Frame, tag: str, element: Element, scope: Scope, findings: ModelFindings
 ) -> None:
     findings.reject(
         "sdf-joint-to-world",
         f"joint {joint.name} has world as its {tag}: where the robot is belongs to "
         f"Gazebo's world, and {REFUSED}",
-        f"delete the joint {joint.name}, or put it into a file for Gazebo only",
+        f"delete the joint {joint.name}{_with_poses(joint, scope)}, or put it into a "
+        "file for Gazebo only",
         element,
     )
+
+
+def _with_poses(joint: Frame, scope: Scope) -> str:
+    """Name what counts from a joint that is to be deleted."""
+    named = [
+        f' and {attribute}="{joint.name}" of the <pose> in {described(pose)} (line '
+        f"{pose.line_of(attribute)})"
+        for pose in (frame.element.find("pose") for frame in scope.frames.values())
+        for attribute in ("relative_to", "frame")
+        if pose is not None and trimmed(pose.get(attribute) or "") == joint.name
+    ]
+    return "".join(named)
 
 
 def _refuse_frame(

@@ -95,6 +95,16 @@ class Scope:
             stack.extend(reversed(scope.nested.values()))
 
 
+def canonical_link(scope: Scope) -> Frame | None:
+    """Return the link that the model names as its root, or the first; None for none."""
+    links = scope.of_kind("link")
+    name = trimmed(scope.model.get("canonical_link") or "")
+    if not name:
+        return links[0] if links else None
+    frame = scope.frames.get(name)
+    return frame if frame is not None and frame.kind == "link" else None
+
+
 def read_scopes(
     model: Element, written: Element, version: Version, findings: ModelFindings
 ) -> Scope:

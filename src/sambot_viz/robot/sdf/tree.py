@@ -14,7 +14,8 @@ from sambot_viz.robot.joint_graph import (
 )
 from sambot_viz.robot.parts import Joint
 from sambot_viz.robot.sdf.joint_ends import JoinedLinks
-from sambot_viz.robot.sdf.scopes import Frame, Scope
+from sambot_viz.robot.sdf.scopes import Frame, Scope, canonical_link
+from sambot_viz.robot.sdf.unknown_frames import joint_is_missing
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED
 from sambot_viz.robot.xml.element import Element
@@ -32,12 +33,10 @@ def root_link(scope: Scope, findings: ModelFindings) -> Frame | None:
             model,
         )
         return None
+    root = canonical_link(scope)
+    if root is not None:
+        return root
     name = trimmed(model.get("canonical_link") or "")
-    if not name:
-        return links[0]
-    frame = scope.frames.get(name)
-    if frame is not None and frame.kind == "link":
-        return frame
     near = did_you_mean(name, [link.name for link in links])
     findings.reject(
         "sdf-canonical-link-unknown",
@@ -82,7 +81,8 @@ def check_tree(
         reached |= {joint.child for joint in ring}
     reached |= {j.child for j in joints}
     for link, element in links.items():
-        if link not in reached and link != root.name:
+        alone = link not in reached and link != root.name
+        if alone and not joint_is_missing(scope.frames[link], scope, root):
             findings.reject(
                 "root-not-unique",
                 f"link {link} is not connected to {root.name}: no joint has it as "

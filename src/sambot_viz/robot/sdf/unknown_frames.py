@@ -1,0 +1,139 @@
+"""What a pose was meant to count from, where no frame has the name that it says.
+
+A name is offered only where it makes no ring: a link cannot count from itself, nor from
+what counts from the link.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sambot_viz.errors import nearest
+from sambot_viz.robot.sdf.fields import text_in
+from sambot_viz.robot.sdf.scopes import OWN, Frame, Scope
+from sambot_viz.robot.sdf.values import trimmed
+from sambot_viz.robot.sdf.wording import REFUSED, described
+from sambot_viz.robot.slips.vocabulary import is_one_slip
+from sambot_viz.robot.xml.element import Element
+
+_LIKENESS = 0.8
+"""How like a name of a frame must be, where a joint may have been deleted."""
+
+
+class FrameWords(NamedTuple):
+    """The parts of a problem."""
+
+    message: str
+    hint: str
+
+
+def unknown_frame(
+    name: str, at: Element, attribute: str, scope: Scope, root: Frame | None
+) -> FrameWords:
+    """Say that there is no frame of a name, and which one was meant.
+
+    Args:
+        name: what the attribute says.
+        at: the element that has the attribute, such as a <pose>.
+        attribute: its name.
+        scope: the names of the model.
+        root: the link that all others hang from.
+    """
+    message = (
+        f'{attribute}="{name}" of {described(at)}: there is no link, joint or frame '
+        f"called {name}"
+    )
+    owner = _owner(at, scope)
+    if owner is not None and root is not None and joint_is_missing(owner, scope, root):
+        joint = (
+            f'<joint name="{name}" type="fixed"><parent>{root.name}</parent>'
+            f'<child>{owner.name}</child><pose {attribute}="{root.name}"/></joint>'
+        )
+        return FrameWords(
+            f"{message}, and no joint has {owner.name} as its <child>; {REFUSED}",
+            f"add {joint} with its real place, or delete the link {owner.name}",
+        )
+    names = [*_free_names(owner, scope), OWN]
+    holder = _holder(owner, scope) if owner is not None else None
+    if holder is not None:
+        # The joints of other links may be called alike, but are elsewhere.
+        joints = {joint.name for joint in scope.of_kind("joint")} - {holder.name}
+        near = [other for other in names if other not in joints]
+        meant = next((n for n in near if is_one_slip(name, n)), nearest(name, near))
+        if meant is None and at.tag == "pose" and not at.text.strip():
+            meant = holder.name if holder.name in names else None
+        names = names if meant is None else [meant]
+    else:
+        meant = nearest(name, names)
+    words = f"did you mean '{meant}'?" if meant else _listed(names)
+    return FrameWords(
+        f"{message} ({words}); {REFUSED}",
+        f"write {meant}" if meant else "name one of these, or delete it",
+    )
+
+
+def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
+    """Tell whether a link counts from a joint that is not there, and hangs from none.
+
+    Args:
+        link: the frame, of any kind.
+        scope: the names of the model.
+        root: the link that all others hang from.
+    """
+    name = _base_name(link)
+    if link.kind != "link" or link is root or not name or scope.find(name) is not None:
+        return False
+    ends = [text_in(joint.element, "child") for joint in scope.of_kind("joint")]
+    if link.name in ends or any(scope.find(end) is None for end in ends):
+        return False
+    others = _free_names(link, scope)
+    return not any(is_one_slip(name, n) for n in others) and not nearest(
+        name, [n for n in others if scope.frames[n].kind != "joint"], _LIKENESS
+    )
+
+
+def _listed(names: list[str]) -> str:
+    shown = ", ".join(f"'{name}'" for name in names[:8])
+    return f"known: {shown}" + (", …" if names[8:] else "")
+
+
+def _owner(at: Element, scope: Scope) -> Frame | None:
+    element = at.parent if at.tag == "pose" else at
+    return next((f for f in scope.frames.values() if f.element is element), None)
+
+
+def _holder(link: Frame, scope: Scope) -> Frame | None:
+    """Return the joint whose child a link is."""
+    if link.kind != "link":
+        return None
+    joints = scope.of_kind("joint")
+    return next((j for j in joints if text_in(j.element, "child") == link.name), None)
+
+
+def _free_names(owner: Frame | None, scope: Scope) -> list[str]:
+    """Return the names of the frames that do not count from an owner's pose."""
+    below: dict[Frame, bool] = {} if owner is None else {owner: True}
+    for frame in scope.frames.values():
+        path: list[Frame] = []
+        here: Frame | None = frame
+        while here is not None and here not in below:
+            below[here] = False
+            path.append(here)
+            here = scope.find(_base_name(here) or _usual_base(here))
+        ends = here is not None and below[here]
+        below.update(dict.fromkeys(path, ends))
+    return [name for name, frame in scope.frames.items() if not below[frame]]
+
+
+def _base_name(frame: Frame) -> str:
+    pose = frame.element.find("pose")
+    if pose is None or frame.kind == "model":
+        return ""
+    return trimmed(pose.get("relative_to") or pose.get("frame") or "")
+
+
+def _usual_base(frame: Frame) -> str:
+    """Return the name that counts where the pose says none."""
+    if frame.kind == "joint":
+        return text_in(frame.element, "child")
+    return trimmed(frame.element.get("attached_to") or "")
