@@ -101,6 +101,9 @@ class FramePoses:
         self, name: str, at: Element, attribute: str, scope: Scope
     ) -> Frame | None:
         found = scope.find(name)
+        if found is not None and found.element is at.parent:
+            # A link that counts from its own name means the joint that is called so.
+            return scope.namesakes.get(name, found)
         if found is not None:
             return found
         root = canonical_link(self.scope) if scope is self.scope else None

@@ -39,7 +39,7 @@ def report_repeated(
             f"the {what} has the name of the {first.tag} on line {first.place.line}: "
             "links, joints, frames and nested models of a model must have different "
             f"names; {REFUSED}",
-            f"write {name}_{element.tag}, here and where it is used",
+            f"write {name}_{element.tag}, here and {_use_of(name, first)}",
             element,
             "name",
         )
@@ -54,6 +54,14 @@ def report_repeated(
             element,
             "name",
         )
+
+
+def _use_of(name: str, link: Element) -> str:
+    """Say where the other element of a name is used: most often by the link."""
+    pose = link.find("pose")
+    if pose is None or pose.get("relative_to") != name:
+        return "where it is used"
+    return f"in relative_to of {link.tag} {name} (line {pose.line_of('relative_to')})"
 
 
 def _report_call(

@@ -57,11 +57,13 @@ class Scope:
         own: the frame of the model itself.
         frames: name → frame, in the order libsdformat reads them.
         nested: name → names inside that nested model.
+        namesakes: name of a link → a joint or frame that was given the same name.
     """
 
     own: Frame
     frames: dict[str, Frame] = field(default_factory=dict[str, Frame])
     nested: dict[str, Scope] = field(default_factory=dict[str, "Scope"])
+    namesakes: dict[str, Frame] = field(default_factory=dict[str, Frame])
 
     @property
     def model(self) -> Element:
@@ -174,18 +176,31 @@ class _NameReader:
         if not name:
             return None
         other = scope.frames.get(name)
-        if other is not None and (other.kind == kind or not self._version.may_rename):
+        if other is not None and other.kind == kind:
             self._report_repeated(name, element, other.element)
             return None
+        frame = Frame(name, kind, element)
+        if other is not None and not self._version.may_rename:
+            self._set_apart(scope, frame, other)
+            return frame
         if other is not None:
-            name = self._renamed(scope, element, name)
-        frame = scope.frames[name] = Frame(name, kind, element)
+            name = frame.name = self._renamed(scope, element, name)
+        scope.frames[name] = frame
         return frame
 
+    def _set_apart(self, scope: Scope, frame: Frame, other: Frame) -> None:
+        """Report two kinds of one name; read on as if the one had another name."""
+        name = other.name
+        kept, renamed = (frame, other) if frame.kind == "link" else (other, frame)
+        self._report_repeated(name, renamed.element, kept.element)
+        renamed.name = _free_name(scope, renamed.element, name)
+        scope.frames[name] = kept
+        scope.frames[renamed.name] = renamed
+        if kept.kind == "link":
+            scope.namesakes.setdefault(name, renamed)
+
     def _renamed(self, scope: Scope, element: Element, name: str) -> str:
-        ending = f"{name}_{element.tag}"
-        numbered = (f"{ending}{n}" for n in range(len(scope.frames) + 1))
-        new = next(n for n in (ending, *numbered) if n not in scope.frames)
+        new = _free_name(scope, element, name)
         self._findings.warn(
             "sdf-name-changed",
             f"the {element.tag} {name} has the name of a "
@@ -238,6 +253,13 @@ class _NameReader:
                 return
             self._repeating.add(element.call)
         report_repeated(name, element, first, self._written, self._findings)
+
+
+def _free_name(scope: Scope, element: Element, name: str) -> str:
+    """Return the name with the ending that libsdformat gives to the second of it."""
+    ending = f"{name}_{element.tag}"
+    numbered = (f"{ending}{n}" for n in range(len(scope.frames) + 1))
+    return next(n for n in (ending, *numbered) if n not in scope.frames)
 
 
 _INSIDE = frozenset("visual collision sensor light particle_emitter projector".split())

@@ -14,7 +14,7 @@ from sambot_viz.robot.urdf.link_tree import build_tree
 from sambot_viz.robot.urdf.links import FindMesh, LinkReader
 from sambot_viz.robot.urdf.material_table import FindTexture, MaterialTable
 from sambot_viz.robot.urdf.robot_parts import RobotParts, read_parts
-from sambot_viz.robot.urdf.sdf_habits import report_sdf_habits
+from sambot_viz.robot.urdf.sdf_habits import is_model_of_sdf, report_sdf_habits
 from sambot_viz.robot.xml.element import Element
 
 _OTHER_ROOTS = {
@@ -147,6 +147,19 @@ def _report_no_links(robot: Element, findings: ModelFindings) -> None:
         (e for e in robot.iter() if e.tag == "link" and e.parent is not robot), None
     )
     group = inside.parent if inside is not None else None
+    if group is not None and is_model_of_sdf(group):
+        sdf = robot.find("sdf")
+        name = tag_text(robot)
+        findings.reject(
+            "links-not-direct",
+            f"the <model> of SDF is inside {name}; ROS reads this as URDF, which has "
+            "no <model>",
+            "delete <robot> and </robot>: then it is an SDF file"
+            if sdf is not None
+            else f'write <sdf version="1.8"> for {name} and </sdf> for </robot>',
+            robot,
+        )
+        return
     if inside is not None and group is not None and group.tag not in _NOT_GROUPS:
         findings.reject(
             "links-not-direct",

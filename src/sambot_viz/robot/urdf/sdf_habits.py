@@ -11,6 +11,7 @@ _OF_ROBOT = frozenset("plugin sensor static self_collide light".split())
 _OF_LINK = frozenset(
     "plugin sensor self_collide gravity kinematic enable_wind light".split()
 )
+_ONLY_SDF = frozenset("pose size radius length uri ambient diffuse".split())
 
 
 def report_sdf_habits(robot: Element, findings: ModelFindings) -> None:
@@ -27,6 +28,17 @@ def report_sdf_habits(robot: Element, findings: ModelFindings) -> None:
             _report_pose(part, findings)
         elif part.tag == "link":
             _check_link(part, robot, findings)
+
+
+def is_model_of_sdf(group: Element) -> bool:
+    """Tell whether links are in a <model> and are written as in SDF."""
+    inside = list(group.iter()) if group.tag == "model" else []
+    if any(e.tag == "origin" or e.get("link") is not None for e in inside):
+        return False
+    return any(
+        e.tag in _ONLY_SDF or (e.tag in ("parent", "child") and e.text.strip())
+        for e in inside
+    )
 
 
 def _is_sdf(element: Element) -> bool:
