@@ -216,7 +216,8 @@ def names_with_spaces(subject: Subject) -> Iterator[Problem]:
                 "name-with-blank",
                 f'the {kind} name "{item.name}" contains a space: it works, but '
                 "commands and launch files split it in two",
-                f'write "{"_".join(item.name.split())}"',
+                f'write name="{"_".join(item.name.split())}", and the same wherever '
+                f"the {kind} is named",
             )
 
 

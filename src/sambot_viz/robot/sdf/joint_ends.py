@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
 from sambot_viz.robot.sdf.scopes import Frame, Scope
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
+from sambot_viz.robot.slips.blanks import written_with_blank
 from sambot_viz.robot.xml.element import Element
 
 
@@ -64,17 +65,43 @@ def _end(joint: Frame, tag: str, scope: Scope, findings: ModelFindings) -> str |
     elif scope.find(name) is not None or "::" in name:
         _refuse_frame(joint, tag, name, element, scope, findings)
     else:
-        links = [frame.name for frame in scope.of_kind("link")]
-        near = did_you_mean(name, links)
-        findings.reject(
-            f"joint-{tag}-unknown",
-            f"joint {joint.name} names the {tag} link '{name}', which does not exist "
-            f"({near}); {REFUSED}",
-            f'correct the name, or add <link name="{name}"/>',
-            element,
-            cause=f"link {name}",
-        )
+        _refuse_unknown(joint, tag, element, scope, findings)
     return None
+
+
+def _refuse_unknown(
+    joint: Frame, tag: str, element: Element, scope: Scope, findings: ModelFindings
+) -> None:
+    """Report an end that is no name of the model."""
+    name = trimmed(element.text)
+    joints = [frame.element for frame in scope.of_kind("joint")]
+    links = [frame.name for frame in scope.of_kind("link")]
+    named = {text_in(other, end) for other in joints for end in ("parent", "child")}
+    spaced = written_with_blank(name, links, named)
+    if spaced is not None:
+        findings.reject(
+            "link-name-blank",
+            f'the link name "{spaced}" contains a blank, so joint {joint.name} does '
+            f"not find the link {name}; {REFUSED}",
+            f'write name="{name}"',
+            scope.frames[spaced].element,
+            "name",
+        )
+        return
+    other = text_in(joint.element, "child" if tag == "parent" else "parent")
+    taken = {text_in(j, "child") for j in joints} if tag == "child" else set[str]()
+    possible = [link for link in links if link != other and link not in taken]
+    near = nearest(name, possible)
+    findings.reject(
+        f"joint-{tag}-unknown",
+        f"joint {joint.name} names the {tag} link '{name}', which does not exist "
+        f"({did_you_mean(name, possible or links)}); {REFUSED}",
+        f"write <{tag}>{near}</{tag}>"
+        if near
+        else f'correct the name, or add <link name="{name}"/>',
+        element,
+        cause=f"link {name}",
+    )
 
 
 def _refuse_world(

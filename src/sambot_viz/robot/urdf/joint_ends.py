@@ -9,6 +9,7 @@ from typing import NamedTuple
 from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint
+from sambot_viz.robot.slips.blanks import written_with_blank
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 
 
@@ -41,18 +42,25 @@ def check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
 def _without_blanks(
     parts: RobotParts, findings: ModelFindings, unknown: list[_Unknown]
 ) -> list[_Unknown]:
-    """Report links whose names have a blank at an end; return the other joints."""
+    """Report links whose names have a blank too many; return the other joints."""
     with_blank = {name.strip(): name for name in parts.links if name != name.strip()}
+    named = {end for j in parts.joints.values() for end in (j.parent, j.child)}
+    for _, _, link in unknown:
+        spaced = written_with_blank(link, parts.links, named)
+        if spaced is not None:
+            with_blank.setdefault(link, spaced)
     reported: set[str] = set()
     for joint, _, link in unknown:
         name = with_blank.get(link)
         if name is None or name in reported:
             continue
         reported.add(name)
-        begins = "begins" if name[0].isspace() else "ends"
+        verb = "begins with" if name[0].isspace() else "ends with"
+        if name == name.strip():
+            verb = "contains"
         findings.reject(
             "link-name-blank",
-            f'the link name "{name}" {begins} with a blank, so joint {joint.name} does '
+            f'the link name "{name}" {verb} a blank, so joint {joint.name} does '
             f"not find the link {link}; ROS refuses the model",
             f'write name="{link}"',
             parts.link_elements.get(name, parts.robot),

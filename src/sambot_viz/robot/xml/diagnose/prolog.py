@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.diagnose.source_text import ROOTS, SourceText
@@ -41,6 +42,8 @@ def other_file_problem(text: str, file: str) -> Problem | None:
     start = text.lstrip("\ufeff \t\r\n")
     for pattern, code, message, hint in _OTHER_FILES:
         if re.match(pattern, start):
+            if code == "model-empty" and ".sdf" in Path(file).suffixes:
+                hint = 'write <sdf version="1.8">, a <model> in it, and links into that'
             return Problem("error", code, message, hint, file, 1, 1)
     return None
 

@@ -1,0 +1,27 @@
+"""Names of links with a blank inside, which joints write without it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterable
+
+
+def written_with_blank(
+    name: str, links: Iterable[str], named: Container[str]
+) -> str | None:
+    """Return the link that a joint means by a name without blanks, or None.
+
+    Args:
+        name: what the joint says, which is no link.
+        links: the names of the links.
+        named: the names that joints say: a link among them is left as it is.
+    """
+    plain = _plain(name)
+    for link in links:
+        if " " in link.strip() and link not in named and _plain(link) == plain:
+            return None if " " in name else link
+    return None
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[\s_-]+", "", name).lower()
