@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 from large_recording import MOVING as TOPICS
-from tests.benchmarks.peers.driven import NotMeasured
+from tests.benchmarks.peers.driven import NotMeasured, end
 from tests.benchmarks.peers.environments import Environment
 from tests.benchmarks.peers.viewers import Found
 from usage import family_usage
@@ -92,7 +92,7 @@ def measure_program(
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        text=True,
+        bufsize=0,
         env={**os.environ, "RERUN_ANALYTICS_ENABLED": "false"},
     )
     try:
@@ -101,18 +101,16 @@ def measure_program(
         found.add("memory", _settled_memory(process.pid))
     finally:
         process.terminate()
-        process.wait(10.0)
-        assert process.stdout is not None
-        process.stdout.close()
+        end(process)
 
 
-def _wait_for_address(process: subprocess.Popen[str]) -> None:
+def _wait_for_address(process: subprocess.Popen[bytes]) -> None:
     assert process.stdout is not None
-    end = time.perf_counter() + 60.0
-    while time.perf_counter() < end:
+    latest = time.perf_counter() + 60.0
+    while time.perf_counter() < latest:
         ready, _, _ = select.select([process.stdout], [], [], 1.0)
-        line = process.stdout.readline() if ready else ""
-        if re.search(r"https?://", line):
+        line = process.stdout.readline() if ready else b""
+        if re.search(rb"https?://", line):
             return
         if ready and not line:
             break
@@ -121,9 +119,9 @@ def _wait_for_address(process: subprocess.Popen[str]) -> None:
 
 def _settled_memory(process: int) -> float:
     """The memory once the process has computed next to nothing for a second [MB]."""
-    end = time.perf_counter() + 90.0
+    latest = time.perf_counter() + 90.0
     before = now = family_usage(process)
-    while time.perf_counter() < end:
+    while time.perf_counter() < latest:
         time.sleep(1.0)
         now = family_usage(process)
         if now.share_since(before) < 0.05:

@@ -35,7 +35,7 @@ class Driven:
         started: when its process was started (`time.perf_counter`) [s].
     """
 
-    def __init__(self, process: subprocess.Popen[str], log: Path) -> None:
+    def __init__(self, process: subprocess.Popen[bytes], log: Path) -> None:
         self.started = time.perf_counter()
         self._process = process
         self._log = log
@@ -55,8 +55,7 @@ class Driven:
         """Give an order whose answer `heard` takes later."""
         assert self._process.stdin is not None
         try:
-            self._process.stdin.write(json.dumps(order) + "\n")
-            self._process.stdin.flush()
+            self._process.stdin.write(json.dumps(order).encode() + b"\n")
         except OSError as error:
             raise NotMeasured(self._last_words()) from error
 
@@ -70,11 +69,11 @@ class Driven:
 
     def _answer(self) -> dict[str, Any]:
         assert self._process.stdout is not None
-        line, ready = "\n", True
+        line, ready = b"\n", True
         # What a viewer itself prints is no answer.
-        while line and not line.startswith("{"):
+        while line and not line.startswith(b"{"):
             ready = bool(select.select([self._process.stdout], [], [], LONGEST)[0])
-            line = self._process.stdout.readline() if ready else ""
+            line = self._process.stdout.readline() if ready else b""
         if not line:
             raise NotMeasured(self._last_words() if ready else "does not answer")
         answer: dict[str, Any] = json.loads(line)
@@ -110,17 +109,18 @@ def drive(viewer: Viewer, environment: Environment, model: Model) -> Generator[D
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=errors,
-                text=True,
+                # With a buffer, a line that has come already would be waited for.
+                bufsize=0,
                 env=outside,
             )
         try:
             yield Driven(process, log)
         finally:
-            _end(process)
+            end(process)
 
 
-def _end(process: subprocess.Popen[str]) -> None:
-    """Close what it reads, which ends it; insist when that does not."""
+def end(process: subprocess.Popen[bytes]) -> None:
+    """Close what it reads, which ends it; insist on it, and on its children."""
     children = [*family(process.pid)][1:]
     for stream in (process.stdin, process.stdout):
         if stream is not None:
