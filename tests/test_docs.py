@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 import shlex
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import manual_page
 import pytest
 from command_line_page import PAGE, page, parser_of
+from tests.benchmarks.peers import report, results
 
 from sambot_viz.cli import COMMANDS
 from sambot_viz.flags import declared, flag_of
@@ -96,3 +98,17 @@ def test_the_rooms_of_the_contributors_map_exist() -> None:
     rooms = {room for row in rows for room in re.findall(r"`(\w+)/`", row)}
     package = ROOT / "src" / "sambot_viz"
     assert rooms == {path.parent.name for path in package.glob("*/__init__.py")}
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [("README.md", report.short_table), ("docs/benchmarks.md", report.for_docs)],
+)
+def test_figures_beside_peers_are_those_of_the_run_that_is_kept(
+    name: str, written: Callable[[results.Results], Iterator[str]]
+) -> None:
+    kept = results.read(ROOT / "docs" / "benchmarks" / "benchmarks.json")
+    document = (ROOT / name).read_text("utf-8")
+    assert report.with_figures(document, written(kept)) == document, (
+        "run: python -m tests.benchmarks --docs"
+    )

@@ -2,7 +2,7 @@
 
 Run it from the repository with the Python of the tests. Every peer gets an environment
 of its own below ``tests/.venv/peers``, made once; one that cannot be had is left out,
-with the reason. The results are written as JSON and as a table in Markdown.
+with the reason. The results are written as JSON and as tables in Markdown.
 """
 
 from __future__ import annotations
@@ -29,10 +29,12 @@ from tests.benchmarks.peers import (  # noqa: E402
     peers,
     regression,
     report,
+    results,
     robots,
     viewers,
 )
 from tests.benchmarks.peers.environments import Environment, NotHere  # noqa: E402
+from tests.benchmarks.peers.results import Results  # noqa: E402
 
 from sambot_viz.export.browser_process import find_browser  # noqa: E402
 from sambot_viz.export.chromium import Chromium  # noqa: E402
@@ -56,7 +58,8 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument(
         "--docs",
         action="store_true",
-        help="write into docs/ and README.md instead: the figures that they show",
+        help="bring the figures in docs/ and README.md to this run's; parts and robots "
+        "that are not measured keep theirs",
     )
     made.add_argument(
         "--parts", nargs="+", choices=PARTS, default=PARTS, help="what is measured"
@@ -80,27 +83,31 @@ def parser() -> argparse.ArgumentParser:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Measure, and write the results."""
-    options = parser().parse_args(words)
+    made = parser()
+    options = made.parse_args(words)
+    if options.docs and options.viewers:
+        made.error("--docs needs all viewers: their columns are compared")
     if options.short:
         return _short()
-    results = report.Results()
-    if options.docs:
-        options.out = REPOSITORY / "docs" / "benchmarks"
-    began = time.monotonic()
+    out = REPOSITORY / "docs" / "benchmarks" if options.docs else options.out
+    kept = out / "benchmarks.json"
+    found = results.read(kept) if options.docs else Results()
     with tempfile.TemporaryDirectory() as folder:
         if "viewers" in options.parts:
-            _viewers(options, Path(folder), results)
+            _viewers(options, Path(folder), found)
         if "checkers" in options.parts:
-            _checkers(Path(folder), results)
+            _checkers(Path(folder), found)
         if "bags" in options.parts:
-            _bags(options.recording, Path(folder), results)
+            _bags(options.recording, Path(folder), found)
         if "growth" in options.parts:
-            _growth(Path(folder), options.out, results)
-    results.seconds = time.monotonic() - began
-    report.write(results, options.out)
+            _growth(Path(folder), out, found)
+    results.write(found, kept)
+    tables = "\n".join(report.lines(found)) + "\n"
     if options.docs:
-        report.write_docs(results, REPOSITORY)
-    print(report.as_markdown(results))
+        report.write_docs(found, REPOSITORY)
+    else:
+        (out / "benchmarks.md").write_text(tables, "utf-8")
+    print(tables)
     return 0
 
 
@@ -114,20 +121,18 @@ def _short() -> int:
         return 0 if regression.run(model, _say) else 1
 
 
-def _viewers(
-    options: argparse.Namespace, folder: Path, results: report.Results
-) -> None:
+def _viewers(options: argparse.Namespace, folder: Path, kept: Results) -> None:
     made = robots.write(folder, REPOSITORY)
-    here = _environments(options.viewers, results)
+    here = _environments(options.viewers, kept)
     browser: AbstractContextManager[Chromium | None] = nullcontext()
     if find_browser() is None:
-        results.absent["pixels of all viewers"] = "there is no Chromium here"
+        kept.absent["pixels of all viewers"] = "there is no Chromium here"
     else:
         browser = Chromium(timeout=120.0)
     with browser as window:
         for name in options.robots:
+            began = time.monotonic()
             found = {viewer.name: viewers.Found() for viewer in here}
-            results.viewers[name] = found
             # In turn, so that what else the machine does meets all of them.
             for number in range(options.rounds):
                 for viewer, place in here.items():
@@ -140,24 +145,28 @@ def _viewers(
                 one = found[viewer.name]
                 move = partial(viewers.measure_moving, viewer, place, made[name])
                 one.attempt("moving", partial(move, one))
+            kept.viewers[name] = results.columns(found)
+            kept.ran(name, time.monotonic() - began)
 
 
 def _environments(
-    chosen: Sequence[str] | None, results: report.Results
+    chosen: Sequence[str] | None, kept: Results
 ) -> dict[peers.Viewer, Environment]:
     here: dict[peers.Viewer, Environment] = {}
     for viewer in peers.VIEWERS:
         if chosen and viewer.driver not in chosen:
             continue
         _say(f"environment of {viewer.name}")
+        for of_before in (kept.versions, kept.sizes, kept.absent):
+            of_before.pop(viewer.name, None)
         try:
             here[viewer] = _environment(viewer)
         except NotHere as error:
-            results.absent[viewer.name] = str(error)
+            kept.absent[viewer.name] = str(error)
             continue
-        results.versions[viewer.name] = here[viewer].version
+        kept.versions[viewer.name] = here[viewer].version
         if here[viewer].size:
-            results.sizes[viewer.name] = here[viewer].size
+            kept.sizes[viewer.name] = here[viewer].size
     return here
 
 
@@ -172,7 +181,8 @@ def _environment(viewer: peers.Viewer) -> Environment:
     )
 
 
-def _checkers(folder: Path, results: report.Results) -> None:
+def _checkers(folder: Path, kept: Results) -> None:
+    began = time.monotonic()
     wrong, spare = folder / "wrong", folder / "reports"
     for one in (wrong, spare):
         one.mkdir()
@@ -182,16 +192,19 @@ def _checkers(folder: Path, results: report.Results) -> None:
     if beside.is_file():
         cases += checkers.further_cases(beside)
         right.append(beside.with_name("_good.urdf"))
+    kept.checkers.clear()
     for checker in peers.CHECKERS:
         _say(f"checks with {checker.name}")
         try:
             program = _checker_program(checker)
         except NotHere as error:
-            results.absent[checker.name] = str(error)
+            kept.absent[checker.name] = str(error)
             continue
-        results.checkers[checker.name] = checkers.judge(
+        kept.absent.pop(checker.name, None)
+        kept.checkers[checker.name] = checkers.judge(
             checker, program, cases, right, spare
         )
+    kept.ran("checkers", time.monotonic() - began)
 
 
 def _checker_program(checker: peers.Checker) -> Path:
@@ -212,36 +225,40 @@ def _checker_program(checker: peers.Checker) -> Path:
     return place.program(checker.command[0])
 
 
-def _bags(size: int, folder: Path, results: report.Results) -> None:
+def _bags(size: int, folder: Path, kept: Results) -> None:
+    began = time.monotonic()
     recording = folder / "recording.mcap"
     _say(f"writes a recording of {size} MB")
     large_recording.write(recording, size * 1_000_000)
-    results.bag_size = recording.stat().st_size / 1e6
+    kept.recording_size = recording.stat().st_size / 1e6
+    found: dict[str, viewers.Found] = {}
     for name, ours in (("sambot-viz", True), ("mcap (Python)", False)):
-        found = results.bags.setdefault(name, viewers.Found())
+        one = found.setdefault(name, viewers.Found())
         for _ in range(3):
-            found.attempt(
-                "library", partial(bags.measure_library, ours, recording, found)
-            )
-    here = _environments(["this_program", "rerun_web"], results)
+            one.attempt("library", partial(bags.measure_library, ours, recording, one))
+    here = _environments(["this_program", "rerun_web"], kept)
     for viewer, place in here.items():
         name = "sambot-viz" if viewer.is_ours else "rerun"
-        found = results.bags.setdefault(name, viewers.Found())
+        one = found.setdefault(name, viewers.Found())
         for _ in range(3):
             _say(f"{name} opens the recording")
-            found.attempt(
-                "program",
-                partial(bags.measure_program, name, place, recording, found),
+            one.attempt(
+                "program", partial(bags.measure_program, name, place, recording, one)
             )
+    kept.recordings = results.columns(found)
+    kept.ran("bags", time.monotonic() - began)
 
 
-def _growth(folder: Path, out: Path, results: report.Results) -> None:
+def _growth(folder: Path, out: Path, kept: Results) -> None:
+    began = time.monotonic()
+    kept.growth.clear()
     for plot in growth.measure(folder, _say):
-        results.growth[plot.name] = plot.lines
+        kept.growth[plot.name] = plot.lines
         try:
             growth.draw(plot, out)
         except ImportError:
-            results.absent["plots"] = "pip install matplotlib"
+            kept.absent["plots"] = "pip install matplotlib"
+    kept.ran("growth", time.monotonic() - began)
 
 
 if __name__ == "__main__":
