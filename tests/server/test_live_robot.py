@@ -13,9 +13,10 @@ from panel_rows import data_of, edit, panel_of
 from protocol_client import CAMERA, ProtocolClient
 from robot_peer import RobotPeer
 
-from sambot_viz import JointError, UsageError, Visualizer
+from sambot_viz import JointError, UsageError, Visualizer, bundled, load_robot
 from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
+from sambot_viz.robot.load import expand
 from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.data.live_clock import ClockState
@@ -261,6 +262,25 @@ def test_without_a_robot_the_page_says_what_is_missing() -> None:
             peer.stop()
             eventually(lambda: "robot_state_publisher" not in sentence(viz))
             assert session_of(viz).robot.model is not None
+    finally:
+        peer.stop()
+
+
+def test_a_robot_that_describes_itself_in_sdf_is_that_of_the_file() -> None:
+    path = bundled.assets_folder() / "sam_bot.sdf"
+    of_file = load_robot(path)
+    peer = FoxglovePeer()
+    try:
+        peer.advertise("/robot_description", latched=True)
+        peer.publish("/robot_description", expand(path))
+        with Visualizer(source=peer.uri, port=0) as viz:
+            eventually(lambda: session_of(viz).robot.model.name == of_file.name)
+            robot = session_of(viz).robot.model
+        assert list(robot.links) == list(of_file.links)
+        assert list(robot.joints) == list(of_file.joints)
+        poses, expected = robot.forward_kinematics(), of_file.forward_kinematics()
+        for name, pose in expected.items():
+            np.testing.assert_allclose(poses[name], pose, atol=1e-9)
     finally:
         peer.stop()
 
