@@ -146,6 +146,15 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
         "endforeach()",
         "install(DIRECTORY . DESTINATION share/${PROJECT_NAME})",
         "ament_auto_package(INSTALL_TO_SHARE urdf launch rviz config world)",
+        '#[[ install( ]]\nset(text [=[ " ( ]=])\nmessage(STATUS "a ( \\" # b\\n")\n'
+        "install(DIRECTORY urdf launch rviz config world # (\n  DESTINATION "
+        "${CMAKE_INSTALL_DATADIR}/${CMAKE_PROJECT_NAME}\n)\n"
+        "if((A AND B) OR NOT C)\n  install(DIRECTORY nowhere DESTINATION share/x)\n"
+        "endif()",
+        "install(DIRECTORY urdf launch rviz config world DESTINATION\n"
+        "  share/${PROJECT_NAME})\ninstall(DIRECTORY include/ DESTINATION include)\n"
+        "install(DIRECTORY later OPTIONAL DESTINATION share/${PROJECT_NAME})\n"
+        "install(PROGRAMS a.py DESTINATION lib/${PROJECT_NAME})",
         "install(DIRECTORY urdf launch rviz config world\n  DESTINATION "
         "share/cart_description\n"
         '  PATTERN "*.orig" EXCLUDE)',
@@ -157,6 +166,7 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
 )
 def test_a_folder_may_be_installed_in_many_ways(text: str, copied: Copied) -> None:
     package = copied("gz")
+    (package / "include").mkdir()
     ending = "" if "ament_auto" in text else "ament_package()\n"
     (package / "CMakeLists.txt").write_text(
         f"project(cart_description)\n{text}\n{ending}"
@@ -242,6 +252,26 @@ def test_a_python_file_that_is_none_does_no_harm(
     (package / name).write_text(text)
     begin = time.process_time()
     assert codes(package) == []
+    assert time.process_time() - begin < 3
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\0",
+        "(" * 400_000,
+        "[[ " * 130_000,
+        "[[ " * 6_600,
+        "#[[ \n" * 3_900,
+        'a"' * 9_999,
+    ],
+    ids=["nul", "deep", "large", "brackets", "comments", "quotes"],
+)
+def test_a_cmake_file_that_is_none_does_no_harm(text: str, copied: Copied) -> None:
+    package = copied("gz")
+    (package / "CMakeLists.txt").write_text(text)
+    begin = time.process_time()
+    assert set(codes(package)) <= {"cmake-unclosed"}
     assert time.process_time() - begin < 3
 
 
@@ -387,5 +417,6 @@ NAMES_THAT_MUST_MEET = frozenset(
     "frame-odom ekf-world-frame transform-twice topic-unknown bridge-topic "
     "bridge-types bridge-direction clock-not-bridged sim-time-off launch-xacro-py "
     "launch-file-missing launch-parameters-unread launch-world-name "
-    "folder-not-installed footprint-size sensor-frame ekf-two-d-mode".split()
+    "folder-not-installed footprint-size sensor-frame ekf-two-d-mode cmake-unclosed "
+    "cmake-project-name install-folder-missing install-destination".split()
 )

@@ -20,6 +20,7 @@ LAUNCH = "launch/display.launch.py"
 EKF = "config/ekf.yaml"
 NAV2 = "config/nav2_params.yaml"
 BRIDGE = "config/bridge_config.yaml"
+CMAKE = "CMakeLists.txt"
 
 Copied = Callable[[str], Path]
 
@@ -36,7 +37,7 @@ class Mistake:
         package: the package that gets it: "gz" or "classic".
         made: the edits that make it.
         at: the file and the text of the line of the finding, after the edits.
-        other: the file and the text of the second line that the finding names.
+        other: the file and the text of the second line that the finding names, if any.
         advice: words of the hint.
         fixed: the edits that follow the hint.
         count: so many findings of that code.
@@ -717,6 +718,137 @@ MISTAKES = [
         "write project(cart_description)",
     ),
     Mistake(
+        "cmake-project-name",
+        (("package.xml", "<name>cart_description<", "<name>cart<"),),
+        ("package.xml", "<name>cart</name>"),
+        (CMAKE, "project(cart_description)"),
+        "write <name>cart_description</name>",
+        (("package.xml", "<name>cart</name>", "<name>cart_description</name>"),),
+        name="in the manifest",
+    ),
+    *(
+        Mistake(
+            "cmake-unclosed",
+            ((CMAKE, old, new),),
+            (CMAKE, at),
+            ("", ""),
+            advice,
+            ((CMAKE, new, better or old),),
+            name=name,
+        )
+        for name, old, new, at, advice, better in (
+            (
+                "project",
+                "project(cart_description)",
+                "project(cart_description",
+                "project(",
+                "write project(cart_description)",
+                "",
+            ),
+            (
+                "install",
+                "share/${PROJECT_NAME}\n)",
+                "share/${PROJECT_NAME}\n",
+                "install(",
+                "write share/${PROJECT_NAME}) in line 8",
+                "share/${PROJECT_NAME})\n",
+            ),
+            (
+                "last command",
+                "ament_package()",
+                "ament_package(",
+                "ament_package(",
+                "write ament_package()",
+                "",
+            ),
+            (
+                "quotation mark",
+                "DIRECTORY urdf launch",
+                'DIRECTORY "urdf launch',
+                "DIRECTORY",
+                'write "urdf"',
+                'DIRECTORY "urdf" launch',
+            ),
+            (
+                "closed twice",
+                "world\n  DESTINATION share/${PROJECT_NAME}\n)",
+                "world)\n  DESTINATION share/${PROJECT_NAME}\n)  # end",
+                "# end",
+                "write world without the ) after it in line 7",
+                "world\n  DESTINATION share/${PROJECT_NAME}\n)  # end",
+            ),
+            ("stray", "REQUIRED)", "REQUIRED))", "find_package", "delete it", ""),
+        )
+    ),
+    *(
+        one(
+            "install-folder-missing",
+            CMAKE,
+            "DIRECTORY urdf launch rviz config world",
+            f"DIRECTORY {folders}",
+            ("", ""),
+            f"write {right}",
+            name=f"for {right}",
+        )
+        for folders, right in (
+            ("urdf lanch rviz config world", "launch"),
+            ("URDF launch rviz config world", "urdf"),
+            ("urdf launch rviz conf world", "config"),
+            ("urdf launch rviz config worlds", "world"),
+        )
+    ),
+    one(
+        "install-folder-missing",
+        CMAKE,
+        "config world",
+        "config world plans",
+        ("", ""),
+        "delete plans here, or make that folder",
+        name="with no near one",
+    ),
+    *(
+        Mistake(
+            "install-destination",
+            ((CMAKE, "share/${PROJECT_NAME}", target),),
+            (CMAKE, f"DESTINATION {target}"),
+            (LAUNCH, "import os"),
+            "write share/${PROJECT_NAME}",
+            ((CMAKE, f"DESTINATION {target}", "DESTINATION share/${PROJECT_NAME}"),),
+            name=target,
+        )
+        for target in (
+            "share/${PROJECT_NAM}",
+            "share/{PROJECT_NAME}",
+            "share/$(PROJECT_NAME)",
+            "share/${project_name}",
+            "share",
+            "lib/${PROJECT_NAME}",
+            "${PROJECT_NAME}",
+            "share/cart",
+            "/usr/share",
+        )
+    ),
+    Mistake(
+        "install-destination",
+        (
+            (CMAKE, "config world", "config"),
+            (
+                CMAKE,
+                "ament_package()",
+                "install(FILES world/room.sdf\n"
+                "  DESTINATION share/${PROJECT_NAME}/world)\n"
+                "install(DIRECTORY config/\n  DESTINATION lib/${PROJECT_NAME}/config)\n"
+                "ament_package()",
+            ),
+            (CMAKE, "rviz config", "rviz"),
+        ),
+        (CMAKE, "DESTINATION lib"),
+        (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
+        "write share/${PROJECT_NAME}/config",
+        ((CMAKE, "lib/${PROJECT_NAME}", "share/${PROJECT_NAME}"),),
+        name="below the package",
+    ),
+    Mistake(
         "folder-not-installed",
         (("CMakeLists.txt", "launch rviz config world", "launch rviz world"),),
         ("CMakeLists.txt", "ament_package()"),
@@ -827,7 +959,7 @@ def test_a_mistake_is_found_at_both_places_and_its_fix_leaves_nothing(
     assert problem.file == str(package / file)
     assert problem.line == line_of(package / file, text)
     file, text = mistake.other
-    line = line_of(package / file, text)
+    line = line_of(package / file, text) if file else 0
     same = problem.file == str(package / file)
     name = f"line {line}" if same else f"{Path(file).name} line {line}"
     assert (name if line else file) in problem.message

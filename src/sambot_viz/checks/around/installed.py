@@ -1,43 +1,43 @@
-"""Folders that launch files use and that CMakeLists.txt or setup.py do not install."""
+"""Folders that are used, but that CMakeLists.txt or setup.py does not install right."""
 
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
-from typing import NamedTuple
+from dataclasses import dataclass, field
 
+from sambot_viz.checks.around.build_file import near_folder
+from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name, parse_python
+from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.parts import MeshFile
 
-_COMMENT = re.compile(r"#[^\n]*")
-_INSTALL = re.compile(r"\binstall\s*\(([^()]*)\)", re.IGNORECASE)
-_PROJECT = re.compile(r"\bproject\s*\(\s*\"?([A-Za-z0-9_.-]+)\b", re.IGNORECASE)
-_AUTO = re.compile(r"\bament_auto_package\s*\(([^()]*)\)")
-_UNCERTAIN = re.compile(
-    r"\b(foreach|macro|function|include|add_subdirectory|file)\s*\(", re.IGNORECASE
+_UNCERTAIN = frozenset(
+    {"foreach", "macro", "function", "include", "add_subdirectory", "file"}
 )
-_HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
-_SHARE_FOLDER = re.compile(
-    r"(share|\$\{CMAKE_INSTALL_DATADIR\})/+(?P<name>[^/]+)/*(?P<rest>.*)"
-)
-_WORDS = frozenset(
-    "DIRECTORY FILES PROGRAMS DESTINATION PATTERN REGEX USE_SOURCE_PERMISSIONS "
-    "FILES_MATCHING PERMISSIONS OPTIONAL".split()
-)
+_SHARES = ("share", "${CMAKE_INSTALL_DATADIR}")
+_OF_PACKAGE = "share/${PROJECT_NAME}"
 _SEARCHES = frozenset({"walk", "rglob", "iterdir", "listdir", "scandir"})
 
 
-class Installed(NamedTuple):
-    """The folders that a build file installs, and the line that does it."""
+@dataclass(frozen=True, slots=True)
+class Installed:
+    """The folders that a build file installs.
 
-    folders: frozenset[str]
+    Attributes:
+        place: where a missing one is to be added.
+        folders: those that get into the share folder of the package.
+        elsewhere: those that get to another place, and its DESTINATION.
+    """
+
     place: Place
+    folders: set[str]
+    elsewhere: dict[str, CMakeWord] = field(default_factory=dict[str, CMakeWord])
 
 
 def not_installed(around: Surroundings) -> Iterator[Problem]:
@@ -46,10 +46,17 @@ def not_installed(around: Surroundings) -> Iterator[Problem]:
     installed = _installed(around) if used else None
     if installed is None:
         return
-    for folder, user in used.items():
-        if folder in installed.folders:
+    missing = {f: user for f, user in used.items() if f not in installed.folders}
+    for target in dict.fromkeys(installed.elsewhere.values()):
+        wrong = {
+            f: u for f, u in missing.items() if installed.elsewhere.get(f) == target
+        }
+        if wrong:
+            yield _at_wrong_place(around, target, wrong, installed.place.file)
+    cmake = installed.place.file.endswith(".txt")
+    for folder, user in missing.items():
+        if folder in installed.elsewhere:
             continue
-        cmake = installed.place.file.endswith(".txt")
         yield Problem.at(
             installed.place,
             "error",
@@ -60,11 +67,29 @@ def not_installed(around: Surroundings) -> Iterator[Problem]:
             else f"the folder {folder} is not installed, but "
             f"{where(user, installed.place)} looks for a file of it in the installed "
             "package: it is not found",
-            f"add install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})"
+            f"add install(DIRECTORY {folder} DESTINATION {_OF_PACKAGE})"
             if cmake
             else f"add (os.path.join('share', package_name, '{folder}'), "
             f"glob('{folder}/*')) to data_files",
         )
+
+
+def _at_wrong_place(
+    around: Surroundings, target: CMakeWord, folders: dict[str, Place], file: str
+) -> Problem:
+    place = Place(file, target.line)
+    user = next(iter(folders.values()))
+    are, them = ("s", "them") if len(folders) > 1 else ("", "it")
+    needs = "is used from" if user.line == 1 else f"looks for {them} in"
+    return Problem.at(
+        place,
+        "error",
+        "install-destination",
+        f"the folder{are} {listed(folders)} {'are' if are else 'is'} installed into "
+        f"{target.text}, but {where(user, place)} {needs} "
+        f"share/{around.files.name}: nothing is found",
+        f"write {_corrected(target.text, around)}",
+    )
 
 
 def _used_folders(around: Surroundings) -> Iterator[tuple[str, Place]]:
@@ -89,62 +114,82 @@ def _used_folders(around: Surroundings) -> Iterator[tuple[str, Place]]:
 
 def _installed(around: Surroundings) -> Installed | None:
     """What is installed; None when that is not certain."""
-    cmake = around.files.text("CMakeLists.txt")
-    if cmake is not None:
-        return _by_cmake(cmake, around)
+    if around.files.text("CMakeLists.txt") is not None:
+        return None if around.cmake is None else _by_cmake(around.cmake, around)
     setup = around.files.text("setup.py")
     return None if setup is None else _by_setup(setup, around.files.shown("setup.py"))
 
 
-def _by_cmake(text: str, around: Surroundings) -> Installed | None:
-    text = _COMMENT.sub("", text)
-    if "ament_package" not in text and "ament_auto_package" not in text:
+def _by_cmake(cmake: CMakeFile, around: Surroundings) -> Installed | None:
+    if not cmake.is_package or not _UNCERTAIN.isdisjoint(cmake.names):
         return None
-    if _UNCERTAIN.search(text):
-        return None
-    folders: set[str] = set()
-    end = text.find("ament_package")
-    line = text.count("\n", 0, max(end, 0)) + 1
-    for auto in _AUTO.finditer(text):
-        folders.update(word.rstrip("/") for word in auto[1].split())
-    for found in _INSTALL.finditer(text):
-        names = _shared(found[1].split(), around)
-        if names is None:
+    end = next(c for c in cmake.commands if c.name.startswith("ament_"))
+    end = next((c for c in cmake.commands if c.name == "ament_package"), end)
+    installed = Installed(cmake.place(end.line), set())
+    for command in cmake.commands:
+        if command.name == "ament_auto_package":
+            installed.folders.update(w.text.rstrip("/") for w in command.words)
+        elif command.name == "install" and not _add(command, installed, around):
             return None
-        folders |= names
-    return Installed(
-        frozenset(folders), Place(around.files.shown("CMakeLists.txt"), line)
-    )
+    return installed
 
 
-def _shared(words: list[str], around: Surroundings) -> set[str] | None:
-    """The folders that one install( … ) puts into share; None when not certain."""
-    words = [_HERE.sub("", word.strip('"')) or "." for word in words]
-    if not words or "DESTINATION" not in words[:-1]:
-        return set()
-    target = words[words.index("DESTINATION") + 1].replace(
-        "${PROJECT_NAME}", around.files.name
-    )
-    match = _SHARE_FOLDER.fullmatch(target)
-    if match is None:
-        return None if target.startswith("${") else set()
-    if "${" in match["name"] + match["rest"]:
+def _add(command: CMakeCommand, installed: Installed, around: Surroundings) -> bool:
+    """Add what one install( … ) does; False when that is not certain."""
+    target = command.destination
+    if target is None:
+        return True
+    right = _corrected(target.text, around)
+    if right is None:
+        return False
+    is_right = right == target.text
+    folders = _folders(command, right, around)
+    if folders is None:
+        return not is_right
+    if is_right:
+        installed.folders.update(folders)
+    elif command.directories and command.certain:
+        for folder in folders:
+            installed.elsewhere.setdefault(folder, target)
+    return True
+
+
+def _corrected(target: str, around: Surroundings) -> str | None:
+    """The DESTINATION that is meant by another one, or the same when it is right.
+
+    None when it is not certain where this one leads.
+    """
+    cmake = around.cmake
+    if cmake is None:
         return None
-    if match["rest"]:
-        return {match["rest"].partition("/")[0]}
-    if words[0] != "DIRECTORY":
-        return set()
+    first, *parts = [part for part in target.split("/") if part] or [""]
+    names = {around.files.name, "${PROJECT_NAME}", "${CMAKE_PROJECT_NAME}"}
+    if cmake.project is not None:
+        names.add(cmake.project.text)
+    if first in _SHARES and parts and parts[0] in names:
+        return target
+    parts = parts if first in _SHARES else [first, *parts]
+    at = next((n for n, p in enumerate(parts) if p in names or cmake.is_name(p)), None)
+    if at != 0 and "$" in "".join(parts[:1]):
+        return None
+    return "/".join([_OF_PACKAGE, *([] if at is None else parts[at + 1 :])])
+
+
+def _folders(
+    command: CMakeCommand, target: str, around: Surroundings
+) -> set[str] | None:
+    """The folders that an install( … ) puts into share; None when not certain."""
+    inner = [part for part in target.split("/")[2:] if part]
+    if inner:
+        return None if "$" in inner[0] else {inner[0]}
     folders: set[str] = set()
-    for word in words[1 : words.index("DESTINATION")]:
-        if "${" in word:
+    for text, _ in command.directories:
+        if "$" in text:
             return None
-        if word in _WORDS:
-            continue
-        folders |= (
-            _inside(word, around)
-            if word.endswith(("/", "."))
-            else {word.rpartition("/")[2]}
-        )
+        if text.endswith(("/", ".")):
+            folders |= _inside(text, around)
+        else:
+            folders.add(near_folder(text, around) or text.rpartition("/")[2])
     return folders
 
 
@@ -172,27 +217,4 @@ def _by_setup(text: str, shown: str) -> Installed | None:
             parts.update(node.value.split("/"))
         if isinstance(node, ast.keyword) and node.arg == "data_files":
             place = Place(shown, node.value.lineno)
-    return None if place is None else Installed(frozenset(parts), place)
-
-
-def project_name(around: Surroundings) -> Iterator[Problem]:
-    """Compare the project in CMakeLists.txt with the name in package.xml."""
-    text = _COMMENT.sub("", around.files.text("CMakeLists.txt") or "")
-    project = _PROJECT.search(text)
-    name = around.files.name
-    if project is None or project[1] == name or "ament_package" not in text:
-        return
-    place = Place(
-        around.files.shown("CMakeLists.txt"), text.count("\n", 0, project.start()) + 1
-    )
-    manifest = around.files.text("package.xml") or ""
-    line = manifest.count("\n", 0, max(manifest.find("<name>"), 0)) + 1
-    other = Place(around.files.shown("package.xml"), line)
-    yield Problem.at(
-        place,
-        "error",
-        "cmake-project-name",
-        f"CMakeLists.txt calls the package {project[1]}, package.xml calls it {name} "
-        f"({where(other, place)}): what is installed is not found",
-        f"write project({name})",
-    )
+    return None if place is None else Installed(place, parts)

@@ -10,6 +10,11 @@ from sambot_viz.checks.around.bridges import (
     bridge_topics,
     scoped_frames,
 )
+from sambot_viz.checks.around.build_file import (
+    missing_folders,
+    project_name,
+    unreadable_cmake,
+)
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
 from sambot_viz.checks.around.drives import (
     exchanged_sides,
@@ -31,7 +36,7 @@ from sambot_viz.checks.around.generations import (
     started_twice,
     xacro_py,
 )
-from sambot_viz.checks.around.installed import not_installed, project_name
+from sambot_viz.checks.around.installed import not_installed
 from sambot_viz.checks.around.joints import (
     joints_of_controllers,
     unknown_joints,
@@ -66,6 +71,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_yaml,
     misspelt_key,
     unreadable_python,
+    unreadable_cmake,
     joints_of_controllers,
     wheel_sizes_of_controllers,
     exchanged_sides_of_controllers,
@@ -91,6 +97,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unread_parameters,
     world_names,
     project_name,
+    missing_folders,
     not_installed,
     footprints,
 )

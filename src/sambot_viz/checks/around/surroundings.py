@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from sambot_viz.checks.around.files.cmake import LONGEST, CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -66,6 +67,15 @@ class Surroundings:
     def parameters(self) -> tuple[Parameter, ...]:
         """All parameters in all YAML files."""
         return tuple(p for file in self.yaml_files for p in file.parameters)
+
+    @cached_property
+    def cmake(self) -> CMakeFile | None:
+        """CMakeLists.txt; None when there is none, or a very long one."""
+        name = "CMakeLists.txt"
+        text = self.files.text(name)
+        if text is None or len(text) > LONGEST:
+            return None
+        return CMakeFile(text, self.files.shown(name))
 
     @cached_property
     def namespaced(self) -> bool:

@@ -1,0 +1,126 @@
+"""CMakeLists.txt: brackets, the name of the project, and folders that do not exist."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.cmake import CMakeFile, CMakeWord
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem, nearest
+
+_FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
+_MODELS = (".xacro", ".urdf", ".sdf")
+_NOT_MEANT = frozenset({"build", "install", "log", ".git"})
+_MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
+
+
+def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
+    """Report brackets and quotation marks that are not closed."""
+    cmake = around.cmake
+    if cmake is not None and cmake.fault is not None:
+        yield Problem.at(
+            cmake.place(cmake.fault.line),
+            "error",
+            "cmake-unclosed",
+            f"CMake cannot read this file: {cmake.fault.cause}; colcon build stops",
+            cmake.fault.hint,
+        )
+
+
+def missing_folders(around: Surroundings) -> Iterator[Problem]:
+    """Report folders in install(DIRECTORY … ) that the package does not have."""
+    cmake = around.cmake
+    if cmake is None or not cmake.is_package:
+        return
+    made = not _MAKES.isdisjoint(cmake.names)
+    for command in cmake.commands:
+        optional = any(word.text == "OPTIONAL" for word in command.words)
+        for word in command.directories if command.certain and not optional else ():
+            near = near_folder(word.text, around)
+            if near is not None or (not made and _is_missing(word.text, around)):
+                yield _missing(cmake, word, near)
+
+
+def _missing(cmake: CMakeFile, word: CMakeWord, near: str | None) -> Problem:
+    name = word.text.rstrip("/")
+    has = f"; it has {near}" if near else ""
+    return Problem.at(
+        cmake.place(word.line),
+        "error",
+        "install-folder-missing",
+        f"the folder {name} is to be installed, but the package does not have it{has}: "
+        "colcon build stops",
+        f"write {near}" if near else f"delete {name} here, or make that folder",
+    )
+
+
+def near_folder(folder: str, around: Surroundings) -> str | None:
+    """Return the folder that is meant by the name of one that does not exist."""
+    if not _is_missing(folder, around):
+        return None
+    above, _, name = folder.rstrip("/").rpartition("/")
+    head = f"{above}/" if above else ""
+    commands = around.cmake.commands if around.cmake else ()
+    named = {w.text.rstrip("/") for c in commands for w in c.directories}
+    free = {n.lower(): n for n in _folders_in(around, above) if head + n not in named}
+    near = nearest(name.lower(), free)
+    return None if near is None else head + free[near]
+
+
+def _folders_in(around: Surroundings, folder: str) -> list[str]:
+    try:
+        inner = sorted((around.files.folder / folder).iterdir())
+    except OSError:
+        return []
+    return [p.name for p in inner if p.is_dir() and p.name not in _NOT_MEANT]
+
+
+def _is_missing(folder: str, around: Surroundings) -> bool:
+    parts = folder.split("/")
+    if "$" in folder or "" in parts[:-1] or not {".", ".."}.isdisjoint(parts):
+        return False
+    return not (around.files.folder / folder).exists()
+
+
+def project_name(around: Surroundings) -> Iterator[Problem]:
+    """Compare the project in CMakeLists.txt with the name in package.xml."""
+    cmake = around.cmake
+    project = cmake.project if cmake is not None and cmake.is_package else None
+    name = around.files.name
+    if cmake is None or project is None or project.text == name:
+        return
+    manifest = around.files.text("package.xml") or ""
+    line = manifest.count("\n", 0, max(manifest.find("<name>"), 0)) + 1
+    here = cmake.place(project.line)
+    other = Place(around.files.shown("package.xml"), line)
+    used = _used_names(around)
+    if project.text in used and name not in used:
+        place, second = other, here
+        says = f"package.xml calls the package {name}, but files of it are used from "
+        says += f"{project.text}, as CMakeLists.txt calls it"
+        hint = f"write <name>{project.text}</name>"
+    else:
+        place, second = here, other
+        says = f"CMakeLists.txt calls the package {project.text}, "
+        says += f"package.xml calls it {name}"
+        hint = f"write project({name})"
+    yield Problem.at(
+        place,
+        "error",
+        "cmake-project-name",
+        f"{says} ({where(second, place)}): what is installed is not found",
+        hint,
+    )
+
+
+def _used_names(around: Surroundings) -> set[str]:
+    """The packages whose files the models and launch files use."""
+    texts = (around.files.text(path) for path in around.files.ending(*_MODELS))
+    found = {a or b for text in texts for a, b in _FOUND.findall(text or "")}
+    for launch in around.launches:
+        paths = (fact.value.removeprefix(SHARE) for fact in launch.paths)
+        found |= {path.partition("/")[0] for path in paths}
+    return found

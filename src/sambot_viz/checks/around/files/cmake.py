@@ -1,0 +1,219 @@
+"""The commands in a CMakeLists.txt, and what stops CMake from reading it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.errors import Place, nearest
+
+_TOKEN = re.compile(
+    r"(?P<skip>\s+|\#\[(?P<level>=*)\[.*?\](?P=level)\]|\#[^\n]*)"
+    r"|(?P<bracket>\[(?P<depth>=*)\[.*?\](?P=depth)\])"
+    r'|(?P<quoted>"(?:[^"\\]|\\.)*")'
+    r'|(?P<sign>[()"])'
+    r"|(?P<word>(?:\$\(\w*\)|\\.|[^\s()\#\"\\])"
+    r"(?:\$\(\w*\)|\\.|\"(?:[^\"\\\n]|\\.)*\"|[^\s()\#\"\\])*)",
+    re.DOTALL,
+)
+_COMMAND = re.compile(r"[ \t]*\w+[ \t]*\(")
+_BLOCKS = frozenset({"if", "foreach", "while", "function", "macro", "block"})
+_KEYWORDS = frozenset(
+    "TYPE DESTINATION FILE_PERMISSIONS DIRECTORY_PERMISSIONS PERMISSIONS PATTERN REGEX "
+    "USE_SOURCE_PERMISSIONS FILES_MATCHING OPTIONAL MESSAGE_NEVER CONFIGURATIONS "
+    "COMPONENT EXCLUDE_FROM_ALL".split()
+)
+_HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
+_NAME = "PROJECT_NAME"
+
+LONGEST = 20_000
+"""Longer files are not read [characters]."""
+
+
+class CMakeWord(NamedTuple):
+    """An argument of a command, without quotation marks, and its line."""
+
+    text: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class CMakeCommand:
+    """A command.
+
+    Attributes:
+        name: in small letters.
+        words: its arguments; parentheses among them are left out.
+        line: where its name is.
+        certain: False within if( … ), a loop or a function.
+    """
+
+    name: str
+    words: tuple[CMakeWord, ...]
+    line: int
+    certain: bool
+
+    @property
+    def directories(self) -> tuple[CMakeWord, ...]:
+        """The folders of install(DIRECTORY …), relative to the package."""
+        if (
+            self.name != "install"
+            or not self.words
+            or self.words[0].text != "DIRECTORY"
+        ):
+            return ()
+        found: list[CMakeWord] = []
+        for text, line in self.words[1:]:
+            if text in _KEYWORDS:
+                break
+            found.append(CMakeWord(_HERE.sub("", text) or ".", line))
+        return tuple(found)
+
+    @property
+    def destination(self) -> CMakeWord | None:
+        """The argument after DESTINATION, or None."""
+        for at, word in enumerate(self.words[:-1]):
+            if word.text == "DESTINATION":
+                return self.words[at + 1]
+        return None
+
+
+class CMakeFile:
+    """A CMakeLists.txt.
+
+    Args:
+        text: its text.
+        shown: the path as the user would write it.
+    """
+
+    def __init__(self, text: str, shown: str) -> None:
+        self.shown = shown
+        self.fault: Fault | None = None
+        """What stops CMake; the commands are then not certain."""
+        self._lines = text.splitlines()
+        self.commands = tuple(self._commands(text))
+
+    def place(self, line: int) -> Place:
+        """Return the place of a line."""
+        return Place(self.shown, line)
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The names of all commands."""
+        return frozenset(command.name for command in self.commands)
+
+    @property
+    def is_package(self) -> bool:
+        """True when it makes a package of ROS 2, as far as it can be read."""
+        makes = {"ament_package", "ament_auto_package"}
+        return self.fault is None and not makes.isdisjoint(self.names)
+
+    @cached_property
+    def project(self) -> CMakeWord | None:
+        """The name of the project, when it is plain text."""
+        for command in self.commands:
+            if command.name == "project" and command.words:
+                name = command.words[0]
+                return name if re.fullmatch(r"[\w.-]+", name.text) else None
+        return None
+
+    def is_name(self, part: str) -> bool:
+        """Tell whether ${PROJECT_NAME} is meant, such as by ${PROJECT_NAM}."""
+        bare = re.sub(r"^\$?[{(]?|[)}]?$", "", part)
+        known = {c.words[0].text for c in self.commands if c.name == "set" and c.words}
+        like = nearest(bare.upper(), [_NAME], likeness=0.85) is not None
+        return like and bare not in known
+
+    def _commands(self, text: str) -> Iterator[CMakeCommand]:
+        line, closed, inside = 1, 0, 0
+        name = CMakeWord("", 0)
+        words: list[CMakeWord] = []
+        opened: list[int] = []
+        for token in _TOKEN.finditer(text):
+            found = token[0]
+            if found == '"':
+                self.fault = self._open_quote(text)
+                return
+            if found == "(":
+                opened.append(line)
+            elif found == ")" and opened:
+                opened.pop()
+                if not opened:
+                    closed, low = line, name.text.lower()
+                    inside -= low.startswith("end") and low[3:] in _BLOCKS
+                    yield CMakeCommand(low, tuple(words), name.line, inside <= 0)
+                    inside += low in _BLOCKS
+                    words = []
+            elif found == ")":
+                self.fault = self._closed_early(name, closed, line)
+                return
+            elif token["skip"] is None and opened:
+                words.append(CMakeWord(_bare(found), line))
+            elif token["word"]:
+                name = CMakeWord(found, line)
+            line += found.count("\n")
+        if opened:
+            self.fault = self._never_closed(name, opened[0])
+
+    def _never_closed(self, name: CMakeWord, line: int) -> Fault:
+        """Find the last line before the next command: there the ) is missing."""
+        end = len(self._lines)
+        for number in range(line + 1, end + 1):
+            text = self._lines[number - 1]
+            if _COMMAND.match(text) and _indent(text) <= _indent(self._lines[line - 1]):
+                end = number - 1
+                break
+        code = {n: _code(self._lines[n - 1]) for n in range(line, end + 1)}
+        last = max((n for n, text in code.items() if text), default=line)
+        word = (code[last].split() or [name.text])[-1]
+        return Fault(
+            line,
+            f"the ( of {name.text} is not closed",
+            f"write {word}) in line {last}" if last != line else f"write {word})",
+        )
+
+    def _closed_early(self, name: CMakeWord, closed: int, line: int) -> Fault:
+        """Find the ) that has closed a command before its last words."""
+        before = _code(self._lines[closed - 1]) if name.line > closed > 0 else ""
+        word = "".join(before.split()[-1:]).removesuffix(")")
+        return Fault(
+            line,
+            "this ) closes nothing",
+            f"write {word} without the ) after it in line {closed}"
+            if word and before.endswith(")")
+            else "delete it",
+        )
+
+    def _open_quote(self, text: str) -> Fault:
+        """Find the first quotation mark whose text does not end in its line."""
+        at = len(text)
+        for token in _TOKEN.finditer(text):
+            quoted = token["quoted"] or ""
+            if token["sign"] == '"' or "\n" in quoted:
+                at = token.start()
+                break
+        rest = _code(text[at:].split("\n", 1)[0])
+        value = re.split(r"\s|\)", rest, maxsplit=1)[0]
+        return Fault(
+            text.count("\n", 0, at) + 1,
+            'a quotation mark " is opened and not closed',
+            f'write {value}"',
+        )
+
+
+def _bare(text: str) -> str:
+    """The text in quotation marks."""
+    return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
+
+
+def _indent(text: str) -> int:
+    return len(text) - len(text.lstrip())
+
+
+def _code(text: str) -> str:
+    """A line without its comment."""
+    return text.partition("#")[0].rstrip()
