@@ -521,6 +521,39 @@ def test_a_mesh_that_was_missing_is_found_as_soon_as_it_is_there(
         client.wait_until(lambda: client.types()["MeshMessage"] > 0)
 
 
+def test_a_saved_file_around_the_model_is_checked_and_the_model_is_not_read_again(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>sam_bot</name></package>")
+    params = tmp_path / "nav2_params.yaml"
+    params.write_text("amcl:\n  ros__parameters:\n    base_frame_id: base_link\n")
+    sam_bot = Followed(tmp_path)
+    try:
+        problems, robot = sam_bot.session.problems, sam_bot.session.robot.model
+
+        def listed() -> list[tuple[str, int | None]]:
+            found = problems.shown.value.listed
+            return [(p.code, p.line) for p in found if p.file == str(params)]
+
+        sam_bot.wait_for(lambda: params in sam_bot.session.checks.files.value)
+        assert listed() == []
+        sam_bot.save("base_link", "base_lnk", params)
+        sam_bot.wait_for(lambda: listed() == [("frame-unknown", 3)])
+        sam_bot.save("base_lnk", "base_link", params)
+        sam_bot.wait_for(lambda: listed() == [])
+        # CMakeLists.txt was looked for, and is not there yet.
+        build = tmp_path / "CMakeLists.txt"
+        build.write_text("project(sam_bot")
+        sam_bot.wait_for(
+            lambda: "cmake-unclosed" in [p.code for p in problems.shown.value.listed]
+        )
+        assert sam_bot.session.robot.model is robot
+        sam_bot.save("front_caster", "rear_caster")
+        sam_bot.wait_for(lambda: sam_bot.session.robot.model is not robot)
+    finally:
+        sam_bot.viz.stop()
+
+
 def test_each_private_session_follows_and_a_later_one_shows_the_mistake(
     tmp_path: Path, protocol: Callable[[int], ProtocolClient]
 ) -> None:

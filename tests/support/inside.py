@@ -37,7 +37,13 @@ def is_signal(value: object) -> bool:
 
 def signals_of(session: Session) -> list[Signal[Any]]:
     """Everything that a session tells."""
-    parts = (session.document, session.scene, session.robot, session.problems)
+    parts = (
+        session.document,
+        session.scene,
+        session.robot,
+        session.problems,
+        session.checks,
+    )
     return [one for part in parts for one in vars(part).values() if is_signal(one)]
 
 

@@ -125,15 +125,23 @@ def check_robot(
 
 
 def check_around(
-    robot: Robot, path: str | os.PathLike[str] | None = None
+    robot: Robot,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    read: set[Path] | None = None,
 ) -> list[Problem]:
     """Find names that differ between a model and the files of its package.
 
     Args:
         robot: the robot.
         path: as for `check_robot`.
+        read: gets the files of the package that were looked for.
     """
-    return _in_order(_found(_subject(robot, path, None), [names_that_must_meet]))
+    subject = _subject(robot, path, None)
+    found = _in_order(_found(subject, [names_that_must_meet]))
+    if read is not None:
+        read |= subject.read
+    return found
 
 
 def _subject(

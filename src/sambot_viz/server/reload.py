@@ -1,5 +1,7 @@
 """Showing what was saved: the model, its meshes and textures, the config.
 
+A save of a file around the model, such as ekf.yaml, has the checks run again.
+
 A save with a mistake never removes the robot: the last good one stays, with the
 problem beside it, until a save fixes it. A file that has a mistake from the start is
 shown by its problem alone, and drawn as soon as it is fixed.
@@ -92,6 +94,10 @@ class Reloader:
             f for robot in robots for asset in assets_of(robot) for f in files(asset)
         }
 
+    def _files_around(self) -> set[Path]:
+        """The files that were compared with the model."""
+        return {f for s in self._sessions.all() for f in s.checks.files.value}
+
     def _displays(self) -> Iterator[RobotDisplay]:
         for session in self._sessions.all():
             yield from robot_displays(session.scene.displays)
@@ -101,6 +107,7 @@ class Reloader:
         config = {file} if file is not None else set[Path]()
         own = {file for display in self._displays() for file in display.files}
         files = self._model_files() | self._asset_files() | config | own
+        files |= self._files_around()
         # A file that is missing now may appear anywhere in the package.
         waits = self._waiting_for_files
         return Watched(frozenset(files), self._model if waits else None)
@@ -138,8 +145,11 @@ class Reloader:
             return
         if changed & model or gone or (appeared and self._waiting_for_files):
             self._reload_model(self._model)
-        elif changed & assets:
+            return
+        if changed & assets:
             self._sessions.refresh()
+        if changed & self._files_around():
+            self._sessions.for_each(lambda session: session.checks.run_again())
 
     def _reload_model(self, path: Path) -> None:
         try:

@@ -232,7 +232,7 @@ class Sessions:
             poses,
             self._moved_by,
         )
-        connect([session.scene.statuses], self._tell_files)
+        connect([session.scene.statuses, session.checks.files], self._tell_files)
         if copy is not None:
             session.prepare(copy)
         session.document.show()

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from sambot_viz.displays.display import robot_displays
 from sambot_viz.errors import Problem, SambotVizError
@@ -167,8 +167,20 @@ class Problems:
         return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))
 
 
+class _State(NamedTuple):
+    """What the rules look at: a robot, how much is known of its meshes, and saves."""
+
+    robot: int
+    read_count: int
+    saves: int
+
+
 class Checks:
-    """Keeps the problems that the rules find up to date."""
+    """Keeps the problems that the rules find up to date.
+
+    Attributes:
+        files: the files around the model that the rules have looked for.
+    """
 
     def __init__(
         self,
@@ -184,8 +196,10 @@ class Checks:
         self._problems = problems
         self._change = change
         self._of_robot: tuple[Problem, ...] = ()
-        self._of_files: tuple[Robot | None, tuple[Problem, ...]] = (None, ())
-        self._checked: tuple[object, ...] | None = None
+        self._of_files: tuple[Robot | None, int, tuple[Problem, ...]] = (None, 0, ())
+        self._saves = 0
+        self.files: Signal[frozenset[Path]] = Signal(change, frozenset())
+        self._checked: _State | None = None
         facts = [document.replaced, document.options, document.displays]
         connect([*facts, scene.frames, scene.statuses], self._follow)
 
@@ -198,7 +212,7 @@ class Checks:
             before, state = self._checked, self._state()
             self._checked = state
             of_joints, of_config = joints.problems, self._of_config(robot)
-        of_robot = self._of_rules(robot) if before != state else None
+        of_robot = self._of_rules(robot, state) if before != state else None
         with self._change.lock:
             if self._checked != state:
                 # Meanwhile another thread has begun to check what is newer.
@@ -209,15 +223,23 @@ class Checks:
             if self._problems.of_model != found:
                 self._problems.set_model(found)
 
-    def _of_rules(self, robot: Robot) -> tuple[Problem, ...]:
+    def run_again(self) -> None:
+        """Check the same robot after a file around its model was saved."""
+        with self._change.lock:
+            self._saves += 1
+        self.run()
+
+    def _of_rules(self, robot: Robot, state: _State) -> tuple[Problem, ...]:
         """What the rules find; the files around the model are read once for it."""
         # The import is late so that the first page does not wait for the rules.
         from sambot_viz.checks import check_around, check_robot
 
-        of, found = self._of_files
-        if of is not robot:
-            found = tuple(check_around(robot))
-            self._of_files = (robot, found)
+        of, saves, found = self._of_files
+        if of is not robot or saves != state.saves:
+            read: set[Path] = set()
+            found = tuple(check_around(robot, read=read))
+            self._of_files = (robot, state.saves, found)
+            self.files.set(frozenset(read))
         return (*check_robot(robot, mesh=self._mesh, around=False), *found)
 
     def _mesh(self, path: Path) -> Mesh | None:
@@ -228,13 +250,13 @@ class Checks:
         found = self._context.assets.known(Asset("mesh", path))
         return found if isinstance(found, Mesh) else None
 
-    def _state(self) -> tuple[object, ...]:
-        """The robot, with what is known of its meshes."""
-        return (id(self._robot.model), self._context.assets.read_count)
+    def _state(self) -> _State:
+        read_count = self._context.assets.read_count
+        return _State(id(self._robot.model), read_count, self._saves)
 
     def _follow(self) -> None:
         """Check again after a change that may fix, or bring, a problem."""
-        if self._checked is not None and self._checked[0] == id(self._robot.model):
+        if self._checked is not None and self._checked.robot == id(self._robot.model):
             self.run()
 
     def _of_config(self, robot: Robot) -> list[Problem]:

@@ -31,12 +31,14 @@ class PackageFiles:
         relative: paths are named as the user named the model: relative to the
             working folder, or absolute.
         trusted: False reads no file that a link leads out of the package.
+        read: gets each file that is looked for.
     """
 
     folder: Path
     name: str
     relative: bool
     trusted: bool
+    read: set[Path]
 
     @cached_property
     def paths(self) -> tuple[str, ...]:
@@ -77,6 +79,7 @@ class PackageFiles:
 
     def _read(self, path: str) -> str | None:
         file = self.folder / path
+        self.read.add(file)
         if not self.trusted and not is_below(file, [self.folder.resolve()]):
             return None
         try:
@@ -100,5 +103,8 @@ def package_of(subject: Subject) -> PackageFiles | None:
         name = package_name(folder)
         if name is not None:
             trusted = subject.robot.file_roots is None
-            return PackageFiles(folder, name, not model.is_absolute(), trusted)
+            subject.read.add(folder / "package.xml")
+            return PackageFiles(
+                folder, name, not model.is_absolute(), trusted, subject.read
+            )
     return None
