@@ -482,14 +482,15 @@ def test_an_include_without_its_prefix_is_a_warning(checked: Checked) -> None:
     ("shape", "better"),
     [
         ('<box size="420 310 180"/>', "0.42 0.31 0.18"),
-        ('<cylinder radius="35" length="20"/>', "0.035 0.02"),
-        ('<sphere radius="30"/>', "0.03"),
+        ('<cylinder radius="350" length="200"/>', "0.35 0.2"),
+        ('<sphere radius="300"/>', "0.3"),
+        ('<sphere radius="30"/>', "0.3"),
         ('<box size="100 100 0.1"/>', None),
         ('<box size="30 0.2 3"/>', None),
         ('<box size="2 2 2"/>', None),
     ],
 )
-def test_shapes_in_millimetres_are_as_large_as_a_house(
+def test_shapes_in_another_unit_are_as_large_as_a_house(
     checked: Checked, shape: str, better: str | None
 ) -> None:
     found = checked(visual(f"<geometry>{shape}</geometry>"), "shape-size")

@@ -12,6 +12,7 @@ from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.launch_text import launch_text_as_yaml
+from sambot_viz.checks.lengths import lengths_in_another_unit, robot_in_metres
 from sambot_viz.checks.mesh_files import (
     MeshFiles,
     meshes_of_wrong_size,
@@ -31,7 +32,6 @@ from sambot_viz.checks.slips import (
     names_that_differ_in_case,
     names_with_spaces,
     rpy_in_degrees,
-    shapes_in_millimetres,
     sizes_not_positive,
     unused_macros,
 )
@@ -47,7 +47,7 @@ RULES: tuple[Rule, ...] = (
     limits_in_degrees,
     rpy_in_degrees,
     sizes_not_positive,
-    shapes_in_millimetres,
+    lengths_in_another_unit,
     unusable_meshes,
     meshes_of_wrong_size,
     wheels_off_the_ground,
@@ -156,16 +156,26 @@ def _subject(
 
 
 def _found(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
-    """Run rules; what is only wrong because of a misspelt name is left out."""
+    """Run rules; what follows from a misspelt name or a unit is left out."""
     from sambot_viz.robot.corrected import corrected_robot
 
-    found = [problem for rule in rules for problem in rule(subject)]
+    found = _run(subject, rules)
     better = corrected_robot(subject.robot) if found else None
     if better is None:
         return found
-    other = replace(subject, robot=better)
-    codes = {problem.code for rule in rules for problem in rule(other)}
+    codes = {problem.code for problem in _run(replace(subject, robot=better), rules)}
     return [problem for problem in found if problem.code in codes]
+
+
+def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
+    """Run rules; only the one about the unit of lengths is given another unit."""
+    robot = robot_in_metres(subject.robot)
+    in_metres = subject if robot is subject.robot else replace(subject, robot=robot)
+    return [
+        problem
+        for rule in rules
+        for problem in rule(subject if rule is lengths_in_another_unit else in_metres)
+    ]
 
 
 def check_folder(

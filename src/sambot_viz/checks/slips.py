@@ -6,29 +6,17 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 
+from sambot_viz.checks.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem, RobotError
 from sambot_viz.robot.model_source import read_source
-from sambot_viz.robot.parts import (
-    Box,
-    Capsule,
-    Cylinder,
-    Geometry,
-    Joint,
-    Language,
-    Limit,
-    Link,
-    MeshFile,
-    Origin,
-    Sphere,
-)
+from sambot_viz.robot.parts import Joint, Language, Limit, Link, MeshFile, Origin
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 
 _FULL_TURN = 2 * math.pi + 1e-3
 _SMALLEST_LIMIT = 15.0
 _LARGEST_LIMIT = 720.0
-_HOUSE, _ROOM = 15.0, 4.0
 
 
 def _is_round(value: float) -> bool:
@@ -101,7 +89,7 @@ def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
 def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
     """Report a length of zero or less; RViz draws nothing or the inside."""
     for link, shape in subject.shapes():
-        what, values = _lengths(shape.geometry)
+        what, values = written_lengths(shape.geometry)
         mirrored = isinstance(shape.geometry, MeshFile)
         wrong = [v for v in values if v == 0 or (v < 0 and not mirrored)]
         if not wrong:
@@ -116,45 +104,6 @@ def sizes_not_positive(subject: Subject) -> Iterator[Problem]:
             "nothing useful can be drawn",
             "give full lengths in metres, each larger than 0",
         )
-
-
-def shapes_in_millimetres(subject: Subject) -> Iterator[Problem]:
-    """Report boxes, cylinders and spheres that are as large as a house on all sides.
-
-    One finding for those of the same size. Floors and walls are thin.
-    """
-    seen: set[tuple[str, tuple[float, ...]]] = set()
-    for link, shape in subject.shapes():
-        what, values = _lengths(shape.geometry)
-        if isinstance(shape.geometry, MeshFile) or (what, values) in seen:
-            continue
-        seen.add((what, values))
-        is_box = isinstance(shape.geometry, Box)
-        sides = values if is_box else (2 * values[0], *values[1:])
-        if not (max(sides) > _HOUSE and min(sides) > _ROOM):
-            continue
-        written = " ".join(number(v) for v in values)
-        better = " ".join(number(v / 1000) for v in values)
-        yield Problem.at(
-            shape.geometry_place or shape.place,
-            "warning",
-            "shape-size",
-            f"link {link.name}: the {what} ({written}) makes it {max(sides):.3g} m "
-            "large: it is probably given in millimetres",
-            f"write metres: {better}",
-        )
-
-
-def _lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
-    if isinstance(geometry, Box):
-        return "size of the box", geometry.size
-    if isinstance(geometry, Sphere):
-        return "radius of the sphere", (geometry.radius,)
-    if isinstance(geometry, Cylinder):
-        return "radius and length of the cylinder", (geometry.radius, geometry.length)
-    if isinstance(geometry, Capsule):
-        return "radius and length of the capsule", (geometry.radius, geometry.length)
-    return "scale of the mesh", geometry.scale
 
 
 def invisible_materials(subject: Subject) -> Iterator[Problem]:
