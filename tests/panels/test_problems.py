@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from sambot_viz.session import Session
 INFO = Problem("info", "i", "worth knowing")
 WARNING = Problem("warning", "w", "hm")
 ERROR = Problem("error", "e", "no")
+SHOWN = {"old": False, "checking": False}
 
 
 @pytest.fixture
@@ -47,7 +49,20 @@ def unfold(panel: ProblemsPanel, row: Row) -> None:
 
 def test_without_problems_it_says_so(panel: ProblemsPanel) -> None:
     assert [row.value for row in listed(panel)] == ["No problems."]
-    assert count(panel) == {"error": 0, "warning": 0, "info": 0, "old": False}
+    assert count(panel) == {"error": 0, "warning": 0, "info": 0, **SHOWN}
+
+
+def test_until_the_rules_have_run_it_does_not_say_that_there_are_none(
+    panel: ProblemsPanel, session: Session
+) -> None:
+    robot = session.robot.model
+    assert robot is not None
+    session.show_robot(replace(robot))
+    assert [(row.value, row.level) for row in listed(panel)] == [("Checking…", None)]
+    assert count(panel)["checking"] is True
+    session.checks.run()
+    assert [row.value for row in listed(panel)] == ["No problems."]
+    assert count(panel)["checking"] is False
 
 
 def test_errors_come_first_and_all_are_counted(
@@ -59,7 +74,7 @@ def test_errors_come_first_and_all_are_counted(
         ("hm", "warn"),
         ("worth knowing", "info"),
     ]
-    assert count(panel) == {"error": 1, "warning": 1, "info": 1, "old": False}
+    assert count(panel) == {"error": 1, "warning": 1, "info": 1, **SHOWN}
 
 
 def test_the_first_error_shows_its_remedy_lines_and_path(

@@ -38,10 +38,12 @@ class ShownProblems:
     Attributes:
         listed: each once, errors first, then in the order of the files.
         note: what the page shows instead of files with a mistake; or nothing.
+        checking: the rules have not run yet for this model, and may find more.
     """
 
     listed: tuple[Problem, ...] = ()
     note: str = ""
+    checking: bool = False
 
 
 class Problems:
@@ -78,6 +80,7 @@ class Problems:
         self.of_frames: tuple[Problem, ...] = ()
         self.of_saves: dict[Reloaded, tuple[Problem, ...]] = {}
         self.tell_client: Callable[[int, str], None] = lambda client, text: None
+        self._checking = False
         self._document = document
         self._scene = scene
         self._robot = robot
@@ -89,9 +92,15 @@ class Problems:
         sources = [document.replaced, scene.statuses, robot.changed, *self._of_data]
         connect([*sources, self.saves, self._model], self._show)
 
-    def set_model(self, problems: Sequence[Problem]) -> None:
-        """Show what is wrong with the model."""
+    def set_model(self, problems: Sequence[Problem], *, checking: bool = False) -> None:
+        """Show what is wrong with the model.
+
+        Args:
+            problems: all that is known.
+            checking: the rules will run, and may find more.
+        """
         with self._change.lock:
+            self._checking = checking
             self.of_model = (*self._notes, *problems, *self.of_frames)
             self._model.touch()
 
@@ -126,7 +135,9 @@ class Problems:
                 self.tell_client(client, problem.message)
 
     def _show(self) -> None:
-        self.shown.set(ShownProblems(tuple(self._listed()), self._note()))
+        self.shown.set(
+            ShownProblems(tuple(self._listed()), self._note(), self._checking)
+        )
 
     def _listed(self) -> list[Problem]:
         """List the problems to show.
@@ -220,7 +231,7 @@ class Checks:
             if of_robot is not None:
                 self._of_robot = of_robot
             found = (*self._of_robot, *of_joints, *of_config)
-            if self._problems.of_model != found:
+            if self._problems.of_model != found or self._problems.shown.value.checking:
                 self._problems.set_model(found)
 
     def run_again(self) -> None:

@@ -215,7 +215,7 @@ class Session:
             self.problems.of_frames = found
             joints = self.robot.joints
             self.problems.set_model(
-                (*robot.problems, *(joints.problems if joints else ()))
+                (*robot.problems, *(joints.problems if joints else ())), checking=True
             )
             self.scene.draw_frames()
             if self.data is not None:

@@ -37,8 +37,8 @@ export function ProblemCount({ shown, show, byItself }) {
       <span class="l-error"><${Icon} name="error" /> ${inWords(inError)}</span></button>`
   }<button class="problem-count" aria-expanded=${String(shown)}
     title=${`${shown ? "Hide" : "Show"} the problems`}
-      onClick=${() => show(!shown)}><${Numbers} of=${counted(count)}
-        none=${inError.length ? "No other problems" : "No problems"} /></button>`;
+      onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} icon=${count?.checking ? "" : "ok"}
+        none=${count?.checking ? "Checking…" : inError.length ? "No other problems" : "No problems"} /></button>`;
 }
 
 /** @param {string[]} inError */
@@ -65,8 +65,8 @@ function counted(count) {
   );
 }
 
-/** @param {{of: ReturnType<typeof counted>, none?: string}} props */
-function Numbers({ of, none }) {
+/** @param {{of: ReturnType<typeof counted>, none?: string, icon?: string}} props */
+function Numbers({ of, none, icon }) {
   const words = of
     .map(({ name, number }) => `${number} ${number === 1 || name === "info" ? name : `${name}s`}`)
     .join(", ");
@@ -77,7 +77,7 @@ function Numbers({ of, none }) {
             html`<span key=${name} class=${`l-${level}`} aria-hidden="true">
               <${Icon} name=${level} /> ${number}</span>`,
         )
-      : html`<span aria-hidden="true"><${Icon} name="ok" /> ${none}</span>`
+      : html`<span aria-hidden="true">${icon && html`<${Icon} name=${icon} />`} ${none}</span>`
   }
     <span class="spoken">${words ? `Problems: ${words}` : none}</span>`;
 }

@@ -73,7 +73,8 @@ class ProblemsPanel(Panel):
         groups = group_problems(shown.listed)
         count = Counter(group.severity for group in groups)
         counts = {severity: count[severity] for severity in SEVERITIES}
-        return [Data("problems/count", {**counts, "old": bool(shown.note)})]
+        state = {"old": bool(shown.note), "checking": shown.checking}
+        return [Data("problems/count", {**counts, **state})]
 
     def commands(self) -> list[Command]:
         """Return the command to unfold a row."""
@@ -86,7 +87,9 @@ class ProblemsPanel(Panel):
                 yield from self._problem_rows(group.first, "", unfolded=first)
             else:
                 yield from self._several_rows(group, unfolded=first)
-        if not groups:
+        if not groups and self._problems.shown.value.checking:
+            yield Row("problems/none", "", "note", value="Checking…")
+        elif not groups:
             yield Row("problems/none", "", "note", value="No problems.", level="ok")
         elif len(groups) > MOST_SHOWN:
             yield _rest("problems/rest", "", len(groups) - MOST_SHOWN)
