@@ -14,7 +14,10 @@ from first_robot import PAGE, Trial, Walk, agrees, changed, said_in, write_files
 from program import address, running
 
 from sambot_viz import load_robot
+from sambot_viz.cli import COMMANDS
+from sambot_viz.displays.robot_model.properties import ROBOT_MODEL_PROPERTIES
 from sambot_viz.export.browser_process import find_browser
+from sambot_viz.rviz import GroupProperty
 
 WALK = Walk(PAGE.read_text("utf-8"))
 WALKED = [
@@ -65,6 +68,26 @@ def test_each_mistake_is_quoted() -> None:
     for trial in quoted:
         assert trial.said and re.match(r"> `\S", trial.said)
         assert "no problems found" not in trial.said
+
+
+def test_the_commands_and_settings_in_its_sentences_exist() -> None:
+    text = PAGE.read_text("utf-8")
+    named = {" ".join(c.split()) for c in re.findall(r"`(sambot-viz\b[^`]*)`", text)}
+    assert len(named) > 10
+    for command in named:
+        name, *words = [*shlex.split(command)[1:], ""]
+        kind = name if name in COMMANDS else "show"
+        given = words if kind == name else [name, *words]
+        # In the table of the beginning an option has no value yet.
+        options = [word for word in given if word.startswith("-")]
+        taken = parser_of(kind).format_help()
+        assert all(option in taken for option in options), command
+    groups = [p for p in ROBOT_MODEL_PROPERTIES if isinstance(p, GroupProperty)]
+    settings = [*ROBOT_MODEL_PROPERTIES, *(c for g in groups for c in g.children)]
+    known = {setting.name for setting in settings}
+    for name in ("Visual Enabled", "Collision Enabled", "Mass Properties", "Balance"):
+        assert name in text
+        assert name in known
 
 
 def test_each_snapshot_of_the_tutorial_is_its_picture() -> None:

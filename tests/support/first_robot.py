@@ -95,7 +95,7 @@ class Walk:
 
     def _take(self, part: re.Match[str]) -> None:
         kind, body = part["kind"], part["body"]
-        if kind in ("xml", "yaml", "python"):
+        if kind in ("xml", "yaml", "python", "cmake"):
             self._write(body)
         elif kind == "diff":
             self._mistake = body
