@@ -48,6 +48,27 @@ def test_a_link_of_a_renamed_joint_is_given_the_new_name(name: str) -> None:
     assert found(wrong.replace('to="lidar_joint"', f'to="{name}"')) == ()
 
 
+@pytest.mark.parametrize("pose", ["", "0 0 0 0 0 0", "0.0 0 0 0 0 0"])
+@pytest.mark.parametrize("link", ["lidar_joints_link", "lidar_joi", "a_lidar_joint_b"])
+def test_the_name_of_another_link_does_not_hide_the_renamed_joint(
+    link: str, pose: str
+) -> None:
+    right = GOOD.replace("left_wheel<", f"{link}<").replace(
+        '<link name="left_wheel">', f'<link name="{link}">'
+    )
+    right = right.replace(
+        '<pose relative_to="lidar_joint"/>',
+        f'<pose relative_to="lidar_joint">{pose}</pose>',
+    )
+    wrong = right.replace('name="lidar_joint"', 'name="mast_mount"')
+
+    (problem,) = found(wrong)
+
+    assert found(right) == ()
+    assert problem.hint == "write mast_mount"
+    assert found(wrong.replace('to="lidar_joint"', 'to="mast_mount"')) == ()
+
+
 def test_a_joint_that_was_deleted_is_to_be_added() -> None:
     wrong = GOOD.replace(LIDAR, "")
 

@@ -59,9 +59,11 @@ def unknown_frame(
         # The joints of other links may be called alike, but are elsewhere.
         joints = {joint.name for joint in scope.of_kind("joint")} - {holder.name}
         near = [other for other in names if other not in joints]
-        meant = next((n for n in near if is_one_slip(name, n)), nearest(name, near))
-        if meant is None and at.tag == "pose" and not at.text.strip():
-            meant = holder.name if holder.name in names else None
+        meant = next((n for n in near if is_one_slip(name, n)), None)
+        if meant is None and _is_zero(at) and holder.name in names:
+            # A link that is where its joint is counts from it.
+            meant = holder.name
+        meant = meant or nearest(name, near)
         names = names if meant is None else [meant]
     else:
         meant = nearest(name, names)
@@ -90,6 +92,11 @@ def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
     return not any(is_one_slip(name, n) for n in others) and not nearest(
         name, [n for n in others if scope.frames[n].kind != "joint"], _LIKENESS
     )
+
+
+def _is_zero(at: Element) -> bool:
+    """Tell whether a pose is that of the frame that it counts from."""
+    return at.tag == "pose" and not at.text.replace(".", " ").strip("0 \t\r\n")
 
 
 def _listed(names: list[str]) -> str:
