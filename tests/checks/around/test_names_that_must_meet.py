@@ -130,6 +130,25 @@ MISTAKES = [
         (MODEL, '<link name="lidar_link"/>'),
         "write lidar_link",
     ),
+    one(
+        "gazebo-reference",
+        MODEL,
+        '<gazebo reference="lidar_link">',
+        '<gazebo reference="lidar">',
+        (MODEL, '<link name="lidar_link"/>'),
+        "write lidar_link",
+        name="without an ending",
+    ),
+    one(
+        "gazebo-reference",
+        MODEL,
+        '<gazebo reference="lidar_link">',
+        '<gazebo reference="scanner">',
+        ("", ""),
+        "such as base_link",
+        '<gazebo reference="base_link">',
+        name="of nothing",
+    ),
     Mistake(
         "drive-sides",
         (

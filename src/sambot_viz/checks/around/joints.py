@@ -105,25 +105,45 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
 
 
 def unknown_references(robot: Robot) -> Iterator[Problem]:
-    """Report <gazebo reference="…"> that is almost the name of a link or joint."""
+    """Report <gazebo reference="…"> that is no link or joint.
+
+    Without a sensor or plugin in it, only what is almost the name of one.
+    """
     known: Mapping[str, Link | Joint] = {**robot.joints, **robot.links}
     used = {part.get("reference") for part in robot.gazebo}
     # What has its own <gazebo> is not what another one means.
     free = [name for name in known if name not in used]
     for part in robot.gazebo:
         name = part.get("reference") or ""
+        if not name or name in known or any(mark in name for mark in _SCOPED):
+            continue
         matters = any(child.tag in ("sensor", "plugin") for child in part.children)
-        likeness = _LIKE_NAME if matters else _LIKE_LETTERS
-        near = nearest(name, free, likeness) if name and name not in known else None
-        if near is None:
+        near = nearest(name, free, _LIKE_NAME if matters else _LIKE_LETTERS)
+        if matters and near is None:
+            near = _with_its_words(name, [link for link in robot.links if link in free])
+        if near is None and not matters:
             continue
         place = Place(part.place.file, part.line_of("reference"))
         lost = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in part.children))
+        has = (
+            f": the model has {near} ({where(known[near].place, place)})"
+            if near
+            else ""
+        )
         yield Problem.at(
             place,
             "warning",
             "gazebo-reference",
-            f"<gazebo> refers to {name}, which does not exist: the model has {near} "
-            f"({where(known[near].place, place)}); Gazebo ignores its {lost}",
-            f"write {near}",
+            f"<gazebo> refers to {name}, which does not exist{has}; Gazebo ignores its "
+            f"{lost}",
+            f"write {near}"
+            if near
+            else f"write the link that it belongs to, such as {robot.root}",
         )
+
+
+def _with_its_words(name: str, links: list[str]) -> str | None:
+    """The only link whose name has all words of another name, such as lidar_link."""
+    words = set(name.lower().split("_"))
+    found = [link for link in links if words < set(link.lower().split("_"))]
+    return found[0] if len(found) == 1 else None
