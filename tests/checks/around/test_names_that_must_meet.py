@@ -985,3 +985,20 @@ def test_a_mistake_is_found_at_both_places_and_its_fix_leaves_nothing(
     assert mistake.advice in problem.hint
     apply(package, mistake.fixed)
     assert found(package) == []
+
+
+@pytest.mark.parametrize("odom", ["odom", "wheel_odom"])
+def test_the_frame_that_odometry_moves_the_base_from_has_its_name(
+    copied: Copied, odom: str
+) -> None:
+    folder = copied("gz")
+    ekf = folder / EKF
+    text = ekf.read_text().replace("_frame: odom", f"_frame: {odom}")
+    ekf.write_text(text.replace(EKF_BASE, "base_link_frame: base_footprint"))
+
+    (problem,) = (p for p in check(folder / MODEL) if p.code == "frame-two-parents")
+
+    assert (
+        f"ekf_filter_node publishes the transform from {odom} to base_footprint"
+        in problem.message
+    )

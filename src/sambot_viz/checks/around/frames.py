@@ -95,14 +95,14 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
     parents = {joint.child: joint for joint in around.robot.joints.values()}
     if around.namespaced or around.robot.root in _NO_BASE:
         return
-    for fact, user in _moved_bases(around):
+    for fact, user, odom in _moved_bases(around):
         joint = parents.get(bare_frame(fact.value))
         if joint is not None:
             yield Problem.at(
                 fact.place,
                 "warning",
                 "frame-two-parents",
-                f"{user} publishes the transform from odometry to "
+                f"{user} publishes the transform from {odom} to "
                 f"{joint.child}, but in the model {joint.child} hangs at "
                 f"{joint.parent} ({where(joint.place, fact.place)}): a frame has only "
                 "one parent, and the robot flickers between both",
@@ -110,15 +110,18 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
             )
 
 
-def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str]]:
+def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
+    """Give each frame that odometry moves, who moves it, and from which frame."""
     for one in filters(around):
         base = one.given.get("base_link_frame")
         if base is not None and one.moves_base:
-            yield base.fact, one.node
+            yield base.fact, one.node, one.world_frame
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
         if fact is not None and _drive_tf(around, plugin) is not None:
-            yield fact, f"the plugin {plugin.filename}"
+            odom = plugin.one(*_DRIVE_ODOMS)
+            name = bare_frame(odom.value) if odom is not None else "odom"
+            yield fact, f"the plugin {plugin.filename}", name
 
 
 def moved_twice(around: Surroundings) -> Iterator[Problem]:
