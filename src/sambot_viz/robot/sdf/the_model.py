@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sambot_viz.robot.findings import ModelFindings
+from sambot_viz.robot.findings import ModelFindings, tag_text
 from sambot_viz.robot.sdf.fields import pose_of
 from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.old_versions import NEWEST, OLDEST, Version, version_of
@@ -38,12 +38,29 @@ def find_model(
         findings.reject(
             "sdf-not-one-model",
             f"ROS reads an SDF file with one <model> only, here are {names}; {REFUSED}",
-            "put each into a file of its own",
+            _without_others(document, _robot_in(document)),
             others[0],
         )
     _check_rest(document, findings)
-    _check_pose(models[0], version, findings)
-    return models[0], version
+    model = _robot_in(document) or models[0]
+    _check_pose(model, version, findings)
+    return model, version
+
+
+def _robot_in(parent: Element) -> Element | None:
+    """Return the only model with joints; None where none or several have some."""
+    models = [m for m in parent.find_all("model") if m.find("joint") is not None]
+    return models[0] if len(models) == 1 else None
+
+
+def _without_others(document: Element, robot: Element | None) -> str:
+    """Say what to do with the models, lights and actors beside a robot."""
+    if robot is None:
+        return "put each into a file of its own"
+    others = [e for e in document.children if e.tag in _ENTITIES and e is not robot]
+    return "delete " + and_list(
+        f"<{e.tag}> {e.get('name')} (line {e.place.line})" for e in others
+    )
 
 
 def _version(document: Element, findings: ModelFindings) -> Version:
@@ -66,6 +83,7 @@ def _version(document: Element, findings: ModelFindings) -> Version:
 
 
 def _refuse_world(world: Element, findings: ModelFindings) -> None:
+    robot = _robot_in(world)
     models = [m.get("name") or "?" for m in world.find_all("model")]
     shown = ", ".join(models[:_MOST_MODELS])
     more = f" with the models {shown}" if len(models) > 1 else ""
@@ -74,7 +92,11 @@ def _refuse_world(world: Element, findings: ModelFindings) -> None:
         "sdf-world",
         f"this is a world for Gazebo{more}; ROS reads an SDF file with one <model> "
         "directly in <sdf>",
-        "open the file of the robot",
+        "open the file of the robot"
+        if robot is None
+        else f"delete {tag_text(world)} and </world>, and all between them but the "
+        f"<model> {robot.get('name')} (line {robot.place.line}); or open the file of "
+        "the robot",
         world,
     )
 
