@@ -62,6 +62,23 @@ def test_what_is_beside_a_robot_is_to_be_deleted(
     assert (problem.code, problem.hint) == ("sdf-not-one-model", hint)
 
 
+@pytest.mark.parametrize(
+    "left",
+    [
+        GROUND,
+        "<include><uri>model://sun</uri></include>\n",
+        "<include><uri>https://example.org/models/Ground Plane</uri></include>\n",
+    ],
+)
+def test_what_is_of_the_world_among_the_links_is_to_be_deleted(left: str) -> None:
+    wrong = ROBOT.replace("</model>", f"{left}</model>")
+
+    problems = [p for p in found(in_sdf(wrong)) if p.severity != "info"]
+
+    assert [p.hint.partition(":")[0] for p in problems] == ["delete it"]
+    assert found(in_sdf(ROBOT)) == ()
+
+
 def test_a_world_of_two_robots_is_not_taken_apart() -> None:
     other = ROBOT.replace('"bot"', '"other"')
 

@@ -30,6 +30,10 @@ from sambot_viz.robot.xml.element import Element
 _PLAIN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.IGNORECASE)
 
 
+_OF_WORLD = ("sun", "ground_plane")
+"""Models that worlds of Gazebo include, and robots do not."""
+
+
 def check_elements(model: Element, version: Version, findings: ModelFindings) -> None:
     """Report what libsdformat refuses or loses in a <model>, in document order.
 
@@ -238,8 +242,10 @@ class _ElementChecker:
             f"robot_state_publisher does not find the model {name or 'of <include>'}: "
             "it knows no place where models of Gazebo are, and does not take "
             f"package:// here; {REFUSED}",
-            "copy the links and joints of that model into this file, or write them in "
-            "a xacro file and use <xacro:include filename=…/>",
+            "delete it: it belongs to the world"
+            if name.rpartition("/")[2].lower().replace(" ", "_") in _OF_WORLD
+            else "copy the links and joints of that model into this file, or write "
+            "them in a xacro file and use <xacro:include filename=…/>",
             element,
         )
 

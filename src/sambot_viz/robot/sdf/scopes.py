@@ -146,11 +146,14 @@ class _NameReader:
             frame = self._take(scope, element, "model")
             if frame is not None:
                 scope.nested[frame.name] = Scope(frame)
+                of_world = text_in(element, "static").lower() in ("true", "1")
                 self._findings.warn(
                     "sdf-nested-model",
                     f"ROS does not show the links of the nested model {frame.name}; "
                     "its frames count",
-                    "write its links and joints into the model around it",
+                    "delete it: what is static belongs to the world"
+                    if of_world
+                    else "write its links and joints into the model around it",
                     element,
                 )
         for element in scope.model.children:
