@@ -50,6 +50,7 @@ from sambot_viz.checks.around.launch_paths import (
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
 from sambot_viz.checks.around.unreadable import (
+    joined_entries,
     misspelt_key,
     unreadable_python,
     unreadable_yaml,
@@ -69,6 +70,7 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
 
 IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_yaml,
+    joined_entries,
     misspelt_key,
     unreadable_python,
     unreadable_cmake,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+import yaml
+
 from sambot_viz.checks.around.files.parameters import YamlFile, pairs
 from sambot_viz.checks.around.files.python_repair import fault_in_python
 from sambot_viz.checks.around.files.yaml_repair import fault_in
@@ -39,6 +41,27 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
                 "does not start",
                 fault.hint,
             )
+
+
+def joined_entries(around: Surroundings) -> Iterator[Problem]:
+    """Report topics of a bridge that are one entry, because a "- " is missing."""
+    for file in around.yaml_files:
+        if not isinstance(file.root, yaml.SequenceNode):
+            continue
+        for entry in file.root.value:
+            seen: set[str] = set()
+            for key, _ in pairs(entry):
+                if key.value in seen and key.value.endswith("topic_name"):
+                    yield Problem.at(
+                        Place(file.shown, key.start_mark.line + 1),
+                        "error",
+                        "parameters-yaml",
+                        f"{key.value} is twice in one entry of the list: two topics "
+                        'are one, because the "- " before the second is missing',
+                        f'write "- " in place of the last 2 blanks before {key.value}',
+                    )
+                    seen.clear()
+                seen.add(key.value)
 
 
 def misspelt_key(around: Surroundings) -> Iterator[Problem]:

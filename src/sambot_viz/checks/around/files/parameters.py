@@ -107,16 +107,24 @@ class YamlFile:
                 yield Parameter(owner, ".".join(names), _texts(value), place)
 
     def entries(self) -> Iterator[dict[str, Fact]]:
-        """Give the mappings of a list, such as those of a bridge, key → value."""
+        """Give the mappings of a list, such as those of a bridge, key → value.
+
+        A key that comes again begins the next mapping, whose "- " is missing.
+        """
         if not isinstance(self.root, yaml.SequenceNode):
             return
         items: list[yaml.Node] = self.root.value
         for item in items[:1000]:
-            yield {
-                key.value: Fact(value.value, Place(self.shown, key.start_mark.line + 1))
-                for key, value in pairs(item)
-                if isinstance(value, yaml.ScalarNode)
-            }
+            entry: dict[str, Fact] = {}
+            for key, value in pairs(item):
+                if not isinstance(value, yaml.ScalarNode):
+                    continue
+                if key.value in entry:
+                    yield entry
+                    entry = {}
+                place = Place(self.shown, key.start_mark.line + 1)
+                entry[key.value] = Fact(value.value, place)
+            yield entry
 
 
 class _Budget:

@@ -94,6 +94,8 @@ def _candidates(
     for change in (_colon, _quote, _bracket):
         for n in near:
             yield from change(lines, n)
+    for n in near:
+        yield from _dash(lines, n)
     yield from _indentation(lines, near)
 
 
@@ -135,6 +137,20 @@ def _bracket(lines: list[str], n: int) -> Iterator[_Candidate]:
             [code.removesuffix(",") + mark],
             f"the bracket {mark} is missing at the end of this line",
             f"add {mark}",
+        )
+
+
+def _dash(lines: list[str], n: int) -> Iterator[_Candidate]:
+    """Begin an entry of a list with the key that other entries begin with."""
+    code = lines[n].strip()
+    key = code.partition(":")[0]
+    first = next((x for x in lines if x.lstrip().startswith(f"- {key}:")), None)
+    if first is not None and _indent(first) == _indent(lines[n]):
+        yield _Candidate(
+            n,
+            [f"{_indent(first)}- {code}"],
+            f'there is no "- " before {key}, which begins an entry',
+            f"write - {code}",
         )
 
 
