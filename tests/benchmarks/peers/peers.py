@@ -124,7 +124,6 @@ VIEWERS = (
         ("jupyterlab", "jupyterlab-urdf"),
         "jupyterlab_urdf_page",
         version_of="jupyterlab-urdf",
-        note="only its own page moves the robot",
     ),
     Viewer(
         "urdf-loader (npm)",

@@ -33,9 +33,10 @@ BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 def lines(results: Results) -> Iterator[str]:
     """Every table, and what is not in them."""
     for robot, found in results.viewers.items():
-        yield f"\n### {robot}\n"
+        yield f"### {robot}\n"
         yield _when(results, robot) + "\n"
         yield from _viewer_table(found, results)
+        yield ""
     yield from _notes(results)
     if results.checkers:
         yield "\n### Checking wrong models\n"
@@ -86,7 +87,8 @@ def _cell(column: Column, measure: Measure, best: float) -> str:
     if spread.half is not None:
         text += f" ± {measure.text(spread.half)}"
     if spread.ratio is not None and spread.ratio != 1.0:
-        text += f" ({spread.ratio:.2g}×)"
+        digits = ".2g" if spread.ratio < 10.0 else ",.0f"
+        text += f" ({spread.ratio:{digits}}×)"
     return f"**{text}**" if spread.median <= best else text
 
 
@@ -105,7 +107,6 @@ def _checker_table(verdicts: Mapping[str, Verdict]) -> Iterator[str]:
 
 
 def _notes(results: Results) -> Iterator[str]:
-    yield ""
     for viewer in VIEWERS:
         if viewer.name in results.versions:
             yield _note(viewer, results)
