@@ -80,6 +80,7 @@ _SLEEP = """(() => {
   gl.asleep = ASLEEP;
   invalidate();
 })()"""
+_REFUSED = "net::ERR_CONNECTION_REFUSED"
 _SET_RESOLUTION = """(() => {
   const { viewport, setDpr } = __viserMutable.scene.__r3f.root.getState();
   const before = viewport.dpr;
@@ -300,13 +301,19 @@ class ViewerPage:
     # Judging.
 
     def errors(self) -> list[str]:
-        """What went wrong in the page: exceptions, console errors, failed requests."""
+        """What went wrong in the page: exceptions, console errors, failed requests.
+
+        Its own server refuses connections only when a test has stopped it already;
+        whether the page still asks it for something then is chance.
+        """
         lines = [m for m in self.page.console if m.level in ("error", "assert")]
-        return [
+        errors = [
             *self.page.exceptions,
             *(f"{line.text} {line.url}".strip() for line in lines),
             *(f"{url}: {reason}" for url, reason in self.page.failures),
         ]
+        own = urlsplit(self.url).netloc
+        return [e for e in errors if not (_REFUSED in e and f"//{own}/" in e)]
 
     def foreign_requests(self) -> list[str]:
         """The addresses asked for that are not on the viewer's own server."""
