@@ -26,7 +26,8 @@ class Case:
     Attributes:
         path: of the model.
         line: where the mistake is.
-        refused: ROS refuses it; otherwise it works in ROS, but not as was meant.
+        refused: ROS refuses it, or nothing is said of that; otherwise it works in ROS, but
+            not as was meant.
     """
 
     path: Path
@@ -39,7 +40,7 @@ class Verdict:
     """How a checker did.
 
     Attributes:
-        cases: how many wrong models it was given that ROS refuses, and others.
+        cases: how many wrong models it was given that ROS may refuse, and others.
         refused: of the first, so many it ended with an error on.
         noticed: of the others, so many it said something else about than about the
             right model.

@@ -94,8 +94,11 @@ def _cell(column: Column, measure: Measure, best: float) -> str:
 
 def _checker_table(verdicts: Mapping[str, Verdict]) -> Iterator[str]:
     rows: list[tuple[str, Callable[[Verdict], str]]] = [
-        ("ROS refuses: refused", lambda v: f"{v.refused} of {v.cases[0]}"),
-        ("ROS accepts: noticed", lambda v: f"{v.noticed} of {v.cases[1]}"),
+        (
+            "known to be accepted by ROS: noticed",
+            lambda v: f"{v.noticed} of {v.cases[1]}",
+        ),
+        ("all others: ends with an error", lambda v: f"{v.refused} of {v.cases[0]}"),
         ("the line is named", lambda v: f"{v.lines} of {sum(v.cases)}"),
         ("hangs or crashes", lambda v: str(v.hangs)),
         ("complaints about right models", lambda v: f"{v.complaints} of {v.right}"),
