@@ -26,8 +26,8 @@ class Case:
     Attributes:
         path: of the model.
         line: where the mistake is.
-        refused: ROS refuses it, or nothing is said of that; otherwise it works in ROS, but
-            not as was meant.
+        refused: ROS refuses it, or nothing is said of that; otherwise it works in ROS,
+            but not as was meant.
     """
 
     path: Path
