@@ -13,10 +13,11 @@ import pytest
 from inside import signals_of
 from protocol_client import ProtocolClient
 
-from sambot_viz import RobotError, Visualizer, bundled
+from sambot_viz import RobotError, Visualizer, bundled, load_robot
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
+from sambot_viz.server.sessions import Sessions
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
 
@@ -281,3 +282,26 @@ def test_from_python_a_broken_model_is_an_error(tmp_path: Path) -> None:
     model.write_text(GOOD.replace(JOINT, ""))
     with pytest.raises(RobotError):
         Visualizer(model, watch=True)
+
+
+def test_a_robot_that_is_fixed_while_a_private_session_opens_is_checked_there(
+    tmp_path: Path,
+    protocol: Callable[..., ProtocolClient],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    model = tmp_path / "robot.urdf"
+    model.write_text(PARTS, "utf-8")
+    open_session = Sessions.open
+
+    def fixed_meanwhile(sessions: Sessions, *given: Any) -> Session:
+        opened = open_session(sessions, *given)
+        sessions.show_robot(load_robot(GOOD))
+        return opened
+
+    monkeypatch.setattr(Sessions, "open", fixed_meanwhile)
+    inputs = Inputs(Options(model, session="private", port=0), may_be_broken=True)
+    with Visualizer.of_inputs(inputs) as viz:
+        client = protocol(viz.viser.get_port())
+        client.wait_until(lambda: "problems/count" in client.rows)
+        client.wait_until(lambda: not client.row("problems/count")["value"]["checking"])
+        assert client.id_of("joints", "j")

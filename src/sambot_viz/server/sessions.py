@@ -239,8 +239,7 @@ class Sessions:
         own = copy is not None and copy.own_model
         robot = copy.robot if copy is not None and own else self.robot
         if robot is not None:
-            session.show_robot(robot, own=own)
-            worker.post(session.checks.run)
+            _show(session, robot, own=own)
         if copy is not None:
             session.take(copy)
         return session
@@ -264,6 +263,12 @@ class Sessions:
             action(session)
         self.on_files()
         if robot is not None and robot is not session.robot.model:
-            session.show_robot(robot)
+            _show(session, robot)
         for of, found in problems.items():
             session.problems.set_saves(of, found)
+
+
+def _show(session: Session, robot: Robot, *, own: bool = False) -> None:
+    """Show a robot in a session that opens; what the rules find comes later."""
+    session.show_robot(robot, own=own)
+    session.worker.post(session.checks.run)
