@@ -34,6 +34,8 @@ def pages_of(desk: Desk) -> Iterator[Callable[..., ViewerPage]]:
 
     def more(*size: int, touch: bool = False, address: str = "") -> ViewerPage:
         opened.append(desk.open(*size, touch=touch, address=address))
+        # A slider that moves to its place while it is taken does not come along.
+        opened[-1].settle(desk.viz)
         return opened[-1]
 
     yield more

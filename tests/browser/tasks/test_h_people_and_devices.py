@@ -33,6 +33,7 @@ def test_task_54_one_types_while_another_drags(
     s.user.click_into(s.user.row("Joints", LEFT).one("textbox"))
     s.user.type("2.")
     other.user.drag_slider(other.user.row("Joints", LEFT).one("slider"), -1.0)
+    s.user.until(lambda: s.viz.joint_positions[LEFT] < -0.5, why="not dragged")
     s.user.until(lambda: float(s.user.row("Joints", LEFT).one("slider").value) < -0.5)
     assert field(s.viewer) == "2."
     s.user.type("5")
@@ -54,7 +55,6 @@ def test_task_55_one_measures_while_another_turns(
         buttons = viewer.user.find("toolbar", "Tools").all("button")
         return [b.name for b in buttons if b.is_on]
 
-    other.settle(s.viz)
     mine, theirs = yaw(s.viewer), yaw(other)
     s.choose_tool("Measure")
     s.page.mouse.click(*on_page(s, 0.0, 0.0, 0.09))
@@ -120,8 +120,6 @@ def test_task_57_a_tablet_by_touch_alone(
 ) -> None:
     tablet = open_more(1024, 768, touch=True)
     user, touch = tablet.user, tablet.page.touch
-    # The panels take their place as soon as they have rows.
-    tablet.settle(s.viz)
     left, top, width, height = view(tablet)
     assert width * height > 0.5 * 1024 * 768
     tools = user.find("toolbar", "Tools").all("button")
