@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.footprint_text import is_readable
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number
@@ -62,8 +63,13 @@ def footprints(around: Surroundings) -> Iterator[Problem]:
 
 
 def _said(given: Mapping[str, Parameter]) -> Parameter | None:
-    """The parameter that counts: a footprint wins over a radius."""
+    """The parameter that counts: a footprint wins over a radius.
+
+    None when there is none, or when Nav2 cannot read it.
+    """
     footprint = given.get("footprint")
+    if footprint is not None and not is_readable(footprint):
+        return None
     if footprint is not None and _NUMBER.search(footprint.fact.value):
         return footprint
     return given.get("robot_radius")

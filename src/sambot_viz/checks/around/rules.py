@@ -22,6 +22,7 @@ from sambot_viz.checks.around.drives import (
     misspelt_elements,
 )
 from sambot_viz.checks.around.footprint import footprints
+from sambot_viz.checks.around.footprint_text import unreadable_footprints
 from sambot_viz.checks.around.frames import (
     moved_twice,
     odometry_frames,
@@ -47,6 +48,7 @@ from sambot_viz.checks.around.launch_paths import (
     unread_parameters,
     world_names,
 )
+from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
 from sambot_viz.checks.around.unreadable import (
@@ -72,6 +74,8 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_yaml,
     joined_entries,
     misspelt_key,
+    parameter_types,
+    unreadable_footprints,
     unreadable_python,
     unreadable_cmake,
     joints_of_controllers,

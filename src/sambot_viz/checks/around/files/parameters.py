@@ -27,12 +27,19 @@ class Parameter:
         name: its name, with dots.
         values: the text of the value, or of each item of a list.
         place: its line.
+        written: the value as YAML has it.
     """
 
     node: str
     name: str
     values: tuple[str, ...]
     place: Place
+    written: yaml.Node
+
+    @property
+    def value_place(self) -> Place:
+        """Where the value begins."""
+        return place_of(self.written, self.place.file)
 
     @property
     def fact(self) -> Fact:
@@ -104,7 +111,7 @@ class YamlFile:
                 yield from self._below(value, owner, names, budget)
             else:
                 place = Place(self.shown, key.start_mark.line + 1)
-                yield Parameter(owner, ".".join(names), _texts(value), place)
+                yield Parameter(owner, ".".join(names), _texts(value), place, value)
 
     def entries(self) -> Iterator[dict[str, Fact]]:
         """Give the mappings of a list, such as those of a bridge, key → value.
@@ -144,6 +151,12 @@ def pairs(node: yaml.Node) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
         for key, value in node.value:
             if isinstance(key, yaml.ScalarNode):
                 yield key, value
+
+
+def place_of(node: yaml.Node, file: str) -> Place:
+    """Return where a value begins in a file."""
+    mark: Any = node.start_mark
+    return Place(file, mark.line + 1, mark.column + 1)
 
 
 def _texts(node: yaml.Node) -> tuple[str, ...]:

@@ -1,0 +1,127 @@
+"""The footprint of Nav2: a text with a list of corners, and what else is written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+import yaml
+
+from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.navigation import is_open
+from sambot_viz.checks.around.parameter_types import type_of
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem, nearest
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_GAP = r"[\s,]*"
+_CORNER = rf"\[{_GAP}{_NUMBER}[\s,]+{_NUMBER}{_GAP}\]{_GAP}"
+_CORNERS = re.compile(rf"{_GAP}\[{_GAP}(?:{_CORNER}){{3,}}\]{_GAP}")
+_WORD = re.compile(r"[^\s,\[\]]+")
+_NONE = frozenset({"", "[]"})
+_SIZES = ("footprint", "robot_radius")
+_LIKENESS = 0.7
+_LONGEST = 20_000
+
+
+def unreadable_footprints(around: Surroundings) -> Iterator[Problem]:
+    """Report footprints that Nav2 cannot read, or under a name it does not look for."""
+    for parameter in around.parameters:
+        node = parameter.node.rpartition("/")[2]
+        if not node.endswith("costmap"):
+            continue
+        if parameter.name == "footprint" and not is_readable(parameter):
+            yield _unreadable(parameter, node)
+        elif _is_size(parameter.name):
+            yield from _misspelt(parameter, node, around)
+
+
+def is_readable(footprint: Parameter) -> bool:
+    """Tell whether Nav2 can read a footprint, or is given none."""
+    if type_of(footprint.written) == "list":
+        return not footprint.written.value
+    text = footprint.fact.value
+    if text.strip() in _NONE or is_open(text) or len(text) > _LONGEST:
+        return True
+    return _CORNERS.fullmatch(text) is not None
+
+
+def _unreadable(parameter: Parameter, node: str) -> Problem:
+    if type_of(parameter.written) == "list":
+        words = list(_words(parameter.written))
+        place: Place = parameter.value_place
+        cause = f"the footprint is a list, but {node} reads it as one text"
+        follows, severity = "the node stops with an error", "error"
+    else:
+        words = _WORD.findall(parameter.fact.value)
+        place, severity = parameter.value_place, "warning"
+        cause = f"{node} cannot read the footprint: {_cause(parameter.fact.value)}"
+        follows = "it takes the robot for a circle with robot_radius"
+    return Problem.at(
+        place,
+        severity,
+        "footprint-text",
+        f"{cause}; {follows}",
+        _hint(words),
+    )
+
+
+def _cause(text: str) -> str:
+    odd = _odd(_WORD.findall(text))
+    if odd is not None:
+        return f"{odd} is not a number"
+    if "[" not in text and "]" not in text:
+        return "the corners have no brackets"
+    surplus = text.count("[") - text.count("]")
+    if surplus:
+        return f"a {']' if surplus > 0 else '['} is missing"
+    return "it is not a list of corners with two numbers each"
+
+
+def _odd(words: Sequence[str]) -> str | None:
+    return next((w for w in words if not re.fullmatch(_NUMBER, w)), None)
+
+
+def _hint(words: Sequence[str]) -> str:
+    odd = _odd(words)
+    if odd is not None:
+        return f"write a length in metres in place of {odd}"
+    if len(words) < 6 or len(words) % 2:
+        return 'write at least three corners, such as "[ [0.2, 0.1], [0.2, -0.1], … ]"'
+    pairs = zip(words[::2], words[1::2], strict=True)
+    return f'write "[ {", ".join(f"[{x}, {y}]" for x, y in pairs)} ]"'
+
+
+def _words(node: yaml.Node) -> Iterator[str]:
+    """The numbers in a list of lists."""
+    if isinstance(node, yaml.ScalarNode):
+        yield from _WORD.findall(node.value)
+    elif isinstance(node, yaml.SequenceNode):
+        for item in node.value[:1000]:
+            if isinstance(item, yaml.ScalarNode):
+                yield from _WORD.findall(item.value)
+            elif isinstance(item, yaml.SequenceNode):
+                yield from (
+                    str(i.value) for i in item.value if isinstance(i, yaml.ScalarNode)
+                )
+
+
+def _is_size(name: str) -> bool:
+    return not name.startswith("footprint") and name not in _SIZES and "." not in name
+
+
+def _misspelt(
+    parameter: Parameter, node: str, around: Surroundings
+) -> Iterator[Problem]:
+    """A name like that of the size, in a costmap that is given no size."""
+    near = nearest(parameter.name, _SIZES, _LIKENESS)
+    given = {p.name for p in around.parameters if p.node == parameter.node}
+    if near is not None and given.isdisjoint(_SIZES):
+        yield Problem.at(
+            parameter.place,
+            "warning",
+            "footprint-text",
+            f"{node} reads footprint or robot_radius and not {parameter.name}: it "
+            "takes the robot for a circle of 0.1 m",
+            f"write {near}",
+        )
