@@ -149,7 +149,7 @@ def test_nothing_around_the_model_is_to_be_made_as_large(
     assert {problem.code for problem in problems} == {"shape-size"}
 
 
-def test_a_footprint_that_is_wrong_anyway_is_corrected_in_metres(
+def test_a_footprint_that_is_wrong_anyway_waits_until_the_size_is_right(
     package: Path,
 ) -> None:
     model, nav2 = package / MODEL, package / "config/nav2_params.yaml"
@@ -157,9 +157,49 @@ def test_a_footprint_that_is_wrong_anyway_is_corrected_in_metres(
     (right,) = check(model)
     model.write_text(model.read_text().replace("0.42 0.31 0.18", "42 31 18"))
 
-    hints = {problem.code: problem.hint for problem in check(model)}
+    (first,) = check(model)
 
-    assert hints == {
-        "shape-size": "write metres: 0.42 0.31 0.18",
-        "footprint-size": right.hint,
-    }
+    assert (first.code, first.hint) == ("shape-size", "write metres: 0.42 0.31 0.18")
+    model.write_text(model.read_text().replace("42 31 18", "0.42 0.31 0.18"))
+    assert check(model) == [right]
+
+
+def test_one_property_in_another_unit_is_named_and_nothing_that_rests_on_it(
+    package: Path,
+) -> None:
+    model = package / MODEL
+    right = model.read_text()
+    model.write_text(
+        right.replace('"wheel_radius" value="0.10"', '"wheel_radius" value="10"')
+    )
+
+    (problem,) = check(model)
+
+    assert (problem.line, problem.hint) == (3, 'write metres: value="0.1"')
+    assert "the property wheel_radius is 10 m" in problem.message
+    assert "given in centimetres" in problem.message
+
+
+LIDAR = """<link name="lidar"><visual><geometry>
+<cylinder radius="{}" length="{}"/></geometry></visual></link>
+<joint name="lidar_joint" type="fixed"><parent link="base_link"/>
+<child link="lidar"/><origin xyz="0 0 {}"/></joint>
+</robot>"""
+
+
+@pytest.mark.parametrize(
+    ("wrong", "hint"),
+    [
+        (("0.0508", "0.055", "12"), "0 0 0.12 in xyz"),
+        (("0.0508", "0.055", "120"), "0 0 0.12 in xyz"),
+        (("50.8", "55", "0.12"), "0.0508 0.055"),
+    ],
+)
+def test_one_part_in_another_unit_is_found_beside_parts_in_metres(
+    tmp_path: Path, wrong: tuple[str, str, str], hint: str
+) -> None:
+    text = cart(1).replace("</robot>", LIDAR.format(*wrong))
+
+    (problem,) = found(tmp_path, text)
+
+    assert problem.hint == f"write metres: {hint}"

@@ -25,6 +25,7 @@ from sambot_viz.checks.physics import (
     wheels_off_the_ground,
     zero_mass,
 )
+from sambot_viz.checks.proportion import lengths_out_of_proportion
 from sambot_viz.checks.rule import Rule, Subject
 from sambot_viz.checks.slips import (
     invisible_materials,
@@ -64,6 +65,14 @@ RULES: tuple[Rule, ...] = (
     invisible_materials,
 )
 """All rules, in the order in which they run."""
+
+_OF_LENGTHS = frozenset(
+    """
+    shape-size size-not-positive wheel-not-on-ground falls-over footprint-size
+    drive-wheel-separation drive-wheel-radius mesh-size
+    """.split()
+)
+"""What is said of lengths, and of the robot that they make."""
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 
@@ -168,14 +177,23 @@ def _found(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
 
 
 def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
-    """Run rules; only the one about the unit of lengths is given another unit."""
-    robot = robot_in_metres(subject.robot)
+    """Run rules; only the one about the unit of lengths is given another unit.
+
+    Where one length is out of proportion, what rests on lengths is left out.
+    """
+    off = list(lengths_out_of_proportion(subject))
+    robot = subject.robot if off else robot_in_metres(subject.robot)
     in_metres = subject if robot is subject.robot else replace(subject, robot=robot)
-    return [
+    found = [
         problem
         for rule in rules
         for problem in rule(subject if rule is lengths_in_another_unit else in_metres)
     ]
+    if not off:
+        return found
+    if lengths_in_another_unit in rules:
+        found += off
+    return [p for p in found if p in off or p.code not in _OF_LENGTHS]
 
 
 def check_folder(

@@ -35,7 +35,7 @@ class Limit:
 
 
 LIMITS = (
-    Limit("page", "command → page opens", 1.5),
+    Limit("page", "command → page opens", 2.0),
     Limit("poses", "poses of all links", 0.15),
     Limit("delay1", "a step → 1 client", 0.5),
     Limit("delay30", "a step → all of 30 clients", 0.6),

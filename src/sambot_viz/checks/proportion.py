@@ -1,0 +1,201 @@
+"""One length of many that is far larger than all others: it is not in metres."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from sambot_viz.checks.lengths import written_lengths
+from sambot_viz.checks.rule import Subject, number
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint, MeshFile, Shape
+from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
+
+_TIMES, _TIMES_WITH_MESHES = 4.5, 8.0
+"""So many times larger than all others; the sizes of meshes are not known here."""
+_LARGE = 1.5
+"""What is smaller may be right [m]."""
+_SMALL = 0.01
+"""What is smaller says nothing of the size of a robot [m]."""
+_LEAST, _SHARE = 8, 0.25
+"""So many others are needed, and no more than this share may stand out."""
+_MOST = 4
+"""More elements than these are not one slip."""
+_CARRIES = 2.5
+"""A part that carries the others may be so many times larger than these."""
+_LINES, _ELEMENT = 4, 2000
+"""Of its element a property is looked for in so many lines, and characters."""
+_UNITS = (("centimetres", 0.01), ("millimetres", 0.001))
+
+
+@dataclass(frozen=True, slots=True)
+class _Written:
+    """Numbers of one element.
+
+    Attributes:
+        what: whose they are, as a sentence says it.
+        values: as they are in the model [m].
+        place: of the element.
+        advice: where they are written, as its advice ends.
+        carries: they are of a part that carries others, and may be the largest.
+    """
+
+    what: str
+    values: tuple[float, ...]
+    place: Place | None
+    advice: str = ""
+    carries: bool = False
+
+    @property
+    def largest(self) -> float:
+        return max(map(abs, self.values))
+
+
+def lengths_out_of_proportion(subject: Subject) -> Iterator[Problem]:
+    """Report lengths that are many times larger than all others of the robot.
+
+    One finding for the property that they come from, else one for each element.
+    """
+    robot = subject.robot
+    elements = list(_elements(robot))
+    usual = _largest_usual(elements, robot)
+    if usual is None:
+        return
+    large = [element for element in elements if element.largest > usual]
+    found = list(_properties(subject, large, usual)) or list(_single(large, usual))
+    if len(found) <= _MOST:
+        yield from found
+
+
+def _elements(robot: Robot) -> Iterator[_Written]:
+    carrying = {joint.parent for joint in robot.joints.values()}
+    for link in robot.links.values():
+        for shape in (*link.visuals, *link.collisions):
+            if not isinstance(shape.geometry, MeshFile):
+                what, values = written_lengths(shape.geometry)
+                place = shape.geometry_place or shape.place
+                what = f"link {link.name}: the {what}"
+                carries = link.name in carrying
+                yield _Written(what, values, place, carries=carries)
+            yield _origin(f"link {link.name}: the place of a shape", shape, robot)
+    for joint in robot.joints.values():
+        # Where the robot stands in a map is no part of it.
+        if all(_has_shapes(robot, name) for name in (joint.parent, joint.child)):
+            yield _origin(f"the place of joint {joint.name}", joint, robot)
+
+
+def _has_shapes(robot: Robot, name: str) -> bool:
+    link = robot.links.get(name)
+    return link is not None and bool(link.visuals or link.collisions)
+
+
+def _origin(what: str, of: Shape | Joint, robot: Robot) -> _Written:
+    tag = "the <pose>" if robot.language == "sdf" else "xyz"
+    place = of.origin.place or of.place
+    return _Written(what, of.origin.xyz, place, f" in {tag}")
+
+
+def _largest_usual(elements: Sequence[_Written], robot: Robot) -> float | None:
+    """Return the largest length below the gap [m]; None when there is no gap."""
+    meshes = any(
+        isinstance(shape.geometry, MeshFile)
+        for link in robot.links.values()
+        for shape in (*link.visuals, *link.collisions)
+    )
+    times = _TIMES_WITH_MESHES if meshes else _TIMES
+    every = (abs(value) for element in elements for value in element.values)
+    lengths = sorted(length for length in every if length > _SMALL)
+    for count, (below, above) in enumerate(pairwise(lengths), start=1):
+        if above > _LARGE and above > times * below:
+            few = len(lengths) - count <= _SHARE * len(lengths)
+            return below if few and count >= _LEAST else None
+    return None
+
+
+def _properties(
+    subject: Subject, large: Sequence[_Written], usual: float
+) -> Iterator[Problem]:
+    """Report the properties that give these lengths."""
+    least = min(
+        abs(value)
+        for element in large
+        for value in element.values
+        if abs(value) > usual
+    )
+    files = SourceSet.of(subject.files)
+    for file, source in files.sources():
+        for token in source.tags:
+            name, text = token.get("name") or "", token.get("value") or ""
+            if token.name != "xacro:property" or token.closes:
+                continue
+            value = _number(text)
+            if value is None or abs(value) < 0.9 * least:
+                continue
+            used = next((e for e in large if _names(files, e.place, name)), None)
+            if used is not None:
+                unit, factor = _unit(used, abs(value), usual)
+                yield _problem(
+                    token_place(source, file, token),
+                    f"the property {name} is {text} m",
+                    usual,
+                    unit,
+                    f'value="{number(value * factor)}"',
+                )
+
+
+def _names(files: SourceSet, place: Place | None, name: str) -> bool:
+    """Tell whether an element, or one in it, is written with a property."""
+    source = None if place is None else files.get(place.file)
+    if source is None or place is None:
+        return False
+    start = source.offset(place.line, 1)
+    lines = source.text[start : start + _ELEMENT].split("\n")[:_LINES]
+    return re.search(rf"\$\{{[^}}]*\b{re.escape(name)}\b", "\n".join(lines)) is not None
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _single(large: Sequence[_Written], usual: float) -> Iterator[Problem]:
+    """Report each element by itself, with its numbers in metres."""
+    seen: set[tuple[Place | None, tuple[float, ...]]] = set()
+    for element in large:
+        if (element.place, element.values) in seen:
+            continue
+        seen.add((element.place, element.values))
+        unit, factor = _unit(element, element.largest, usual)
+        metres = (v * factor if abs(v) > usual else v for v in element.values)
+        written = " ".join(map(number, element.values))
+        yield _problem(
+            element.place,
+            f"{element.what} ({written}) is {number(element.largest)} m",
+            usual,
+            unit,
+            " ".join(map(number, metres)) + element.advice,
+        )
+
+
+def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
+    """Return the unit in which a length is no larger than the robot."""
+    most = _CARRIES * usual if element.carries else usual
+    return next((unit for unit in _UNITS if length * unit[1] <= most), _UNITS[-1])
+
+
+def _problem(
+    place: Place | None, what: str, usual: float, unit: str, better: str
+) -> Problem:
+    return Problem.at(
+        place,
+        "warning",
+        "shape-size",
+        f"{what}, and no other length of the robot is more than {number(usual)} m: it "
+        f"is probably given in {unit}",
+        f"write metres: {better}",
+    )
