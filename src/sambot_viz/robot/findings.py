@@ -21,13 +21,15 @@ def _reporter(severity: Severity, rejects: bool = False):
         cause: str | None = None,
     ) -> None:
         self.rejected |= rejects
+        line = at.line_of(attribute)
+        column = at.place.column if line == at.place.line else None
+        place = Place(at.place.file, line, column)
+        if self.is_said(code, hint, place, at.call):
+            return
         if at.call is not None:
             here = at.call.file == at.place.file
             where = f"line {at.call.line}" if here else f"{at.call.file}:{at.call.line}"
             message = f"{message}, from the macro call on {where}"
-        line = at.line_of(attribute)
-        column = at.place.column if line == at.place.line else None
-        place = Place(at.place.file, line, column)
         self.add(severity, code, message, hint, place, cause=cause)
 
     return report
@@ -46,6 +48,11 @@ class ModelFindings(Findings):
     def __init__(self) -> None:
         super().__init__()
         self.rejected = False
+        self._calls: dict[tuple[str, str, Place], Place | None] = {}
+
+    def is_said(self, code: str, hint: str, place: Place, call: Place | None) -> bool:
+        """Tell whether an earlier call of a macro had the same problem and advice."""
+        return self._calls.setdefault((code, hint, place), call) != call
 
     reject = _reporter("error", rejects=True)
     error = _reporter("error")

@@ -107,9 +107,20 @@ def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) ->
             "rpy-in-degrees",
             f"the angles of <pose> in {described(element)} look like degrees, but SDF "
             "uses radians",
-            'write <pose degrees="true">, or the angles in radians',
+            f"write {_with_degrees(element)}, or the angles in radians",
             element,
         )
+
+
+def _with_degrees(pose: Element) -> str:
+    """Return its start tag with one attribute more."""
+    others = [name for name in pose.attributes if name != "degrees"]
+    if pose.call is None:
+        kept = "".join(f' {name}="{pose.get(name)}"' for name in others)
+        return f'<pose{kept} degrees="true">'
+    # What a macro has made of the attributes is not what is written there.
+    beside = f", beside {' and '.join(others)}" if others else ""
+    return f'degrees="true" into <pose>{beside}'
 
 
 def _check_length(pose: PoseText, element: Element, findings: ModelFindings) -> None:

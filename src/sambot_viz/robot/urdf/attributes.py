@@ -49,8 +49,13 @@ def has_blank_behind(text: str) -> bool:
     return text != text.rstrip()
 
 
-def read_numbers(text: str, count: int) -> tuple[float, ...]:
+def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
     """Exactly `count` finite numbers, separated by blanks.
+
+    Args:
+        text: the numbers.
+        count: how many there must be.
+        name: the attribute that has them, for the advice.
 
     Raises:
         BadNumber: another number of numbers, or something that is not a number.
@@ -62,7 +67,7 @@ def read_numbers(text: str, count: int) -> tuple[float, ...]:
     if len(numbers) != count:
         needed = _WORDS.get(count, str(count))
         have = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
-        raise BadNumber(f"{have}, {needed} are needed", _filled_up(parts, count))
+        raise BadNumber(f"{have}, {needed} are needed", _filled_up(parts, count, name))
     return numbers
 
 
@@ -85,10 +90,12 @@ def _without_commas(text: str, count: int) -> tuple[str, str]:
     return cause, _filled_up(apart, count)
 
 
-def _filled_up(parts: list[str], count: int) -> str:
+def _filled_up(parts: list[str], count: int, name: str = "") -> str:
     if not parts:
         return f"give {_WORDS.get(count, count)} numbers, or delete the attribute"
-    if len(parts) == 1 and count == 3:
+    if len(parts) == 1 and name == "rpy":
+        return f'write rpy="{parts[0]} 0 0" to turn about x'
+    if len(parts) == 1 and count == 3 and name != "xyz":
         return f'for the same value in all directions write "{" ".join(parts * 3)}"'
     return f"give {_WORDS.get(count, count)} numbers with blanks between them"
 
@@ -254,7 +261,7 @@ class AttributeReader:
         if text is None:
             return default
         try:
-            x, y, z = read_numbers(text, 3)
+            x, y, z = read_numbers(text, 3, name)
         except BadNumber as bad:
             raise self._bad(element, name, text, bad) from None
         if name in element.odd_blanks:

@@ -19,6 +19,7 @@ from sambot_viz.robot.xml.diagnose.lexer import Token
 _NUMBERS = ("number-malformed", "sdf-value", "sdf-number-cut-off")
 """The codes of problems with a text in place of a number."""
 
+_FILLED_UP = re.compile(r'write rpy="(\S+) 0 0"')
 _USE = re.compile(r"\$(?:\{([^}]*)\}|\(\s*arg\s+([^)]*)\))")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _DEFAULT = re.compile(r"(\w+):?=(\S+)")
@@ -88,7 +89,7 @@ def name_given_values(
             if there is None or there.severity != "error":
                 found[cause] = _report(problem, cause, bad)
         if not causes:
-            kept.append(problem)
+            kept.append(_as_written(problem, sources))
     return [*found.values(), *kept]
 
 
@@ -103,6 +104,19 @@ def _report(problem: Problem, cause: _Given, bad: BadNumber) -> Problem:
         file=cause.place.file,
         line=cause.place.line,
         column=cause.place.column,
+    )
+
+
+def _as_written(problem: Problem, sources: SourceSet) -> Problem:
+    """Advise to fill up an expression itself, not the number that it gives."""
+    one = _FILLED_UP.match(problem.hint)
+    if one is None:
+        return problem
+    value = re.search(r'\brpy\s*=\s*"(\$\{[^}"]*\})"', _written(problem, sources))
+    return (
+        replace(problem, hint=problem.hint.replace(one[1], value[1]))
+        if value
+        else problem
     )
 
 

@@ -1,0 +1,135 @@
+"""A mistake in a model is one finding, at its line, and its advice leaves nothing.
+
+The mistakes are those that students make with the model of the Nav2 guide.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+SDF = Path(__file__).parents[2] / "data" / "around" / "cart.sdf"
+MODELS = {"urdf": "urdf/cart.urdf.xacro", "sdf": "src/description/cart.sdf"}
+
+Copied = Callable[[str], Path]
+
+
+class Slip(NamedTuple):
+    """A mistake in the model, and its remedy.
+
+    Attributes:
+        language: of the model.
+        code: of the only finding.
+        old: text of the model.
+        new: what is written instead.
+        line: part of the line of the finding.
+        advice: what the finding says to do.
+        better: what is then in place of `new`.
+    """
+
+    language: str
+    code: str
+    old: str
+    new: str
+    line: str
+    advice: str
+    better: str
+
+
+def model_in(copied: Copied, language: str) -> Path:
+    """The correct package with the model in one language."""
+    folder = copied("gz")
+    model = folder / MODELS[language]
+    if language == "sdf":
+        shutil.rmtree(folder / "urdf")
+        model.parent.mkdir(parents=True)
+        shutil.copy(SDF, model)
+        edit(folder / "launch/display.launch.py", '"urdf"', '"src", "description"')
+        edit(folder / "launch/display.launch.py", "cart.urdf.xacro", "cart.sdf")
+        edit(folder / "CMakeLists.txt", "urdf", "src")
+    return model
+
+
+def edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+def found(model: Path) -> list[Problem]:
+    """What is wrong, without the notes that need nothing to be done."""
+    return [p for p in check(model) if p.severity != "info"]
+
+
+SLIPS = [
+    Slip(
+        "urdf",
+        "number-malformed",
+        '<mass value="0.5"/>',
+        '<mass value="0,5"/>',
+        '<mass value="0,5"/>',
+        'write "0.5"',
+        '<mass value="0.5"/>',
+    ),
+    Slip(
+        "urdf",
+        "number-malformed",
+        'rpy="${pi/2} 0 0"',
+        'rpy="${pi/2}"',
+        'rpy="${pi/2}"',
+        'write rpy="${pi/2} 0 0"',
+        'rpy="${pi/2} 0 0"',
+    ),
+    Slip(
+        "sdf",
+        "rpy-in-degrees",
+        '<pose relative_to="base_link">0 0 0.12 0 0 0</pose>',
+        '<pose relative_to="base_link">0 0 0.12 0 0 180</pose>',
+        "0 0 0.12 0 0 180",
+        'write <pose relative_to="base_link" degrees="true">',
+        '<pose relative_to="base_link" degrees="true">0 0 0.12 0 0 180</pose>',
+    ),
+]
+
+
+@pytest.mark.parametrize("slip", SLIPS, ids=lambda slip: f"{slip.code}: {slip.new}")
+def test_a_mistake_is_one_finding_and_its_advice_leaves_nothing(
+    slip: Slip, copied: Copied
+) -> None:
+    model = model_in(copied, slip.language)
+    edit(model, slip.old, slip.new)
+    (problem,) = found(model)
+
+    assert problem.code == slip.code
+    assert problem.line is not None
+    assert slip.line in model.read_text().splitlines()[problem.line - 1]
+    assert slip.advice in problem.hint
+    edit(model, slip.new, slip.better)
+    assert found(model) == []
+
+
+@pytest.mark.parametrize("language", MODELS)
+def test_a_correct_model_has_no_findings(language: str, copied: Copied) -> None:
+    assert found(model_in(copied, language)) == []
+
+
+def test_degrees_in_a_macro_are_told_once_and_their_pose_keeps_its_attributes(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "cart.sdf"
+    shutil.copy(SDF, model)
+    pose = '<pose relative_to="${prefix}_link">0 0 0 90 0 0</pose>'
+    edit(model, "<pose>0 0 0 ${pi/2} 0 0</pose>", pose)
+    (problem,) = found(model)
+
+    assert problem.message.endswith("from the macro call on line 37")
+    assert 'write degrees="true" into <pose>, beside relative_to' in problem.hint
+    edit(model, '_link">0 0 0 90', '_link" degrees="true">0 0 0 90')
+    assert found(model) == []
