@@ -151,6 +151,7 @@ def test_a_key_below_ros_parameters_is_a_parameter(copied: Copied) -> None:
         ("        ]\n    )", "        ]\n", 59, "never closed"),
         ('"cart.urdf.xacro")', '"cart.urdf.xacro)', 21, "unterminated"),
         ("description():", "description()", 18, "expected ':'"),
+        ("publisher = Node(", "publisher = Node", 27, "the ( after Node is missing"),
         ("    model = os", "      model = os", 21, "unexpected indent"),
     ],
 )

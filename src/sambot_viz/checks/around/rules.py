@@ -43,6 +43,11 @@ from sambot_viz.checks.around.joints import (
     unknown_joints,
     unknown_references,
 )
+from sambot_viz.checks.around.launch_code import (
+    empty_launch_files,
+    missing_entries,
+    unknown_names,
+)
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
     unread_parameters,
@@ -77,6 +82,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     parameter_types,
     unreadable_footprints,
     unreadable_python,
+    empty_launch_files,
+    missing_entries,
+    unknown_names,
     unreadable_cmake,
     joints_of_controllers,
     wheel_sizes_of_controllers,

@@ -21,6 +21,7 @@ _NEWER = re.compile(
 )
 """Text that one version of Python reads and another does not."""
 
+_NAME_AT_END = re.compile(r"[A-Za-z_][\w.]*$")
 _MOST_LINES = 200
 _COMMA = "a comma is missing at the end of this line"
 
@@ -38,6 +39,9 @@ def fault_in_python(text: str) -> Fault | None:
     comma = _comma(lines, at, last)
     if comma is not None:
         return Fault(comma, _COMMA, "add a comma there")
+    opened = _opened(lines, at) if "unexpected indent" in error.msg else None
+    if opened is not None:
+        return opened
     if not _CERTAIN.search(error.msg):
         return None
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
@@ -68,6 +72,18 @@ def _comma(lines: list[str], first: int, last: int) -> int | None:
         if again is None or (again.lineno or 0) > last:
             return n
     return None
+
+
+def _opened(lines: list[str], at: int) -> Fault | None:
+    """Find a name before an indented line that calls something when a ( follows it."""
+    n = next((n for n in range(at - 1, 0, -1) if lines[n - 1].strip()), 0)
+    name = _NAME_AT_END.search(lines[n - 1]) if n else None
+    if name is None:
+        return None
+    again = _error("\n".join([*lines[: n - 1], lines[n - 1] + "(", *lines[n:]]))
+    if again is not None and (again.lineno or 0) <= at:
+        return None
+    return Fault(n, f"the ( after {name[0]} is missing", f"write {name[0]}(")
 
 
 def _hint(message: str) -> str:

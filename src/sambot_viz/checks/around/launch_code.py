@@ -1,0 +1,184 @@
+"""What stops ``ros2 launch`` in a launch file that Python can read."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.errors import Place, Problem, nearest
+
+_ENTRY = "generate_launch_description"
+_DESCRIPTION = "LaunchDescription"
+_CODE = "launch-code"
+_LIKENESS = 0.8
+
+_IMPORTS: dict[str, str] = {
+    name: module
+    for module, names in {
+        "launch": _DESCRIPTION,
+        "launch.actions": "AppendEnvironmentVariable DeclareLaunchArgument EmitEvent "
+        "ExecuteProcess GroupAction IncludeLaunchDescription LogInfo OpaqueFunction "
+        "RegisterEventHandler SetEnvironmentVariable TimerAction",
+        "launch.conditions": "IfCondition UnlessCondition",
+        "launch.event_handlers": "OnProcessExit OnProcessStart OnShutdown",
+        "launch.launch_description_sources": "PythonLaunchDescriptionSource",
+        "launch.substitutions": "Command EnvironmentVariable FindExecutable "
+        "LaunchConfiguration PathJoinSubstitution PythonExpression TextSubstitution",
+        "launch_ros.actions": "LifecycleNode Node PushRosNamespace SetParameter",
+        "launch_ros.parameter_descriptions": "ParameterFile ParameterValue",
+        "launch_ros.substitutions": "FindPackageShare",
+        "ament_index_python.packages": "get_package_share_directory "
+        "get_package_share_path",
+        "nav2_common.launch": "RewrittenYaml",
+        "pathlib": "Path",
+        "ros_gz_bridge.actions": "RosGzBridge",
+        "ros_gz_sim.actions": "GzServer",
+    }.items()
+    for name in names.split()
+}
+_MODULES = frozenset({"launch", "launch_ros", "os", "sys", "xacro"})
+_PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
+
+
+def empty_launch_files(around: Surroundings) -> Iterator[Problem]:
+    """Report launch files without content."""
+    for path in around.files.ending("launch.py"):
+        text = around.files.text(path)
+        if text is not None and not text.strip():
+            yield Problem.at(
+                Place(around.files.shown(path), 1),
+                "error",
+                _CODE,
+                f"this launch file is empty: ros2 launch stops with it, because it "
+                f"looks for {_ENTRY}",
+                "delete the file, or write that function into it",
+            )
+
+
+def missing_entries(around: Surroundings) -> Iterator[Problem]:
+    """Report a misspelt generate_launch_description, and one that returns nothing."""
+    for launch in around.launches:
+        functions = [n for n in launch.tree.body if isinstance(n, ast.FunctionDef)]
+        entry = next((f for f in functions if f.name == _ENTRY), None)
+        if entry is not None:
+            if not _returns(entry):
+                yield _without_return(entry, launch)
+        elif not _is_bound(_ENTRY, launch.tree):
+            near = nearest(_ENTRY, (f.name for f in functions), _LIKENESS)
+            for function in functions:
+                if function.name == near:
+                    yield Problem.at(
+                        Place(launch.shown, function.lineno, function.col_offset + 5),
+                        "error",
+                        _CODE,
+                        f"ros2 launch looks for the function {_ENTRY}, but this one "
+                        f"is called {near}: it stops with an error",
+                        f"write {_ENTRY}",
+                    )
+
+
+def _returns(function: ast.FunctionDef) -> bool:
+    """True for a function that may return something, or that never ends regularly."""
+    inner: list[ast.AST] = list(function.body)
+    while inner:
+        node = inner.pop()
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            continue
+        if isinstance(node, (ast.Raise, ast.Yield, ast.YieldFrom)):
+            return True
+        if isinstance(node, ast.Return) and node.value is not None:
+            return True
+        inner += ast.iter_child_nodes(node)
+    return False
+
+
+def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
+    """The place is the description that is built and lost, or the function."""
+    place = Place(launch.shown, function.lineno, function.col_offset + 1)
+    hint = f"end it with return {_DESCRIPTION}([…])"
+    for node in function.body:
+        value = node.value if isinstance(node, (ast.Expr, ast.Assign)) else None
+        if not isinstance(value, ast.Call) or call_name(value.func) != _DESCRIPTION:
+            continue
+        if isinstance(node, ast.Expr):
+            place = launch.place(value)
+            hint = f"write return {_DESCRIPTION}("
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            hint = f"add return {node.targets[0].id} at its end"
+    return Problem.at(
+        place,
+        "error",
+        _CODE,
+        f"{_ENTRY} (line {function.lineno}) returns nothing, so ros2 launch has "
+        "nothing to start",
+        hint,
+    )
+
+
+def unknown_names(around: Surroundings) -> Iterator[Problem]:
+    """Report names that are used and neither imported nor defined."""
+    for launch in around.launches:
+        bound = _bound(launch.tree)
+        if "*" in bound:
+            continue
+        found: dict[str, ast.Name] = {}
+        for node in ast.walk(launch.tree):
+            if isinstance(node, ast.Name) and node.id not in bound:
+                first = found.setdefault(node.id, node)
+                if node.lineno < first.lineno:
+                    found[node.id] = node
+        for name, node in found.items():
+            yield Problem.at(
+                launch.place(node),
+                "error",
+                _CODE,
+                f"{name} is used here, but it is neither imported nor defined: ros2 "
+                "launch stops with it",
+                _advice(name, bound),
+            )
+
+
+def _advice(name: str, bound: set[str]) -> str:
+    own = bound - _PREDEFINED
+    if name in _IMPORTS:
+        return f"add from {_IMPORTS[name]} import {name} at the top of the file"
+    if name in _MODULES:
+        return f"add import {name} at the top of the file"
+    near = nearest(name, sorted(own), 0.7) or nearest(name, _IMPORTS, 0.85)
+    if near is not None:
+        return f"write {near}"
+    return "import it at the top of the file, or define it above this line"
+
+
+def _bound(tree: ast.Module) -> set[str]:
+    """All names that get a value anywhere in a file; "*" when others may."""
+    found = set(_PREDEFINED)
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=name, ctx=ast.Store() | ast.Del()):
+                found.add(name)
+            case ast.Import(names=names) | ast.ImportFrom(names=names):
+                found.update((a.asname or a.name).partition(".")[0] for a in names)
+            case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+                found.add(node.name)
+            case ast.arg(arg=name) | ast.ExceptHandler(name=str(name)):
+                found.add(name)
+            case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+                found.add(name)
+            case ast.MatchMapping(rest=str(name)):
+                found.add(name)
+            case ast.Call(func=ast.Name(id="exec" | "globals" | "vars" | "locals")):
+                found.add("*")
+            case _ if type(node).__name__ in ("TypeVar", "TypeAlias"):
+                found.add("*")
+            case _:
+                pass
+    return found
+
+
+def _is_bound(name: str, tree: ast.Module) -> bool:
+    return not {name, "*"}.isdisjoint(_bound(tree))
