@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around import names_that_must_meet
-from sambot_viz.checks.axles import wheels_across_their_axles
+from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.lengths import lengths_in_another_unit, robot_in_metres
@@ -53,6 +53,7 @@ RULES: tuple[Rule, ...] = (
     meshes_of_wrong_size,
     wheels_off_the_ground,
     wheels_across_their_axles,
+    wheels_in_one_place,
     falls_over,
     names_that_differ_in_case,
     names_with_spaces,
@@ -179,7 +180,8 @@ def _found(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
 def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     """Run rules; only the one about the unit of lengths is given another unit.
 
-    Where one length is out of proportion, what rests on lengths is left out.
+    Where one length is out of proportion, what rests on lengths is left out, and where
+    a wheel lies flat, how far the robot reaches.
     """
     off = list(lengths_out_of_proportion(subject))
     robot = subject.robot if off else robot_in_metres(subject.robot)
@@ -189,11 +191,13 @@ def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
         for rule in rules
         for problem in rule(subject if rule is lengths_in_another_unit else in_metres)
     ]
-    if not off:
-        return found
-    if lengths_in_another_unit in rules:
-        found += off
-    return [p for p in found if p in off or p.code not in _OF_LENGTHS]
+    if off:
+        found = [problem for problem in found if problem.code not in _OF_LENGTHS]
+        return found + off if lengths_in_another_unit in rules else found
+    reach = {problem for problem in found if problem.code == "footprint-size"}
+    if reach and any(wheels_across_their_axles(in_metres)):
+        found = [problem for problem in found if problem not in reach]
+    return found
 
 
 def check_folder(

@@ -1,4 +1,4 @@
-"""Wheels across their axles: a cylinder stands along z, and an axle does not."""
+"""Wheels across their axles, and two wheels in one place."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from sambot_viz.robot.parts import Cylinder, Joint, Shape
 
 _Vector = npt.NDArray[np.float64]
 
+_WHEEL = re.compile("wheel|whl|t[iy]re")
 _SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 _ACROSS = 0.1
 """Largest cosine between two directions that are across each other (84°)."""
@@ -60,6 +61,36 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     )
 
 
+def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
+    """Report a wheel that is where another one is, as when both are on the left."""
+    robot = subject.robot
+    seen: dict[object, Joint] = {}
+    for joint in robot.joints.values():
+        link = robot.links[joint.child]
+        shapes = link.collisions or link.visuals
+        if _axle(joint) is None or not shapes:
+            continue
+        places = tuple((shape.geometry, shape.origin) for shape in shapes)
+        other = seen.setdefault((joint.parent, joint.origin, places), joint)
+        if other is not joint:
+            yield _in_one_place(other, joint, robot.language)
+
+
+def _in_one_place(one: Joint, other: Joint, language: str) -> Problem:
+    x, y, z = one.origin.xyz
+    written = _numbers(np.array((x, -y, z)))
+    element = "<pose>" if language == "sdf" else "<origin>"
+    return Problem.at(
+        other.place,
+        "warning",
+        "wheels-in-one-place",
+        f"the wheels {one.child} and {other.child} are in the same place of "
+        f"{one.parent}, at {_numbers(np.array(one.origin.xyz))}: one hides the other",
+        f"give one of {one.name} and {other.name} the other side: {written} in its "
+        f"{element}, or -1 for 1 where a macro is given the side",
+    )
+
+
 def _axle(joint: Joint) -> _Vector | None:
     """Return the unit axis of a joint that turns without end, in the child link."""
     if joint.type not in ("continuous", "revolute"):
@@ -75,7 +106,8 @@ def _only_rolls(joint: Joint, robot: Robot) -> bool:
     """Tell whether a link at the end of the tree is a wheel that does not swivel."""
     names = f"{joint.name} {joint.child}".lower()
     at_end = all(other.parent != joint.child for other in robot.joints.values())
-    return at_end and "wheel" in joint.child.lower() and not _SWIVELS.search(names)
+    wheel = _WHEEL.search(joint.child.lower())
+    return at_end and wheel is not None and not _SWIVELS.search(names)
 
 
 def _is_across(shape: Shape, axle: _Vector) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sambot_viz.checks.axles import wheels_in_one_place
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
@@ -35,9 +36,11 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
     Only where that is certain: all shapes are known, all links that collide have a
     mass, and three links stand on the ground, two of them wheels; or two wheels alone,
-    and there is a caster above the ground.
+    and there is a caster above the ground. Two wheels in one place are the cause.
     """
     robot, unknown = subject.robot, False
+    if any(wheels_in_one_place(subject)):
+        return
 
     def mesh_of(shape: MeshFile) -> Mesh | None:
         nonlocal unknown

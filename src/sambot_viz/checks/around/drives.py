@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.rule import number
+from sambot_viz.checks.rule import listed, number
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Joint
 
 _LIMITS = {
     f"{end}_{kind}{what}"
@@ -34,6 +36,10 @@ _CLASSIC = frozenset(
     """.split()
 )
 _ALIKE = 0.9
+_ALONG = 0.99
+"""Least cosine between two directions that are one."""
+_AHEAD = 0.1
+"""One wheel may be so far in front of the other [distance of both]."""
 
 
 def misspelt_elements(robot: Robot) -> Iterator[Problem]:
@@ -55,12 +61,12 @@ def misspelt_elements(robot: Robot) -> Iterator[Problem]:
                 )
 
 
-def exchanged_sides(robot: Robot) -> Iterator[Problem]:
-    """Report a plugin whose left wheel is on the right."""
+def wrong_sides(robot: Robot) -> Iterator[Problem]:
+    """Report a plugin whose wheels do not drive the robot as it says."""
     for plugin in plugins(robot.gazebo):
         if plugin.is_drive:
             base = plugin.one("child_frame_id", "robot_base_frame")
-            yield from _exchanged(
+            yield from _sides(
                 robot,
                 base.value if base else "",
                 plugin.all("left_joint", "leftJoint"),
@@ -68,7 +74,7 @@ def exchanged_sides(robot: Robot) -> Iterator[Problem]:
             )
 
 
-def exchanged_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
+def wrong_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report the same for the parameters of a diff_drive_controller."""
     for file in around.yaml_files if around.robot.gazebo else ():
         for node in file.nodes:
@@ -76,7 +82,7 @@ def exchanged_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
             left, right = given.get("left_wheel_names"), given.get("right_wheel_names")
             if left is not None and right is not None:
                 base = given.get("base_frame_id")
-                yield from _exchanged(
+                yield from _sides(
                     around.robot,
                     base.fact.value if base else "",
                     [Fact(name, left.place) for name in left.values],
@@ -84,30 +90,111 @@ def exchanged_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
-def _exchanged(
+class _Wheel(NamedTuple):
+    """A wheel of a drive, in the base frame, in which x is forwards.
+
+    Attributes:
+        fact: where the drive names its joint.
+        joint: the joint.
+        axis: the y part of its axis.
+        x: its place [m].
+        y: its place [m].
+    """
+
+    fact: Fact
+    joint: Joint
+    axis: float
+    x: float
+    y: float
+
+
+def _sides(
     robot: Robot, base: str, lefts: Sequence[Fact], rights: Sequence[Fact]
 ) -> Iterator[Problem]:
+    """Report the first pair of wheels that is wrong."""
     poses = robot.forward_kinematics()
     T_base_root = np.linalg.inv(poses.get(base, poses[robot.root]))
-    for left, right in zip(lefts, rights, strict=False):
-        joints = [robot.joints.get(fact.value) for fact in (left, right)]
-        known = [joint for joint in joints if joint is not None]
-        frames = [T_base_root @ poses[joint.child] for joint in known]
-        axes = [
-            float((T[:3, :3] @ np.array(joint.axis))[1])
-            for T, joint in zip(frames, known, strict=True)
-        ]
-        ys = [round(float(T[1, 3]), 4) for T in frames]
-        # With another axis the front is the back, and left is right.
-        if len(known) == 2 and min(axes) > 0.99 and ys[0] < 0 < ys[1]:
-            yield Problem.at(
-                left.place,
-                "warning",
-                "drive-sides",
-                f"{left.value} is the left joint here, but its wheel is on the right, "
-                f"at y = {number(ys[0])} m ({where(known[0].place, left.place)}), and "
-                f"that of {right.value} ({where(right.place, left.place)}) on the "
-                "left: the robot turns the wrong way",
-                f"exchange {left.value} and {right.value}",
-            )
+
+    def wheel(fact: Fact) -> _Wheel | None:
+        joint = robot.joints.get(fact.value)
+        if joint is None or not joint.movable:
+            return None
+        T = T_base_root @ poses[joint.child]
+        axis = float((T[:3, :3] @ np.array(joint.axis))[1])
+        return _Wheel(fact, joint, axis, float(T[0, 3]), round(float(T[1, 3]), 4))
+
+    for names in zip(lefts, rights, strict=False):
+        left, right = map(wheel, names)
+        if left is None or right is None:
+            continue
+        found = _exchanged(left, right) or _turning(robot, left, right)
+        if found is None and len(lefts) == 1:
+            found = _off_the_axle(left, right)
+        if found is not None:
+            yield found
             return
+
+
+def _exchanged(left: _Wheel, right: _Wheel) -> Problem | None:
+    # With another axis the front is the back, and left is right.
+    if min(left.axis, right.axis) <= _ALONG or not left.y < 0 < right.y:
+        return None
+    of, name = left.fact, left.joint.name
+    return Problem.at(
+        of.place,
+        "warning",
+        "drive-sides",
+        f"{name} is the left joint here, but its wheel is on the right, at y = "
+        f"{number(left.y)} m ({where(left.joint.place, of.place)}), and that of "
+        f"{right.joint.name} ({where(right.fact.place, of.place)}) on the left: the "
+        "robot turns the wrong way",
+        f"exchange {name} and {right.joint.name}",
+    )
+
+
+def _turning(robot: Robot, left: _Wheel, right: _Wheel) -> Problem | None:
+    """Report wheels that turn backwards, both or one of them."""
+    back = [wheel for wheel in (left, right) if wheel.axis < -_ALONG]
+    if not back or min(abs(left.axis), abs(right.axis)) <= _ALONG:
+        return None
+    if len(back) == 2 and not right.y < 0 < left.y:
+        return None
+    joints = [wheel.joint for wheel in back]
+    names = listed(joint.name for joint in joints)
+    axis = " ".join(number(0.0 - value) for value in joints[0].axis)
+    written = (
+        f"<xyz>{axis}</xyz>" if robot.language == "sdf" else f'<axis xyz="{axis}"/>'
+    )
+    return Problem.at(
+        joints[0].place,
+        "warning",
+        "drive-sides",
+        f"{names} {'turn' if len(back) == 2 else 'turns'} about -y, so that the drive "
+        f"({where(left.fact.place, joints[0].place)}) "
+        + (
+            "moves the robot backwards where forwards is meant"
+            if len(back) == 2
+            else "turns the robot where straight on is meant"
+        ),
+        f"write {written} for {names}",
+    )
+
+
+def _off_the_axle(left: _Wheel, right: _Wheel) -> Problem | None:
+    """Report a pair of wheels of which one is in front of the other."""
+    ahead, apart = abs(left.x - right.x), abs(left.y - right.y)
+    if min(abs(left.axis), abs(right.axis)) <= _ALONG or ahead <= _AHEAD * apart:
+        return None
+    if left.y * right.y >= 0:
+        return None
+    joint, x = right.joint, left.x
+    return Problem.at(
+        joint.place,
+        "warning",
+        "drive-sides",
+        f"the wheels of {left.joint.name} and {joint.name} are not on one axle: they "
+        f"are at x = {number(left.x)} m and {number(right.x)} m, and the drive "
+        f"({where(right.fact.place, joint.place)}) turns the robot about the middle "
+        "of both",
+        f"give {joint.name} the x of the other wheel, {number(x)}",
+    )

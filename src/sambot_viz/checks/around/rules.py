@@ -17,9 +17,9 @@ from sambot_viz.checks.around.build_file import (
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
 from sambot_viz.checks.around.drives import (
-    exchanged_sides,
-    exchanged_sides_of_controllers,
     misspelt_elements,
+    wrong_sides,
+    wrong_sides_of_controllers,
 )
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
@@ -70,7 +70,7 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     unknown_joints,
     unknown_references,
     wheel_sizes,
-    exchanged_sides,
+    wrong_sides,
     misspelt_elements,
 )
 """The rules that need only the model."""
@@ -88,7 +88,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_cmake,
     joints_of_controllers,
     wheel_sizes_of_controllers,
-    exchanged_sides_of_controllers,
+    wrong_sides_of_controllers,
     unknown_frames,
     two_parents,
     moved_twice,
