@@ -34,8 +34,8 @@ from sambot_viz.checks.slips import (
     names_with_spaces,
     rpy_in_degrees,
     sizes_not_positive,
-    unused_macros,
 )
+from sambot_viz.checks.unused_macros import unused_macros
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.robot.model import Robot
 

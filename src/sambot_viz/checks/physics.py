@@ -6,7 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import Subject, listed, number
+from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.parts import Cylinder, Inertial, Joint, Link, Sphere
@@ -33,26 +35,29 @@ def inertia_on_root(subject: Subject) -> Iterator[Problem]:
 
 def missing_inertia(subject: Subject) -> Iterator[Problem]:
     """Report links with a collision shape and no mass, which a simulator drops."""
-    links = subject.robot.links
-    if not any(link.inertial for link in links.values()):
+    if not any(link.inertial for link in subject.robot.links.values()):
         # No sign that this model is meant for a simulator.
         return
-    bare = [
-        link
-        for link in links.values()
-        if link.collisions and link.inertial is None and link.name != subject.robot.root
-    ]
+    bare = links_without_mass(subject)
     if not bare:
         return
-    one = len(bare) == 1
+    one, macro = len(bare) == 1, unused_inertia(subject)
+    uncalled, hint = "", 'add <inertial> with <mass value="…"/> and <inertia …/>'
+    if macro is not None:
+        name, params = macro.get("name"), (macro.get("params") or "").split()
+        given = "".join(f' {p}="…"' for p in params if p.isidentifier())
+        uncalled = (
+            f"; the macro {name} ({where(macro.place, bare[0].place)}) is never called"
+        )
+        hint = f"add <xacro:{name}{given}/>"
     yield Problem.at(
         bare[0].place,
-        "info",
+        "info" if macro is None else "warning",
         "inertia-missing",
         f"{'the link' if one else 'the links'} {listed(link.name for link in bare)} "
         f"{'has a collision shape' if one else 'have collision shapes'} but no "
-        "<inertial>: a simulator ignores links without mass",
-        'add <inertial> with <mass value="…"/> and <inertia …/>',
+        f"<inertial>: a simulator ignores links without mass{uncalled}",
+        hint,
     )
 
 

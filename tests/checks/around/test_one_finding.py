@@ -96,6 +96,34 @@ SLIPS = [
         'write <pose relative_to="base_link" degrees="true">',
         '<pose relative_to="base_link" degrees="true">0 0 0.12 0 0 180</pose>',
     ),
+    Slip(
+        "urdf",
+        "xacro-parameter-unknown",
+        'name="wheel" params="prefix side"',
+        'name="wheel"',
+        '<xacro:macro name="wheel"',
+        'add params="prefix side"',
+        'name="wheel" params="prefix side"',
+    ),
+    Slip(
+        "sdf",
+        "xacro-parameter-unknown",
+        '<xacro:wheel prefix="left_wheel"',
+        '<xacro:wheel name="left_wheel"',
+        '<xacro:wheel name="left_wheel"',
+        'write prefix="left_wheel"',
+        '<xacro:wheel prefix="left_wheel"',
+    ),
+    Slip(
+        "urdf",
+        "xacro-parameter-unknown",
+        '  <link name="base_footprint"/>',
+        '  <xacro:macro name="wheel" params="of"/>\n  <link name="base_footprint"/>',
+        '<xacro:macro name="wheel" params="of"',
+        "give one of the two another name",
+        '  <xacro:macro name="other" params="of"/>\n  <xacro:other of="1"/>\n  '
+        '<link name="base_footprint"/>',
+    ),
 ]
 
 
@@ -133,3 +161,34 @@ def test_degrees_in_a_macro_are_told_once_and_their_pose_keeps_its_attributes(
     assert 'write degrees="true" into <pose>, beside relative_to' in problem.hint
     edit(model, '_link">0 0 0 90', '_link" degrees="true">0 0 0 90')
     assert found(model) == []
+
+
+INERTIAL = """<inertial>
+        <mass value="0.5"/>
+        <inertia ixx="0.0013" ixy="0" ixz="0" iyy="0.0013" iyz="0" izz="0.0025"/>
+      </inertial>"""
+
+
+def test_a_macro_of_inertia_that_is_not_called_is_told_at_the_link_without_mass(
+    copied: Copied,
+) -> None:
+    model = model_in(copied, "urdf")
+    macro = f'<xacro:macro name="wheel_inertia" params="m">{INERTIAL}</xacro:macro>'
+    edit(model, INERTIAL, '<xacro:wheel_inertia m="0.5"/>')
+    edit(
+        model, '  <xacro:macro name="wheel"', f'  {macro}\n  <xacro:macro name="wheel"'
+    )
+    lidar = (
+        '<link name="lidar_link"><collision><geometry><sphere radius="0.05"/>'
+        f"</geometry></collision>{INERTIAL}</link>"
+    )
+    edit(model, '<link name="lidar_link"/>', lidar)
+    assert found(model) == []
+    edit(model, '<xacro:wheel_inertia m="0.5"/>', "")
+    (problem,) = found(model)
+
+    assert problem.code == "inertia-missing"
+    line = model.read_text().splitlines()[(problem.line or 0) - 1]
+    assert '<link name="${prefix}_link">' in line
+    assert problem.hint == 'add <xacro:wheel_inertia m="…"/>'
+    assert "wheel_inertia (line 5) is never called" in problem.message

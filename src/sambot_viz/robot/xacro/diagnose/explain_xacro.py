@@ -12,6 +12,7 @@ from collections.abc import Callable
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
+from sambot_viz.robot.xacro.diagnose.macro_parameters import unknown_parameter
 from sambot_viz.robot.xacro.diagnose.reports import CALL, ELEMENT, EXPRESSION, ROWS
 from sambot_viz.robot.xacro.diagnose.source_slips import source_slip
 from sambot_viz.robot.xacro.diagnose.unknown_names import (
@@ -29,6 +30,7 @@ _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r": name '([^']+)' is not defined", undefined_name),
     (r"unknown macro name: (?:xacro:)?(\S+)", unknown_macro),
     (r"Undefined substitution argument:?\s*(\w[\w.\-]*)", undefined_argument),
+    (r'Invalid parameter "([^"]*)"', unknown_parameter),
     (r"^ArgException.*?(\S+)$", undefined_argument),
 )
 """Reports about an unknown name, and the function that finds the one meant."""

@@ -196,12 +196,6 @@ class FailedExpansion:
         return f" (declared on {line_in(macro.place, self.at)})" if macro else ""
 
     @property
-    def near_parameter(self) -> str:
-        """A parameter of the called macro with nearly the name."""
-        macro = self._called_macro
-        return did_you_mean(self.found[0], parameters(macro.params) if macro else [])
-
-    @property
     def blocks(self) -> str:
         """The blocks that the called macro takes: " (*origin, *shape)"."""
         macro = self._called_macro

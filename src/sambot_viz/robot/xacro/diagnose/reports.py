@@ -31,14 +31,6 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         CALL,
     ),
     (
-        r'Invalid parameter "([^"]*)"',
-        "xacro-parameter-unknown",
-        "the macro {x.called} has no parameter {0}{x.declared}",
-        "{x.near_parameter}; or delete {0}, or use the version of the macro's file "
-        "that fits",
-        CALL,
-    ),
-    (
         r'Undefined block "([^"]*)"',
         "xacro-block",
         "insert_block uses the block {0}, which does not exist{x.trail}",

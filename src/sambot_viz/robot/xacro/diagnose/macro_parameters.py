@@ -1,0 +1,137 @@
+"""A macro call with a parameter that the macro does not have."""
+
+from __future__ import annotations
+
+import re
+
+from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.slips.vocabulary import meant
+from sambot_viz.robot.xacro.diagnose.failed_expansion import (
+    FailedExpansion,
+    line_in,
+    parameters,
+)
+from sambot_viz.robot.xacro.diagnose.source_files import NamedElement, SourceSet
+from sambot_viz.robot.xml.diagnose.lexer import Token
+
+_CODE = "xacro-parameter-unknown"
+_CONDITIONS = ("xacro:if", "xacro:unless")
+
+
+def unknown_parameter(failed: FailedExpansion, name: str) -> Problem:
+    """Explain which parameter was meant, or which macro."""
+    here = failed.pointing_at(failed.call_place())
+    call = here.sources.tag_at(here.at, f"xacro:{here.called}")
+    macros = [m for m in here.named("macro") if m.name == here.called and m.prefixed]
+    if len(macros) > 1:
+        twice = _defined_twice(here, macros, name)
+        if twice is not None:
+            return twice
+    macro = macros[-1] if macros else None
+    if call is not None and macro is not None and not macro.params:
+        lacking = _without_params(here, macro, call)
+        if lacking is not None:
+            return lacking
+    message = f"the macro {here.called} has no parameter {name}{here.declared}"
+    if call is None or macro is None:
+        return here.error(_CODE, message, f"delete {name}")
+    return _other_parameter(here, message, name, macro, call)
+
+
+def _defined_twice(
+    here: FailedExpansion, macros: list[NamedElement], name: str
+) -> Problem | None:
+    """Report a macro that takes the name of the one that the call means."""
+    first, last = macros[0], macros[-1]
+    if name not in parameters(first.params) or name in parameters(last.params):
+        return None
+    if any(_is_conditional(here.sources, macro) for macro in macros):
+        return None
+    missing = _called_without_macro(here)
+    return here.pointing_at(last.place).error(
+        _CODE,
+        f"the macro {last.name} is defined twice, on {line_in(first.place, last.place)}"
+        " and again here, and only the later one counts: it has no parameter "
+        f"{name}, which the call on {line_in(here.at, last.place)} gives",
+        f'write name="{missing[0]}"'
+        if len(missing) == 1
+        else "give one of the two another name, here and in its calls",
+    )
+
+
+def _is_conditional(sources: SourceSet, macro: NamedElement) -> bool:
+    """Tell whether a macro is inside <xacro:if>, so that it may not be defined."""
+    source = sources.get(macro.place.file)
+    if source is None:
+        return True
+    offset = source.offset(macro.place.line, macro.place.column or 1)
+    depth = 0
+    for token in source.tags:
+        if token.start < offset and token.name in _CONDITIONS:
+            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+    return depth > 0
+
+
+def _called_without_macro(here: FailedExpansion) -> list[str]:
+    """Return the macros that are called and not defined, and are no words of xacro."""
+    from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
+
+    known = {*OWN_TAGS, *(macro.name for macro in here.named("macro"))}
+    called = {
+        token.name.removeprefix("xacro:")
+        for _, source in here.sources.sources()
+        for token in source.tags
+        if token.name.startswith("xacro:") and not token.closes
+    }
+    return sorted(called - known)
+
+
+def _without_params(
+    here: FailedExpansion, macro: NamedElement, call: Token
+) -> Problem | None:
+    """Report a macro whose body uses what its calls give, but that lacks params."""
+    given = [attribute.name for attribute in call.attributes]
+    source = here.sources.get(macro.place.file)
+    tag = here.sources.tag_at(macro.place, "xacro:macro")
+    if source is None or tag is None:
+        return None
+    end = source.text.find("</xacro:macro>", tag.end)
+    uses = re.findall(r"\$\{([^}]*)\}", source.text[tag.end : max(end, tag.end)])
+    if not set(given) <= set(re.findall(r"[A-Za-z_]\w*", " ".join(uses))):
+        return None
+    return here.pointing_at(macro.place).error(
+        _CODE,
+        f"the macro {macro.name} has no params, but the call on "
+        f"{line_in(here.at, macro.place)} gives {_listed(given)}",
+        f'add params="{" ".join(given)}"',
+    )
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join(part for part in (", ".join(names[:-1]), names[-1]) if part)
+
+
+def _other_parameter(
+    here: FailedExpansion, message: str, name: str, macro: NamedElement, call: Token
+) -> Problem:
+    """Name the parameter that was meant: one that the call does not give."""
+    free = [p for p in parameters(macro.params) if call.get(p) is None]
+    blocks = set(re.findall(r"\*+([^\s:]+)", macro.params))
+    free = [p for p in free if p not in blocks]
+    needed = [p for p in free if not re.search(rf"(?<!\S){p}\s*:?=", macro.params)]
+    others = [a.name for a in call.attributes if a.name not in parameters(macro.params)]
+    right = meant(name, free) or nearest(name, free)
+    if len(needed) == 1 and others == [name]:
+        right = needed[0]
+    if right is not None:
+        lost = f", and its {right} is not given" if right in needed else ""
+        value = call.get(name) or ""
+        return here.error(_CODE, message + lost, f'write {right}="{value}"')
+    if needed:
+        lost = f"{message}, and the call lacks {_listed(needed)}"
+        return here.error(_CODE, lost, f"write the right one of these for {name}")
+    return here.error(
+        _CODE,
+        message,
+        f"delete {name}, or use the version of the macro's file that fits",
+    )
