@@ -920,7 +920,7 @@ MISTAKES = [
         "footprint-size",
         NAV2,
         "robot_radius: 0.3",
-        "robot_radius: 30",
+        "robot_radius: 30.0",
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.3",
         name="in centimetres",
