@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch import LaunchFile, LaunchNode
-from sambot_viz.checks.around.files.launch_values import keyword
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name
 from sambot_viz.errors import Place, Problem, nearest
 
 _OWN_NAMES = {
@@ -29,7 +26,7 @@ _OWN_NAMES = {
 
 _WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
 _WORLDS = (".sdf", ".world", ".wbt")
-_SPAWNS = "gz_spawn_model.launch.py"
+_MODELS = (".urdf", ".xacro", ".sdf")
 
 
 def missing_files(around: Surroundings) -> Iterator[Problem]:
@@ -42,7 +39,9 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
             if below is None or below in known or "*" in below:
                 continue
             known.add(below)
-            near = _near(below, paths) if _is_missing(below, paths, around) else None
+            near = None
+            if _is_missing(below, paths, around):
+                near = _read_by(launch, fact, around) or _near(below, paths)
             if near is not None:
                 yield Problem.at(
                     fact.place,
@@ -68,19 +67,33 @@ def _is_missing(below: str, paths: frozenset[str], around: Surroundings) -> bool
     return not any(text is not None and folder in text for text in build)
 
 
+def _read_by(launch: LaunchFile, fact: Fact, around: Surroundings) -> str | None:
+    """The one file with parameters for the node that is given a missing one."""
+    for node in launch.nodes:
+        name = node.name or _OWN_NAMES.get(node.executable)
+        if name and any(given.value == fact.value for given in node.files):
+            files = (file for file in around.yaml_files if file.nodes)
+            fitting = [file.path for file in files if _has(file, name)]
+            return fitting[0] if len(fitting) == 1 else None
+    return None
+
+
 def _near(below: str, paths: frozenset[str]) -> str | None:
-    """The file that is probably meant: of the same kind, with a similar name."""
+    """The file that is probably meant: of the same kind, with the most similar name."""
     wanted = PurePosixPath(below)
     if not wanted.suffix:
         return None
-    alike = [p for p in paths if "/" in p and p.endswith(wanted.suffix)]
+    kinds = _MODELS if wanted.suffix in _MODELS else (wanted.suffix,)
+    alike = [p for p in paths if "/" in p and p.endswith(kinds)]
     same = [p for p in alike if PurePosixPath(p).name == wanted.name]
     if len(same) == 1:
         return same[0]
-    beside = [p for p in alike if PurePosixPath(p).parent == wanted.parent]
-    if len(beside) == 1:
-        return beside[0]
-    return nearest(below, sorted(beside), likeness=0.75)
+    beside = [p for p in paths if PurePosixPath(p).parent == wanted.parent]
+    stem = wanted.name.partition(".")[0]
+    twins = [p for p in beside if PurePosixPath(p).name.partition(".")[0] == stem]
+    if len(twins) == 1:
+        return twins[0]
+    return nearest(below, sorted({*beside} & {*alike}), likeness=0.0)
 
 
 def unread_parameters(around: Surroundings) -> Iterator[Problem]:
@@ -118,7 +131,7 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
     """Report a robot that is put into a world with another name than the file says."""
     for launch in around.launches:
         worlds = dict(_worlds(launch, around))
-        named = list(_spawned_into(launch)) if len(worlds) == 1 else []
+        named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
         for fact in named:
             (name, place), *_ = worlds.items()
             if fact.value != name:
@@ -139,39 +152,3 @@ def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Pla
         for match in _WORLD.finditer(text or ""):
             line = (text or "").count("\n", 0, match.start()) + 1
             yield match[1], Place(around.files.shown(below), line)
-
-
-def _spawned_into(launch: LaunchFile) -> Iterator[Fact]:
-    """The names of worlds that are given to what puts a robot into one."""
-    for call in launch.actions:
-        source = launch.values.text(keyword(call, "launch_description_source", 0))
-        if call_name(call.func) == "IncludeLaunchDescription":
-            if source is not None and source.endswith(_SPAWNS):
-                yield from _world_argument(launch, keyword(call, "launch_arguments"))
-        elif launch.values.text(keyword(call, "executable")) == "create":
-            yield from _world_of_create(launch, call)
-
-
-def _world_of_create(launch: LaunchFile, call: ast.Call) -> Iterator[Fact]:
-    """What a node of ros_gz_sim is told, in arguments or parameters."""
-    text, items = launch.values.text, launch.values.items
-    if text(keyword(call, "package")) != "ros_gz_sim":
-        return
-    given = items(keyword(call, "arguments"))
-    for option, value in pairwise(given):
-        name = text(value)
-        if text(option) == "-world" and name:
-            yield Fact(name, launch.place(value))
-    for item in items(keyword(call, "parameters")):
-        yield from _world_argument(launch, item)
-
-
-def _world_argument(launch: LaunchFile, given: ast.expr | None) -> Iterator[Fact]:
-    inner = given.func if isinstance(given, ast.Call) else None
-    table = inner.value if isinstance(inner, ast.Attribute) else given
-    if not isinstance(table, ast.Dict):
-        return
-    for key, value in zip(table.keys, table.values, strict=True):
-        text = launch.values.text(value)
-        if isinstance(key, ast.Constant) and key.value == "world" and text:
-            yield Fact(text, launch.place(value))

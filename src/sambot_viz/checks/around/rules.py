@@ -53,6 +53,15 @@ from sambot_viz.checks.around.launch_paths import (
     unread_parameters,
     world_names,
 )
+from sambot_viz.checks.around.launch_uses import (
+    bridges_as_parameters,
+    joined_words,
+    spawned_topics,
+    times_as_text,
+    undeclared_arguments,
+    unknown_programs,
+    unused_actions,
+)
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
@@ -85,6 +94,13 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     empty_launch_files,
     missing_entries,
     unknown_names,
+    unused_actions,
+    undeclared_arguments,
+    unknown_programs,
+    bridges_as_parameters,
+    joined_words,
+    times_as_text,
+    spawned_topics,
     unreadable_cmake,
     joints_of_controllers,
     wheel_sizes_of_controllers,

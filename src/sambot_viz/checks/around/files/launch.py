@@ -128,18 +128,27 @@ class LaunchFile:
         )
 
     @cached_property
-    def actions(self) -> list[ast.Call]:
-        """The calls without a condition, whose variable is used where there is one."""
-        used = {
+    def _used(self) -> frozenset[str]:
+        return frozenset(
             node.id
             for node in ast.walk(self.tree)
             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-        }
+        )
+
+    def uses(self, variable: str) -> bool:
+        """Tell whether the value of a variable is used."""
+        return variable in self._used
+
+    @cached_property
+    def actions(self) -> list[ast.Call]:
+        """The calls without a condition, whose variable is used where there is one."""
         unused = {
             id(node.value)
             for node in ast.walk(self.tree)
             if isinstance(node, ast.Assign)
-            and all(isinstance(t, ast.Name) and t.id not in used for t in node.targets)
+            and all(
+                isinstance(t, ast.Name) and not self.uses(t.id) for t in node.targets
+            )
         }
         return [
             call

@@ -1,0 +1,256 @@
+"""Nodes, arguments and values of a launch file that do not reach what they are for."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+import yaml
+
+from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.files.launch_values import keyword
+from sambot_viz.checks.around.files.parameters import flag
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.spawning import spawned_with
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.errors import Problem, nearest
+
+_STARTED = frozenset(
+    {
+        "DeclareLaunchArgument",
+        "ExecuteProcess",
+        "GzServer",
+        "IncludeLaunchDescription",
+        "LifecycleNode",
+        "Node",
+        "RosGzBridge",
+    }
+)
+_SETTING = frozenset({"SetLaunchConfiguration", "OpaqueFunction", "GroupAction"})
+_TOPIC, _PUBLISHER = "robot_description", "robot_state_publisher"
+_PROGRAMS: dict[str, str] = {
+    "joint_state_publisher": "joint_state_publisher",
+    "joint_state_publisher_gui": "joint_state_publisher_gui",
+    "robot_localization": "ekf_node ukf_node navsat_transform_node",
+    "robot_state_publisher": "robot_state_publisher",
+    "ros_gz_bridge": "parameter_bridge static_bridge bridge_node",
+    "rviz2": "rviz2",
+    "slam_toolbox": "async_slam_toolbox_node sync_slam_toolbox_node "
+    "localization_slam_toolbox_node lifelong_slam_toolbox_node "
+    "map_and_localization_slam_toolbox_node",
+}
+"""Package → the programs that launch files start from it."""
+
+
+def unused_actions(around: Surroundings) -> Iterator[Problem]:
+    """Report nodes that are built and are nowhere in the description."""
+    for launch in around.launches:
+        text = around.files.text(launch.path) or ""
+        described = next(
+            (c for c in launch.calls if call_name(c.func) == "LaunchDescription"), None
+        )
+        for name, call in _assigned(launch) if described is not None else ():
+            if described is None or launch.uses(name):
+                continue
+            # A name in a comment is left out on purpose.
+            if re.search(rf"#.*\b{name}\b", text):
+                continue
+            what = call_name(call.func)
+            follows = (
+                "the argument does not exist"
+                if what == "DeclareLaunchArgument"
+                else "it does not start"
+            )
+            yield Problem.at(
+                launch.place(call),
+                "warning",
+                "launch-node-unused",
+                f"{name} is built here, but it is not in the LaunchDescription "
+                f"({where(launch.place(described), launch.shown)}): {follows}",
+                f"add {name} to that list",
+            )
+
+
+def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
+    """The variables that get a node in generate_launch_description itself."""
+    for function in launch.tree.body:
+        if not isinstance(function, ast.FunctionDef):
+            continue
+        for node in function.body:
+            value = node.value if isinstance(node, ast.Assign) else None
+            target = node.targets[0] if isinstance(node, ast.Assign) else None
+            if isinstance(value, ast.Call) and isinstance(target, ast.Name):
+                if call_name(value.func) in _STARTED and not target.id.startswith("_"):
+                    yield target.id, value
+
+
+def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
+    """Report arguments that are used under another name than they are declared."""
+    every = {text for launch in around.launches for text in _set(launch)}
+    for launch in around.launches:
+        text = launch.values.text
+        declared = {
+            text(keyword(call, "name", 0)) or "": launch.place(call)
+            for call in launch.calls
+            if call_name(call.func) == "DeclareLaunchArgument"
+        }
+        if "" in declared or any(call_name(c.func) in _SETTING for c in launch.calls):
+            continue
+        for call in launch.calls:
+            name = text(keyword(call, "variable_name", 0)) or ""
+            if call_name(call.func) != "LaunchConfiguration" or name in declared:
+                continue
+            near = nearest(name, declared, 0.65)
+            if near is None or name in every or keyword(call, "default", 1) is not None:
+                continue
+            place = launch.place(call)
+            yield Problem.at(
+                place,
+                "error",
+                "launch-argument-unknown",
+                f"the launch argument {name} is not declared; {near} is "
+                f"({where(declared[near], place)}): ros2 launch stops with it",
+                f"write LaunchConfiguration('{near}')",
+            )
+
+
+def _set(launch: LaunchFile) -> Iterator[str]:
+    """The names of arguments that a launch file gives to others, or declares."""
+    for call in launch.calls:
+        if call_name(call.func) == "DeclareLaunchArgument":
+            yield launch.values.text(keyword(call, "name", 0)) or ""
+        elif call_name(call.func) == "IncludeLaunchDescription":
+            given = keyword(call, "launch_arguments")
+            for node in ast.walk(given) if given is not None else ():
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    yield node.value
+
+
+def unknown_programs(around: Surroundings) -> Iterator[Problem]:
+    """Report programs that a well-known package does not have."""
+    for launch in around.launches:
+        for call in launch.actions:
+            package = launch.values.text(keyword(call, "package")) or ""
+            given = keyword(call, "executable")
+            program = launch.values.text(given)
+            known = _PROGRAMS.get(package, "").split()
+            if given is None or program is None or program in known:
+                continue
+            near = nearest(program, known)
+            if near is not None:
+                yield Problem.at(
+                    launch.place(given),
+                    "error",
+                    "launch-program-unknown",
+                    f"the package {package} has no program {program}: ros2 launch "
+                    "stops with it",
+                    f"write {near}",
+                )
+
+
+def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
+    """Report a list of topics that is given to a bridge as its parameters."""
+    lists = {
+        file.path
+        for file in around.yaml_files
+        if isinstance(file.root, yaml.SequenceNode)
+    }
+    for launch in around.launches:
+        for call in launch.actions:
+            if launch.values.text(keyword(call, "executable")) != "parameter_bridge":
+                continue
+            given = keyword(call, "parameters")
+            for item in given.elts if isinstance(given, (ast.List, ast.Tuple)) else ():
+                path = around.own(launch.values.text(item) or "")
+                if path in lists:
+                    yield Problem.at(
+                        launch.place(item),
+                        "error",
+                        "launch-bridge-config",
+                        f"{path} is a list of topics and no parameters: "
+                        "parameter_bridge stops with an error",
+                        f"write {{'config_file': {ast.unparse(item)}}}",
+                    )
+
+
+def joined_words(around: Surroundings) -> Iterator[Problem]:
+    """Report a Command whose program and file are one word."""
+    for launch in around.launches:
+        for call in launch.calls:
+            words = call.args[0] if call.args else None
+            if call_name(call.func) != "Command" or not isinstance(words, ast.List):
+                continue
+            first, second = (*words.elts[:2], None, None)[:2]
+            program = launch.values.text(first)
+            is_text = isinstance(first, ast.Constant)
+            if not is_text or program != "xacro" or second is None:
+                continue
+            text = launch.values.text(second)
+            if text is None or not text[:1].isspace():
+                yield Problem.at(
+                    launch.place(first),
+                    "error",
+                    "launch-command",
+                    "Command joins its words without a blank: xacro and the name of "
+                    "the model become one word, and ros2 launch stops",
+                    "write 'xacro ', with a blank at the end",
+                )
+
+
+def times_as_text(around: Surroundings) -> Iterator[Problem]:
+    """Report use_sim_time that is given to a node as a text."""
+    for launch in around.launches:
+        for call in launch.actions:
+            if call_name(call.func) not in ("Node", "LifecycleNode"):
+                continue
+            for item in launch.values.items(keyword(call, "parameters")):
+                if isinstance(item, ast.Dict):
+                    yield from _time_as_text(item, launch)
+
+
+def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
+    for key, value in zip(given.keys, given.values, strict=True):
+        if not isinstance(key, ast.Constant) or key.value != "use_sim_time":
+            continue
+        text = value.value if isinstance(value, ast.Constant) else None
+        truth = flag(text) if isinstance(text, str) else None
+        if truth is not None:
+            yield Problem.at(
+                launch.place(value),
+                "error",
+                "launch-time-text",
+                f"use_sim_time is the text '{text}', but nodes need {truth} without "
+                "quotation marks: the node stops with an error",
+                f"write {truth}",
+            )
+
+
+def spawned_topics(around: Surroundings) -> Iterator[Problem]:
+    """Report a robot that is spawned from a topic that is almost the right one."""
+    publisher = next(
+        (
+            node
+            for launch in around.launches
+            for node in launch.nodes
+            if node.executable == _PUBLISHER and not node.remappings
+        ),
+        None,
+    )
+    for launch in around.launches if publisher is not None else ():
+        for fact in spawned_with(launch, "topic"):
+            topic, place = fact.value, fact.place
+            name = topic.rpartition("/")[2]
+            if name == _TOPIC or not nearest(name, [_TOPIC], 0.8):
+                continue
+            if publisher is not None:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-spawn-topic",
+                    f"the robot is to come from the topic {topic}, but "
+                    f"{_PUBLISHER} ({where(publisher.place, place)}) publishes it as "
+                    f"{_TOPIC}: it does not appear",
+                    f"write {topic.removesuffix(name)}{_TOPIC}",
+                )
