@@ -90,6 +90,9 @@ def test_below_a_namespace_names_are_not_the_final_ones(copied: Copied) -> None:
     assert codes(package) == []
 
 
+CONDITIONS = "\nfrom launch.conditions import IfCondition"
+
+
 def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
     package = copied("gz")
     classic = 'Node(package="gazebo_ros", executable="spawn_entity.py"'
@@ -100,6 +103,7 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
         classic,
         f'{classic}, condition=IfCondition(LaunchConfiguration("classic"))',
     )
+    edit(package / LAUNCH, "\nfrom launch_ros", f"{CONDITIONS}\nfrom launch_ros")
     assert codes(package) == []
 
 
@@ -251,7 +255,7 @@ def test_a_python_file_that_is_none_does_no_harm(
     package = copied("classic")
     (package / name).write_text(text)
     begin = time.process_time()
-    assert codes(package) == []
+    assert set(codes(package)) <= {"launch-code"}
     assert time.process_time() - begin < 3
 
 
