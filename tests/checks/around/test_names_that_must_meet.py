@@ -109,7 +109,7 @@ MISTAKES = [
         "<left_joint>left_wheel_joint<",
         "<left_joint>imu_joint<",
         (MODEL, '<joint name="imu_joint" type="fixed">'),
-        'write type="continuous"',
+        "write left_wheel_joint",
         name="fixed",
     ),
     one(
@@ -144,10 +144,9 @@ MISTAKES = [
         MODEL,
         '<gazebo reference="lidar_link">',
         '<gazebo reference="scanner">',
-        ("", ""),
-        "such as base_link",
-        '<gazebo reference="base_link">',
-        name="of nothing",
+        (MODEL, '<link name="lidar_link"/>'),
+        "write lidar_link",
+        name="by its frame",
     ),
     Mistake(
         "drive-sides",

@@ -26,6 +26,9 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE
     from sambot_viz.checks.around.surroundings import Surroundings
 
+    if any(p.code == "xacro-prefix-missing" for p in subject.robot.problems):
+        # A part of the robot is missing, and with it what others name.
+        return
     for rule in IN_MODEL:
         yield from rule(subject.robot)
     if files is not None and not _is_part(subject):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.wheel_joints import meant_wheel, side_in
 from sambot_viz.checks.rule import listed, number
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
@@ -127,12 +128,33 @@ def _sides(
         left, right = map(wheel, names)
         if left is None or right is None:
             continue
+        if left.joint is right.joint:
+            taken = {fact.value for fact in (*lefts, *rights)}
+            yield _driven_twice(robot, left, right, taken)
+            return
         found = _exchanged(left, right) or _turning(robot, left, right)
         if found is None and len(lefts) == 1:
             found = _off_the_axle(left, right)
         if found is not None:
             yield found
             return
+
+
+def _driven_twice(
+    robot: Robot, left: _Wheel, right: _Wheel, taken: Set[str]
+) -> Problem:
+    """Report a joint that is the left and the right one."""
+    wrong, other, side = (left, right, "left") if left.y < 0 else (right, left, "right")
+    near, _ = meant_wheel(robot, "", side_in(side), taken)
+    return Problem.at(
+        wrong.fact.place,
+        "warning",
+        "drive-sides",
+        f"{wrong.joint.name} is the left joint and the right joint "
+        f"({where(other.fact.place, wrong.fact.place)}): the robot cannot turn, and "
+        f"the {side} wheel is not driven",
+        f"write {near}" if near else f"write the joint of the {side} wheel",
+    )
 
 
 def _exchanged(left: _Wheel, right: _Wheel) -> Problem | None:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from sambot_viz.checks.around.files.gazebo import Fact, plugins
+from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.wheel_joints import Side, meant_wheel, side_in
+from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
+from sambot_viz.robot.xml.element import Element
 
 _JOINTS = (
     "left_joint",
@@ -27,6 +30,10 @@ _JOINTS = (
     "right_steering_joint",
     "steering_joint",
 )
+_OTHER_SIDE = {
+    "left_wheel_names": "right_wheel_names",
+    "right_wheel_names": "left_wheel_names",
+}
 _SCOPED = ("::", "/", ",", " ")
 _LIKE_NAME, _LIKE_LETTERS = 0.7, 0.9
 """How much two names have in common: a similar name, and a name with a wrong letter."""
@@ -40,8 +47,16 @@ def unknown_joints(robot: Robot) -> Iterator[Problem]:
 def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report joints in the parameters of controllers that the model does not have."""
     for parameter in around.parameters if around.robot.gazebo else ():
-        if parameter.name in ("left_wheel_names", "right_wheel_names"):
-            user = _User(parameter.node, drives=True)
+        if parameter.name in _OTHER_SIDE:
+            other = _OTHER_SIDE[parameter.name]
+            taken = {
+                joint
+                for p in around.parameters
+                if (p.node, p.name) == (parameter.node, other)
+                for joint in p.values
+            }
+            side = side_in(parameter.name)
+            user = _User(parameter.node, True, side, frozenset(taken))
             named = [
                 (Fact(joint, parameter.place), user)
                 for joint in parameter.values
@@ -64,24 +79,48 @@ def _unknown_joints(
                 f"{user.name} drives the joint {fact.value}, which is fixed "
                 f"({where(joint.place, fact.place)}): it cannot turn"
             )
-            hint = 'write type="continuous" for that joint'
+            wheel = meant_wheel(robot, "", user.side, user.taken)[0]
+            hint = (
+                f"write {wheel}"
+                if wheel is not None and user.side
+                else 'write type="continuous" for that joint'
+            )
         else:
             message, hint = _unknown(robot, fact, user)
         yield Problem.at(fact.place, "warning", "gazebo-joint", message, hint)
 
 
 class _User(NamedTuple):
-    """What names a joint; `drives` when it has to turn it."""
+    """What names a joint.
+
+    Attributes:
+        name: for messages.
+        drives: whether it has to turn the joint.
+        side: where the wheel of the joint is.
+        taken: the joints that it has for other wheels.
+    """
 
     name: str
     drives: bool
+    side: Side = ""
+    taken: frozenset[str] = frozenset()
 
 
 def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
     for plugin in plugins(robot.gazebo):
         if plugin.generation is not None:
-            for fact in plugin.all(*_JOINTS):
-                yield fact, _User(f"the plugin {plugin.filename}", plugin.is_drive)
+            named = [(tag, fact) for tag in _JOINTS for fact in plugin.all(tag)]
+            for tag, fact in named:
+                taken = {other.value for _, other in named if other is not fact}
+                yield (
+                    fact,
+                    _User(
+                        f"the plugin {plugin.filename}",
+                        plugin.is_drive,
+                        side_in(tag),
+                        frozenset(taken),
+                    ),
+                )
     for part in robot.gazebo:
         if part.tag == "ros2_control":
             for joint in part.find_all("joint"):
@@ -90,7 +129,18 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
 
 
 def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
-    near = nearest(fact.value, robot.joints)
+    wheels: list[str] = []
+    if user.drives:
+        near, wheels = meant_wheel(robot, fact.value, user.side, user.taken)
+        if near is None and wheels:
+            side = f"{user.side} " if user.side else ""
+            return (
+                f"{user.name} names the joint {fact.value}, which does not exist: the "
+                f"model has {listed(wheels)}",
+                f"write the joint of the {side}wheel",
+            )
+    else:
+        near = nearest(fact.value, robot.joints)
     if near is None:
         movable = [j.name for j in robot.joints.values() if j.type != "fixed"]
         near = next(iter(movable or robot.joints), "")
@@ -118,7 +168,8 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
         if not name or name in known or any(mark in name for mark in _SCOPED):
             continue
         matters = any(child.tag in ("sensor", "plugin") for child in part.children)
-        near = nearest(name, free, _LIKE_NAME if matters else _LIKE_LETTERS)
+        near = _link_of_sensors(part, free) if matters else None
+        near = near or nearest(name, free, _LIKE_NAME if matters else _LIKE_LETTERS)
         if matters and near is None:
             near = _with_its_words(name, [link for link in robot.links if link in free])
         if near is None and not matters:
@@ -140,6 +191,17 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
             if near
             else f"write the link that it belongs to, such as {robot.root}",
         )
+
+
+def _link_of_sensors(part: Element, free: list[str]) -> str | None:
+    """The link whose frame the sensors of a <gazebo> have."""
+    frames = {
+        fact.value
+        for sensor in part.find_all("sensor")
+        for fact in facts(sensor, "gz_frame_id", "ignition_frame_id")
+    }
+    only = frames.pop() if len(frames) == 1 else None
+    return only if only in free else None
 
 
 def _with_its_words(name: str, links: list[str]) -> str | None:

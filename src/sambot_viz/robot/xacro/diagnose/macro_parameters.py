@@ -127,7 +127,7 @@ def _other_parameter(
         lost = f", and its {right} is not given" if right in needed else ""
         value = call.get(name) or ""
         return here.error(_CODE, message + lost, f'write {right}="{value}"')
-    if needed:
+    if needed and len(needed) == len(others):
         lost = f"{message}, and the call lacks {_listed(needed)}"
         return here.error(_CODE, lost, f"write the right one of these for {name}")
     return here.error(

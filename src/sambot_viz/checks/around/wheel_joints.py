@@ -1,0 +1,65 @@
+"""The joints of a model that may be the left or the right wheel of a drive."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+from typing import Literal
+
+import numpy as np
+
+from sambot_viz.errors import nearest
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.vocabulary import is_one_slip
+
+Side = Literal["left", "right", ""]
+
+
+def side_in(name: str) -> Side:
+    """Return the side that the name of an element or a parameter says."""
+    lower = name.lower()
+    return "left" if "left" in lower else "right" if "right" in lower else ""
+
+
+def side_of(robot: Robot, joint: str) -> Side:
+    """Return where the wheel of a joint is; "" in the middle and where it is not sure.
+
+    With an axis that is not y the front may be the back, and left is right.
+    """
+    T = robot.forward_kinematics()[robot.joints[joint].child]
+    axis = T[:3, :3] @ np.array(robot.joints[joint].axis)
+    y = round(float(T[1, 3]), 4)
+    if float(axis[1]) < 0.9 or not y:
+        return ""
+    return "left" if y > 0 else "right"
+
+
+def meant_wheel(
+    robot: Robot, name: str, side: Side, taken: Set[str]
+) -> tuple[str | None, list[str]]:
+    """Return the joint that a drive means by a name it does not have.
+
+    Args:
+        robot: the robot.
+        name: what the drive says; "" for nothing.
+        side: where its wheel is.
+        taken: joints that the drive has for other wheels.
+
+    Returns:
+        The joint, or None where it is not certain; and all joints that it may be.
+    """
+    turning = [
+        joint.name
+        for joint in robot.joints.values()
+        if joint.type != "fixed" and joint.name not in taken
+    ]
+    for joint in turning:
+        if name and is_one_slip(name, joint):
+            return joint, [joint]
+    sides = {joint: side_of(robot, joint) for joint in turning}
+    known = bool(side) and any(sides.values())
+    there = [j for j in turning if sides[j] == side] if known else turning
+    rolling = [j for j in there if robot.joints[j].type == "continuous"] or there
+    if len(rolling) == 1:
+        return rolling[0], rolling
+    near = nearest(name, rolling) if known or not side else None
+    return near, rolling
