@@ -97,6 +97,7 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
     package = copied("gz")
     classic = 'Node(package="gazebo_ros", executable="spawn_entity.py"'
     edit(package / LAUNCH, "            spawn,", f"            spawn,\n    {classic}),")
+    edit(package / LAUNCH, "import os", "import os\nfrom launch.conditions import *")
     assert codes(package) == ["gazebo-both"]
     edit(
         package / LAUNCH,
@@ -112,7 +113,7 @@ def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) ->
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')
     assert codes(package) == ["launch-parameters-unread"]
     edit(package / LAUNCH, "            robot_localization,\n", "")
-    assert codes(package) == []
+    assert codes(package) == ["launch-node-unused"]
 
 
 def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None:
@@ -173,7 +174,8 @@ def test_a_folder_may_be_installed_in_many_ways(text: str, copied: Copied) -> No
     (package / "include").mkdir()
     ending = "" if "ament_auto" in text else "ament_package()\n"
     (package / "CMakeLists.txt").write_text(
-        f"project(cart_description)\n{text}\n{ending}"
+        "project(cart_description)\nfind_package(ament_cmake_auto REQUIRED)\n"
+        f"{text}\n{ending}"
     )
     assert codes(package) == []
 
@@ -181,6 +183,7 @@ def test_a_folder_may_be_installed_in_many_ways(text: str, copied: Copied) -> No
 def test_a_python_package_installs_with_setup_py(copied: Copied) -> None:
     package = copied("classic")
     (package / "CMakeLists.txt").unlink()
+    edit(package / "package.xml", ">ament_cmake</build", ">ament_python</build")
     (package / "setup.py").write_text(
         "import os\nfrom glob import glob\nfrom setuptools import setup\n"
         "package_name = 'cart_description'\n"

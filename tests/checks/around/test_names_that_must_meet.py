@@ -712,6 +712,7 @@ MISTAKES = [
                 (
                     LAUNCH,
                     "            spawn,",
+                    "            spawn,\n"
                     '            Node(package="ros_gz_sim", executable="create",\n'
                     f"            {given}),",
                 ),

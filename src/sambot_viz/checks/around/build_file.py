@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.files.cmake import CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.manifest import named_as_its_folder
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem, nearest
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
 _NOT_MEANT = frozenset({"build", "install", "log", ".git"})
+_UNKNOWN = frozenset({"include", "macro", "function", "add_subdirectory"})
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
@@ -28,6 +31,64 @@ def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
             f"CMake cannot read this file: {cmake.fault.cause}; colcon build stops",
             cmake.fault.hint,
         )
+
+
+def missing_commands(around: Surroundings) -> Iterator[Problem]:
+    """Report a CMakeLists.txt without one of the two commands of a package."""
+    cmake = around.cmake
+    if cmake is None or cmake.fault is not None or not _UNKNOWN.isdisjoint(cmake.names):
+        return
+    found = {
+        command.words[0].text
+        for command in cmake.commands
+        if command.name == "find_package" and command.words
+    }
+    finds = any(name.startswith("ament_cmake") for name in found)
+    if not cmake.is_package and "ament_cmake" in found and cmake.certain("install"):
+        last = cmake.commands[-1]
+        yield _missing_command(
+            cmake.place(last.line),
+            "ament_package() is missing, so colcon build does not register the "
+            "package: ros2 launch does not find it",
+            "add ament_package() at the end of the file",
+        )
+    if cmake.is_package and not finds:
+        end = next(c for c in cmake.commands if c.name.startswith("ament_"))
+        yield _missing_command(
+            cmake.place(end.line),
+            f"CMake does not know {end.name}() without find_package(ament_cmake "
+            "REQUIRED): colcon build stops",
+            "add find_package(ament_cmake REQUIRED) after project( … )",
+        )
+
+
+def _missing_command(place: Place, message: str, hint: str) -> Problem:
+    return Problem.at(place, "error", "cmake-command-missing", message, hint)
+
+
+def folders_as_files(around: Surroundings) -> Iterator[Problem]:
+    """Report install(FILES … ) with folders."""
+    cmake = around.cmake
+    for command in cmake.commands if cmake is not None else ():
+        words = command.files if command.certain else ()
+        folders = [w for w in words if _is_folder(w.text, around)]
+        if cmake is not None and folders:
+            yield Problem.at(
+                cmake.place(folders[0].line),
+                "error",
+                "install-folder-as-file",
+                f"install(FILES … ) is given {_kinds(folders)}: colcon build stops",
+                "write DIRECTORY for FILES",
+            )
+
+
+def _kinds(folders: Sequence[CMakeWord]) -> str:
+    names = listed(word.text for word in folders)
+    return f"the folders {names}" if len(folders) > 1 else f"the folder {names}"
+
+
+def _is_folder(name: str, around: Surroundings) -> bool:
+    return "$" not in name and (around.files.folder / name).is_dir()
 
 
 def missing_folders(around: Surroundings) -> Iterator[Problem]:
@@ -91,6 +152,8 @@ def project_name(around: Surroundings) -> Iterator[Problem]:
     project = cmake.project if cmake is not None and cmake.is_package else None
     name = around.files.name
     if cmake is None or project is None or project.text == name:
+        return
+    if named_as_its_folder(around):
         return
     manifest = around.files.text("package.xml") or ""
     line = manifest.count("\n", 0, max(manifest.find("<name>"), 0)) + 1

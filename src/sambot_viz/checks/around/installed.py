@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from sambot_viz.checks.around.build_file import near_folder
+from sambot_viz.checks.around.build_file import folders_as_files, near_folder
 from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -42,6 +42,8 @@ class Installed:
 
 def not_installed(around: Surroundings) -> Iterator[Problem]:
     """Report each folder that is used and exists, but is not installed."""
+    if any(folders_as_files(around)):
+        return
     used = dict(_used_folders(around))
     installed = _installed(around) if used else None
     if installed is None:

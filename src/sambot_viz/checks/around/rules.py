@@ -11,6 +11,8 @@ from sambot_viz.checks.around.bridges import (
     scoped_frames,
 )
 from sambot_viz.checks.around.build_file import (
+    folders_as_files,
+    missing_commands,
     missing_folders,
     project_name,
     unreadable_cmake,
@@ -62,6 +64,7 @@ from sambot_viz.checks.around.launch_uses import (
     unknown_programs,
     unused_actions,
 )
+from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.topics import unknown_topics
@@ -102,6 +105,10 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     times_as_text,
     spawned_topics,
     unreadable_cmake,
+    unreadable_manifest,
+    build_types,
+    missing_commands,
+    folders_as_files,
     joints_of_controllers,
     wheel_sizes_of_controllers,
     wrong_sides_of_controllers,

@@ -60,11 +60,15 @@ class CMakeCommand:
     @property
     def directories(self) -> tuple[CMakeWord, ...]:
         """The folders of install(DIRECTORY …), relative to the package."""
-        if (
-            self.name != "install"
-            or not self.words
-            or self.words[0].text != "DIRECTORY"
-        ):
+        return self._installed("DIRECTORY")
+
+    @property
+    def files(self) -> tuple[CMakeWord, ...]:
+        """The files of install(FILES …), relative to the package."""
+        return self._installed("FILES")
+
+    def _installed(self, kind: str) -> tuple[CMakeWord, ...]:
+        if self.name != "install" or not self.words or self.words[0].text != kind:
             return ()
         found: list[CMakeWord] = []
         for text, line in self.words[1:]:
@@ -111,6 +115,10 @@ class CMakeFile:
         """True when it makes a package of ROS 2, as far as it can be read."""
         makes = {"ament_package", "ament_auto_package"}
         return self.fault is None and not makes.isdisjoint(self.names)
+
+    def certain(self, name: str) -> bool:
+        """Tell whether a command is called outside if( … ), loops and functions."""
+        return any(c.name == name and c.certain for c in self.commands)
 
     @cached_property
     def project(self) -> CMakeWord | None:

@@ -1,0 +1,179 @@
+"""package.xml: what stops colcon from reading it, and the build type."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import Element, parse_xml
+
+_FILE = "package.xml"
+_NAME = re.compile(r"[a-zA-Z0-9][\w-]*", re.ASCII)
+_OPENED_TWICE = re.compile(r"<([\w.]+)([^<>]*)>([^<>]*)<\1>")
+_CLOSED_AS_OTHER = re.compile(r"<([\w.]+)([^<>]*)>([^<>]*)</([\w.]+)>")
+_NOT_CLOSED = re.compile(r"<([\w.]+)([^<>]*[^<>/]|)>([^<>]+)$")
+_WITHOUT_END = re.compile(r"</([\w.]+)\s*$")
+_SMALLEST = (
+    '<package format="3"><name>{}</name><version>0.0.0</version>'
+    '<description>A robot</description><maintainer email="me@example.org">me'
+    "</maintainer><license>MIT</license><buildtool_depend>ament_cmake"
+    "</buildtool_depend><export><build_type>ament_cmake</build_type></export></package>"
+)
+_LONGEST = 30_000
+_BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
+
+
+def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
+    """Report a package.xml that is empty, is no XML or names no package."""
+    text, shown = around.files.text(_FILE), around.files.shown(_FILE)
+    if text is None or len(text) > _LONGEST:
+        return
+    root = _root(text)
+    fault = _fault(text, around) if root is None else None
+    if fault is not None:
+        yield Problem.at(
+            Place(shown, fault.line),
+            "error",
+            "package-xml",
+            f"{fault.cause}: colcon does not find the package",
+            fault.hint,
+        )
+    elif root is not None and root.tag == "package":
+        yield from _misnamed(root, around)
+
+
+def named_as_its_folder(around: Surroundings) -> bool:
+    """True when package.xml says no name that colcon takes."""
+    root = _root(around.files.text(_FILE) or "")
+    name = root.find("name") if root is not None else None
+    return name is None or not _NAME.fullmatch(name.text.strip())
+
+
+def _root(text: str) -> Element | None:
+    try:
+        return parse_xml(text, _FILE)
+    except XmlFault:
+        return None
+
+
+def _fault(text: str, around: Surroundings) -> Fault | None:
+    name = _proposed(around, around.files.folder.name)
+    if not text.strip():
+        return Fault(
+            1,
+            "package.xml is empty",
+            f"write {_SMALLEST.format(name)}",
+        )
+    lines = text.splitlines()
+    if _root(f"{text}\n</package>") is not None:
+        last = max(n for n, line in enumerate(lines, 1) if line.strip())
+        return Fault(
+            last,
+            "this file is no XML: <package> is not closed",
+            "add </package> at the end of the file",
+        )
+    for n, line in enumerate(lines):
+        for better, cause, hint in _repairs(line):
+            if _root("\n".join([*lines[:n], better, *lines[n + 1 :]])) is not None:
+                return Fault(n + 1, f"this file is no XML: {cause}", hint)
+    try:
+        parse_xml(text, _FILE)
+    except XmlFault as fault:
+        return Fault(
+            fault.line,
+            f"this file is no XML ({fault.message})",
+            "correct this line or the one above it: each <tag> needs its </tag>",
+        )
+    return None
+
+
+def _repairs(line: str) -> Iterator[tuple[str, str, str]]:
+    """Give better lines for one, each with the cause and what to write."""
+    if match := _OPENED_TWICE.search(line):
+        tag = match[1]
+        better = f"<{tag}{match[2]}>{match[3]}</{tag}>"
+        yield (
+            line.replace(match[0], better),
+            f"<{tag}> is opened twice and not closed",
+            f"write {better}",
+        )
+    elif match := _CLOSED_AS_OTHER.search(line):
+        tag, other = match[1], match[4]
+        better = f"<{tag}{match[2]}>{match[3]}</{tag}>"
+        yield (
+            line.replace(match[0], better),
+            f"<{tag}> is closed by </{other}>",
+            f"write {better}",
+        )
+    elif match := _NOT_CLOSED.search(line):
+        better = f"{match[0].rstrip()}</{match[1]}>"
+        yield (
+            line.replace(match[0], better),
+            f"<{match[1]}> is not closed",
+            f"write {better}",
+        )
+    if match := _WITHOUT_END.search(line):
+        yield (
+            f"{line.rstrip()}>",
+            f"</{match[1]} has no >",
+            f"write </{match[1]}>",
+        )
+    if "&" in line:
+        yield line.replace("&", "&amp;"), "a bare & is not allowed", "write &amp;"
+
+
+def _misnamed(root: Element, around: Surroundings) -> Iterator[Problem]:
+    name = root.find("name")
+    said = name.text.strip() if name is not None else ""
+    if _NAME.fullmatch(said):
+        return
+    place = name.place if name is not None else root.place
+    what = f'"{said}" is not a name of a package' if said else "there is no <name>"
+    yield Problem.at(
+        Place(around.files.shown(_FILE), place.line, place.column),
+        "error",
+        "package-xml",
+        f"{what}, which has only letters, digits and _: colcon does not find the "
+        "package",
+        f"write <name>{_proposed(around, said)}</name>",
+    )
+
+
+def _proposed(around: Surroundings, said: str) -> str:
+    """The name in CMakeLists.txt, or a text as a name."""
+    project = around.cmake.project if around.cmake is not None else None
+    if project is not None and _NAME.fullmatch(project.text):
+        return project.text
+    return re.sub(r"\W+", "_", said.lower()).strip("_") or "my_robot"
+
+
+def build_types(around: Surroundings) -> Iterator[Problem]:
+    """Report a build type whose file is not there, where that of the other is."""
+    root = _root(around.files.text(_FILE) or "")
+    kinds = [e for e in root.iter() if e.tag == "build_type"] if root else []
+    if len(kinds) != 1 or kinds[0].get("condition") is not None:
+        return
+    said, place = kinds[0].text.strip(), kinds[0].place
+    has = {
+        kind: file
+        for kind, file in _BUILD_FILES.items()
+        if around.files.text(file) is not None
+    }
+    if said not in _BUILD_FILES or said in has or len(has) != 1:
+        return
+    ((better, file),) = has.items()
+    here = Place(around.files.shown(_FILE), place.line, place.column)
+    there = Place(around.files.shown(file), 1)
+    yield Problem.at(
+        here,
+        "error",
+        "package-build-type",
+        f"{said} builds with {_BUILD_FILES[said]}, which the package does not have; it "
+        f"has {file} ({where(there, here)}): colcon build stops",
+        f"write {better}",
+    )

@@ -1,0 +1,202 @@
+"""What stops colcon in package.xml and CMakeLists.txt is found, and mended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+MODEL = "urdf/cart.urdf.xacro"
+MANIFEST = "package.xml"
+CMAKE = "CMakeLists.txt"
+FIND = "find_package(ament_cmake REQUIRED)\n"
+
+Copied = Callable[[str], Path]
+LICENSE = "<license>BSD-3-Clause</license>"
+
+
+@pytest.mark.parametrize(
+    ("code", "file", "right", "wrong", "line", "cause", "hint", "better"),
+    [
+        (
+            "package-xml",
+            MANIFEST,
+            LICENSE,
+            "<license>BSD-3-Clause<license>",
+            7,
+            "<license> is opened twice",
+            f"write {LICENSE}",
+            LICENSE,
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            LICENSE,
+            "<license>BSD-3-Clause</licence>",
+            7,
+            "<license> is closed by </licence>",
+            f"write {LICENSE}",
+            LICENSE,
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            LICENSE,
+            "<license>BSD-3-Clause",
+            7,
+            "<license> is not closed",
+            f"write {LICENSE}",
+            LICENSE,
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            LICENSE,
+            "<license>BSD-3-Clause</license",
+            7,
+            "</license has no >",
+            "write </license>",
+            LICENSE,
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            "wheels for",
+            "wheels & more for",
+            5,
+            "a bare & is not allowed",
+            "write &amp;",
+            "wheels &amp; more for",
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            "</package>",
+            "",
+            11,
+            "<package> is not closed",
+            "add </package> at the end of the file",
+            "</package>",
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            "<name>cart_description</name>",
+            "<name>Cart Description</name>",
+            3,
+            '"Cart Description" is not a name of a package',
+            "write <name>cart_description</name>",
+            "<name>cart_description</name>",
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            "  <name>cart_description</name>\n",
+            "",
+            2,
+            "there is no <name>",
+            "write <name>cart_description</name>",
+            "  <name>cart_description</name>\n",
+        ),
+        (
+            "package-build-type",
+            MANIFEST,
+            "<build_type>ament_cmake",
+            "<build_type>ament_python",
+            10,
+            "it has CMakeLists.txt",
+            "write ament_cmake",
+            "<build_type>ament_cmake",
+        ),
+        (
+            "cmake-command-missing",
+            CMAKE,
+            "ament_package()",
+            "",
+            6,
+            "ament_package() is missing",
+            "add ament_package() at the end of the file",
+            "ament_package()",
+        ),
+        (
+            "cmake-command-missing",
+            CMAKE,
+            FIND,
+            "",
+            10,
+            "CMake does not know ament_package()",
+            "add find_package(ament_cmake REQUIRED) after project( … )",
+            FIND,
+        ),
+        (
+            "install-folder-as-file",
+            CMAKE,
+            "DIRECTORY",
+            "FILES",
+            7,
+            "is given the folders urdf, launch, rviz, config and world",
+            "write DIRECTORY for FILES",
+            "DIRECTORY",
+        ),
+    ],
+)
+def test_what_stops_colcon(
+    copied: Copied,
+    code: str,
+    file: str,
+    right: str,
+    wrong: str,
+    line: int,
+    cause: str,
+    hint: str,
+    better: str,
+) -> None:
+    package = copied("gz")
+    text = (package / file).read_text()
+    assert right in text
+    (package / file).write_text(text.replace(right, wrong, 1))
+
+    (problem,) = check(package / MODEL)
+
+    assert (problem.code, problem.severity) == (code, "error")
+    assert (problem.file, problem.line) == (str(package / file), line)
+    assert cause in problem.message
+    assert problem.hint == hint
+    (package / file).write_text(text.replace(right, better, 1))
+    assert check(package / MODEL) == []
+
+
+def test_an_empty_package_xml(copied: Copied) -> None:
+    package = copied("gz")
+    (package / MANIFEST).write_text("")
+    (problem,) = check(package / MODEL)
+    assert (problem.code, problem.line) == ("package-xml", 1)
+    (package / MANIFEST).write_text(problem.hint.removeprefix("write "))
+    assert check(package / MODEL) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "other"),
+    [
+        (CMAKE, FIND, "find_package(ament_cmake_auto REQUIRED)\n"),
+        (CMAKE, "ament_package()", "include(cmake/package.cmake)"),
+        (
+            CMAKE,
+            "DIRECTORY",
+            "FILES CMakeLists.txt DESTINATION share)\ninstall(DIRECTORY",
+        ),
+        (MANIFEST, "ament_cmake</build_type>", "cmake</build_type>"),
+        (MANIFEST, "<name>cart", "<!-- <name>Cart Robot</name> --><name>cart"),
+    ],
+)
+def test_what_colcon_reads_is_not_reported(
+    copied: Copied, file: str, right: str, other: str
+) -> None:
+    package = copied("gz")
+    text = (package / file).read_text()
+    assert right in text
+    (package / file).write_text(text.replace(right, other, 1))
+    assert check(package / MODEL) == []
