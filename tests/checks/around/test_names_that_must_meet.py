@@ -638,8 +638,14 @@ MISTAKES = [
         ),
         (MODEL, '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu_plugin">'),
         (LAUNCH, 'ExecuteProcess(cmd=["gz sim"]),'),
-        'write filename="gz-sim-imu-system"',
-        ((MODEL, "libgazebo_ros_imu_sensor.so", "gz-sim-imu-system"),),
+        'write filename="gz-sim-imu-system" name="gz::sim::systems::Imu"',
+        (
+            (
+                MODEL,
+                'filename="libgazebo_ros_imu_sensor.so" name="imu_plugin"',
+                'filename="gz-sim-imu-system" name="gz::sim::systems::Imu"',
+            ),
+        ),
         "classic",
     ),
     Mistake(

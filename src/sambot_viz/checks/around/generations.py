@@ -9,17 +9,15 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.files.gazebo import Generation, Plugin
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.systems import attributes
 from sambot_viz.errors import Place, Problem
 
 _NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
 _PLUGINS: dict[str, tuple[str, str]] = {
-    "diff": ("libgazebo_ros_diff_drive.so", "gz-sim-diff-drive-system"),
-    "joint": (
-        "libgazebo_ros_joint_state_publisher.so",
-        "gz-sim-joint-state-publisher-system",
-    ),
-    "imu": ("libgazebo_ros_imu_sensor.so", "gz-sim-imu-system"),
-    "sensor": ("libgazebo_ros_ray_sensor.so", "gz-sim-sensors-system"),
+    "diff": ("libgazebo_ros_diff_drive.so", "diff-drive"),
+    "joint": ("libgazebo_ros_joint_state_publisher.so", "joint-state-publisher"),
+    "imu": ("libgazebo_ros_imu_sensor.so", "imu"),
+    "sensor": ("libgazebo_ros_ray_sensor.so", "sensors"),
 }
 _ELEMENTS = {
     "wheel_diameter": ("wheel_radius", "half of it"),
@@ -58,10 +56,10 @@ def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
 
 def _replacement(plugin: Plugin, wanted: Generation) -> str:
     """Name the plugin that does the same in the other Gazebo."""
-    column = 1 if wanted == "gz" else 0
-    for mark, names in _PLUGINS.items():
+    for mark, (classic, system) in _PLUGINS.items():
         if mark in plugin.filename:
-            return f'write filename="{names[column]}", and the elements that it reads'
+            name = attributes(system) if wanted == "gz" else f'filename="{classic}"'
+            return f"write {name}, and the elements that it reads"
     return f"use the plugin of {_NAMES[wanted]}, or start the other one"
 
 

@@ -66,7 +66,18 @@ from sambot_viz.checks.around.launch_uses import (
 )
 from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
 from sambot_viz.checks.around.parameter_types import parameter_types
+from sambot_viz.checks.around.sensors import (
+    frames_of_sensors,
+    lidars_of_the_other,
+    sensor_values,
+    sensors_without_link,
+)
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.systems import (
+    both_generations,
+    malformed_numbers,
+    unknown_classes,
+)
 from sambot_viz.checks.around.topics import unknown_topics
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -84,6 +95,13 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     wheel_sizes,
     wrong_sides,
     misspelt_elements,
+    both_generations,
+    unknown_classes,
+    malformed_numbers,
+    sensors_without_link,
+    lidars_of_the_other,
+    sensor_values,
+    frames_of_sensors,
 )
 """The rules that need only the model."""
 

@@ -1,0 +1,165 @@
+"""Sensors that Gazebo leaves out, or that see something else than was meant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins, sensors
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.rule import number
+from sambot_viz.errors import Problem
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.xml.element import Element
+
+_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
+_OF_JOINTS = ("force_torque",)
+_ANGLES = ("min_angle", "max_angle", "horizontal_fov")
+_FULL_TURN = 2 * math.pi + 0.01
+_LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
+
+
+def sensors_without_link(robot: Robot) -> Iterator[Problem]:
+    """Report sensors of a URDF that belong to no link, or to a joint."""
+    if robot.language == "sdf":
+        return
+    for part in robot.gazebo:
+        name = part.get("reference")
+        joint = robot.joints.get(name or "")
+        for sensor in part.find_all("sensor"):
+            if name is None:
+                link = _frame_of(robot, sensor)
+                yield _without_link(part, sensor, link)
+            elif (
+                joint is not None
+                and name not in robot.links
+                and sensor.get("type") not in _OF_JOINTS
+            ):
+                place = part.place
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "gazebo-sensor",
+                    f"{name} is a joint ({where(joint.place, place)}), and a joint has "
+                    f"no sensor {_named(sensor)}: Gazebo leaves it out",
+                    f'write reference="{joint.child}", the link of that joint',
+                )
+
+
+def _without_link(part: Element, sensor: Element, link: str | None) -> Problem:
+    name = link or "LINK"
+    more = "" if link else ", with the name of the link that it is on"
+    return Problem.at(
+        part.place,
+        "warning",
+        "gazebo-sensor",
+        f"the sensor {_named(sensor)} ({where(sensor.place, part.place)}) belongs to "
+        "no link, because <gazebo> has no reference: Gazebo leaves it out",
+        f'write <gazebo reference="{name}">{more}',
+    )
+
+
+def _named(sensor: Element) -> str:
+    return sensor.get("name") or "without a name"
+
+
+def _frame_of(robot: Robot, sensor: Element) -> str | None:
+    """Return the link that a sensor names as its frame."""
+    named = facts(sensor, *_FRAMES)
+    return next((fact.value for fact in named if fact.value in robot.links), None)
+
+
+def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
+    """Report lidars of a type that only Gazebo Classic computes."""
+    made_for = {plugin.generation: plugin for plugin in plugins(robot.gazebo)}
+    if "gz" not in made_for or "classic" in made_for:
+        return
+    for _, sensor in sensors(robot.gazebo):
+        kind = sensor.get("type")
+        if kind in ("ray", "lidar"):
+            place = sensor.place
+            plugin = made_for["gz"]
+            yield Problem.at(
+                place,
+                "warning",
+                "gazebo-sensor",
+                f'a lidar of type "{kind}" is for Gazebo Classic: with '
+                f"{plugin.filename} ({where(plugin.element.place, place)}) the robot "
+                "is for Gazebo, whose lidars are computed by the graphics alone",
+                'write type="gpu_lidar"',
+            )
+
+
+def sensor_values(robot: Robot) -> Iterator[Problem]:
+    """Report angles of sensors in degrees, and limits that are exchanged."""
+    for _, sensor in sensors(robot.gazebo):
+        for element in sensor.iter():
+            for fact in facts(element, *_ANGLES):
+                if fact.number is not None and abs(fact.number) > _FULL_TURN:
+                    yield _in_degrees(sensor, fact, fact.number)
+            yield from _exchanged(sensor, element)
+
+
+def _in_degrees(sensor: Element, fact: Fact, degrees: float) -> Problem:
+    return Problem.at(
+        fact.place,
+        "warning",
+        "gazebo-sensor",
+        f"{fact.value} is more than a full turn for the sensor {_named(sensor)} "
+        f"({where(sensor.place, fact.place)}): it looks like degrees, but Gazebo "
+        "reads radians",
+        f"write {number(math.radians(degrees))}",
+    )
+
+
+def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
+    for tag, low, high in _LIMITS:
+        least, most = facts(element, low), facts(element, high)
+        if element.tag != tag or not least or not most:
+            continue
+        one, other = least[0].number, most[0].number
+        if one is not None and other is not None and one > other:
+            yield Problem.at(
+                least[0].place,
+                "warning",
+                "gazebo-sensor",
+                f"<{low}> of the sensor {_named(sensor)} is {number(one)} m, and "
+                f"<{high}> ({where(most[0].place, least[0].place)}) is less: nothing "
+                "is in its range",
+                f"exchange {number(one)} and {number(other)}",
+            )
+
+
+def frames_of_sensors(robot: Robot) -> Iterator[Problem]:
+    """Report a sensor whose frame is the link of another sensor."""
+    carriers = {link: sensor for link, sensor in sensors(robot.gazebo)}
+    parents = {joint.child: joint.parent for joint in robot.joints.values()}
+    for link, sensor in sensors(robot.gazebo):
+        for fact in facts(sensor, *_FRAMES)[:1]:
+            other = carriers.get(fact.value)
+            if other is None or fact.value == link or link not in robot.links:
+                continue
+            if _related(parents, link, fact.value):
+                continue
+            yield Problem.at(
+                fact.place,
+                "warning",
+                "gazebo-sensor",
+                f"the sensor {_named(sensor)} is on {link}, and its frame here is "
+                f"{fact.value}, which carries {_named(other)} "
+                f"({where(other.place, fact.place)}): what it sees is drawn in the "
+                "wrong place",
+                f"write {link}",
+            )
+
+
+def _related(parents: dict[str, str], one: str, other: str) -> bool:
+    """Tell whether one of two links hangs below the other one."""
+    return other in _above(parents, one) or one in _above(parents, other)
+
+
+def _above(parents: dict[str, str], link: str) -> Iterator[str]:
+    # A model that is checked has no cycles.
+    while link in parents:
+        link = parents[link]
+        yield link

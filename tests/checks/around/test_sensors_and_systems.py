@@ -1,0 +1,108 @@
+"""Sensors and plugins that Gazebo leaves out or reads otherwise than was meant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+Copied = Callable[[str], Path]
+
+DRIVE = 'filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive"'
+LIDAR = '<sensor name="lidar" type="gpu_lidar">'
+TURN = "<ray><scan><horizontal><max_angle>6.28</max_angle></horizontal></scan></ray>"
+SCAN = LIDAR + "<ray><range><min>0.12</min><max>3.5</max></range></ray>"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "hint"),
+    [
+        (
+            DRIVE,
+            'filename="libgazebo_ros_diff_drive.so" name="diff_drive"',
+            "such as gz-sim-joint-state-publisher-system (line ",
+            f"write {DRIVE}, and the elements that it reads",
+        ),
+        (
+            DRIVE,
+            'filename="gz-sim-diff-drive-system" name="diff_drive"',
+            "has no class diff_drive",
+            'write name="gz::sim::systems::DiffDrive"',
+        ),
+        (
+            DRIVE,
+            'filename="libignition-gazebo6-diff-drive-system.so" name="Drive"',
+            "has no class Drive",
+            'write name="ignition::gazebo::systems::DiffDrive"',
+        ),
+        (
+            "<wheel_separation>0.4<",
+            "<wheel_separation>0,4<",
+            "0,4 is no number",
+            "write 0.4",
+        ),
+        (
+            "<wheel_separation>0.4<",
+            "<wheel_separation>40 cm<",
+            "40 cm is no number",
+            "write a number alone",
+        ),
+        (
+            '<gazebo reference="lidar_link">',
+            "<gazebo>",
+            "the sensor lidar (line ",
+            'write <gazebo reference="lidar_link">',
+        ),
+        (
+            '<gazebo reference="imu_link">',
+            '<gazebo reference="imu_joint">',
+            "imu_joint is a joint (line ",
+            'write reference="imu_link", the link of that joint',
+        ),
+        (LIDAR, LIDAR.replace("gpu_", ""), "for Gazebo Classic", 'type="gpu_lidar"'),
+        (
+            LIDAR,
+            LIDAR + TURN.replace("6.28", "360"),
+            "360 is more than a full turn",
+            "write 6.2832",
+        ),
+        (
+            SCAN.replace("0.12", "a").replace("3.5", "0.12").replace("a<", "3.5<"),
+            "",
+            "<min> of the sensor lidar is 3.5 m",
+            "exchange 3.5 and 0.12",
+        ),
+        (
+            "<gz_frame_id>lidar_link<",
+            "<gz_frame_id>imu_link<",
+            "its frame here is imu_link, which carries imu (line ",
+            "write lidar_link",
+        ),
+    ],
+)
+def test_what_gazebo_leaves_out_or_misreads(
+    copied: Copied, right: str, wrong: str, said: str, hint: str
+) -> None:
+    model = copied("gz") / "urdf" / "cart.urdf.xacro"
+    text = model.read_text()
+    if not wrong:
+        right, wrong = LIDAR, right
+    assert right in text
+    model.write_text(text.replace(right, wrong))
+
+    (problem,) = (p for p in check(model) if p.severity != "info")
+
+    assert said in problem.message
+    assert hint in problem.hint
+    assert problem.line
+
+
+@pytest.mark.parametrize("text", [LIDAR + TURN, SCAN])
+def test_values_that_are_possible_are_not_reported(copied: Copied, text: str) -> None:
+    model = copied("gz") / "urdf" / "cart.urdf.xacro"
+    model.write_text(model.read_text().replace(LIDAR, text))
+
+    assert [p for p in check(model) if p.severity != "info"] == []
