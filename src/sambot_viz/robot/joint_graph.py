@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import difflib
+from collections.abc import Iterable, Mapping, Sequence
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint
@@ -53,6 +54,37 @@ def rings_of(links: Iterable[str], holder: Mapping[str, Joint]) -> list[list[Joi
             if len(ring) > 1:
                 rings.append([holder[name] for name in reversed(ring)])
     return rings
+
+
+def copied_joint(
+    holders: Mapping[str, Sequence[Joint]], alone: Sequence[str]
+) -> tuple[Joint, str] | None:
+    """Return a joint whose child was copied from another joint, and the child meant.
+
+    Args:
+        holders: link → the joints whose child it is.
+        alone: the links that no joint has as its child, without the root.
+
+    Returns:
+        None unless there is one link of each kind, and the name of one joint is more
+        like the one left alone.
+    """
+    twice = [joints for joints in holders.values() if len(joints) > 1]
+    if len(twice) != 1 or len(alone) != 1 or len(twice[0]) != 2:
+        return None
+    link = alone[0]
+    other, best = sorted(twice[0], key=lambda joint: _likeness(joint.name, link))
+    if _likeness(best.name, link) <= _likeness(other.name, link):
+        return None
+    joints = [joint for above in holders.values() for joint in above]
+    if best.parent in links_below(link, children_of(joints)):
+        return None
+    return best, link
+
+
+def _likeness(joint: str, link: str) -> float:
+    one, other = joint.replace("joint", ""), link.replace("link", "")
+    return difflib.SequenceMatcher(None, one, other).ratio()
 
 
 def report_depth(

@@ -214,6 +214,24 @@ SLIPS = [
         "write lidar_link",
         '<gazebo reference="lidar_link"',
     ),
+    Slip(
+        "urdf",
+        "link-two-parents",
+        '<child link="imu_link"/>',
+        '<child link="lidar_link" />',
+        '<child link="lidar_link" />',
+        'write <child link="imu_link"/> for imu_joint',
+        '<child link="imu_link"/>',
+    ),
+    Slip(
+        "sdf",
+        "link-two-parents",
+        "<child>lidar_link</child>",
+        "<child> imu_link</child>",
+        "<child> imu_link</child>",
+        "write <child>lidar_link</child> for lidar_joint",
+        "<child>lidar_link</child>",
+    ),
 ]
 
 
@@ -282,3 +300,51 @@ def test_a_macro_of_inertia_that_is_not_called_is_told_at_the_link_without_mass(
     assert '<link name="${prefix}_link">' in line
     assert problem.hint == 'add <xacro:wheel_inertia m="…"/>'
     assert "wheel_inertia (line 5) is never called" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("language", "code", "bare", "shape", "right", "wrong"),
+    [
+        (
+            "urdf",
+            "frame-two-parents",
+            '<link name="lidar_link"/>',
+            '<link name="lidar_link"><visual><geometry><sphere radius="0.02"/>'
+            "</geometry></visual></link>",
+            '<parent link="base_link"/>\n    <child link="lidar_link"/>',
+            '<parent link="lidar_link"/>\n    <child link="base_link"/>',
+        ),
+        (
+            "sdf",
+            "sdf-root-not-canonical",
+            '<link name="lidar_link">',
+            '<link name="lidar_link"><visual name="v"><geometry><sphere><radius>0.02'
+            "</radius></sphere></geometry></visual>",
+            "<parent>base_link</parent>\n      <child>lidar_link</child>",
+            "<parent>lidar_link</parent>\n      <child>base_link</child>",
+        ),
+    ],
+)
+def test_exchanged_ends_of_a_joint_are_told_at_the_joint(
+    language: str,
+    code: str,
+    bare: str,
+    shape: str,
+    right: str,
+    wrong: str,
+    copied: Copied,
+) -> None:
+    model = model_in(copied, language)
+    edit(model, bare, shape)
+    assert found(model) == []
+    edit(model, right, wrong)
+    (problem,) = found(model)
+
+    assert problem.code == code
+    line = model.read_text().splitlines()[(problem.line or 0) - 1]
+    assert '<joint name="lidar_joint"' in line
+    assert (
+        problem.hint == f"write {' and '.join(p.strip() for p in right.splitlines())}"
+    )
+    edit(model, wrong, right)
+    assert found(model) == []

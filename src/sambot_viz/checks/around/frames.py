@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.bridges import entries
+from sambot_viz.checks.around.exchanged_ends import exchanged_ends
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import (
@@ -95,9 +96,14 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
     parents = {joint.child: joint for joint in around.robot.joints.values()}
     if around.namespaced or around.robot.root in _NO_BASE:
         return
+    said: set[Problem] = set()
     for fact, user, odom in _moved_bases(around):
         joint = parents.get(bare_frame(fact.value))
-        if joint is not None:
+        exchanged = joint and exchanged_ends(around.robot, joint, fact, user)
+        if exchanged and not said:
+            said.add(exchanged)
+            yield exchanged
+        elif joint is not None and not exchanged:
             yield Problem.at(
                 fact.place,
                 "warning",

@@ -8,6 +8,7 @@ from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
     children_of,
+    copied_joint,
     links_below,
     report_depth,
     rings_of,
@@ -67,7 +68,13 @@ def check_tree(
     if root.name in holders:
         _report_root(scope, root, joints, elements, findings)
         return
+    names = [link.name for link in scope.of_kind("link")]
+    alone = [name for name in names if name not in holders and name != root.name]
+    copied = copied_joint(holders, alone)
     for link, above in holders.items():
+        if len(above) > 1 and copied is not None:
+            _report_copied(above, *copied, elements, findings)
+            return
         if len(above) > 1:
             _report_two_parents(link, above, elements, findings)
     # Links that a joint with a mistake leaves alone are no mistake of their own.
@@ -107,6 +114,16 @@ def _report_root(
         seen.add(top)
     model = scope.model
     named = model.get("canonical_link") is not None
+    if named and _is_exchanged(scope, joint, joints):
+        findings.reject(
+            "sdf-root-not-canonical",
+            f"joint {joint.name} has {joint.parent} as its parent and {joint.child}, "
+            f"the canonical_link (line {model.line_of('canonical_link')}), as its "
+            f"child: they are exchanged; {REFUSED}",
+            f"write <parent>{joint.child}</parent> and <child>{joint.parent}</child>",
+            elements[joint.name],
+        )
+        return
     why = (
         f'canonical_link="{root.name}" must name the root'
         if named
@@ -128,6 +145,36 @@ def _report_root(
         fix if named else f"{fix}, or move {top} to the top",
         model if named else root.element,
         "canonical_link" if named else None,
+    )
+
+
+def _is_exchanged(scope: Scope, joint: Joint, joints: Sequence[Joint]) -> bool:
+    """Tell whether a part is the parent of the link that all others hang from."""
+    part = scope.frames[joint.parent].element
+    if part.find("visual") is None and part.find("collision") is None:
+        # A link without a shape, such as base_footprint, may be the root.
+        return False
+    others = [other for other in joints if other is not joint]
+    ends = {end for other in others for end in (other.parent, other.child)}
+    return joint.parent not in ends and any(o.parent == joint.child for o in others)
+
+
+def _report_copied(
+    joints: Sequence[Joint],
+    copied: Joint,
+    meant: str,
+    elements: Mapping[str, Element],
+    findings: ModelFindings,
+) -> None:
+    """Report a joint that has the child of another one; its own is then alone."""
+    other = next(joint for joint in joints if joint is not copied)
+    element = elements[copied.name]
+    findings.reject(
+        "link-two-parents",
+        f"link {copied.child} is the child of {copied.name} and of {other.name} (line "
+        f"{elements[other.name].place.line}), and {meant} of no joint; {REFUSED}",
+        f"write <child>{meant}</child> for {copied.name}",
+        element.find("child") or element,
     )
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
     children_of,
+    copied_joint,
     links_below,
     report_depth,
     rings_of,
@@ -101,11 +102,39 @@ def _parent_joints(parts: RobotParts, findings: ModelFindings) -> dict[str, Join
         if joint.child in parts.links:
             holders.setdefault(joint.child, []).append(joint)
     chosen: dict[str, Joint] = {}
+    roots = [name for name in parts.links if name not in holders]
+    main = _largest(parts, roots) if roots else ""
+    copied = copied_joint(holders, [root for root in roots if root != main])
     for link, joints in holders.items():
         chosen[link] = max(joints, key=lambda joint: joint.name)
         if len(joints) > 1 and link not in parts.duplicates:
+            if copied is not None and not parts.duplicates:
+                _report_copied(parts, findings, joints, *copied)
+                continue
             _report_two_parents(parts, findings, link, joints, chosen[link].name)
     return chosen
+
+
+def _report_copied(
+    parts: RobotParts,
+    findings: ModelFindings,
+    joints: list[Joint],
+    copied: Joint,
+    meant: str,
+) -> None:
+    """Report a joint that has the child of another one; its own is then alone."""
+    other = next(joint for joint in joints if joint is not copied)
+    element = parts.joint_elements[copied.name]
+    findings.reject(
+        "link-two-parents",
+        f"link {copied.child} is the child of {copied.name} and of {other.name} (line "
+        f"{parts.joint_elements[other.name].place.line}), and {meant} of no joint; ROS "
+        "refuses the model",
+        f'write <child link="{meant}"/> for {copied.name}',
+        element.find("child") or element,
+        "link",
+    )
+    parts.excused.add(meant)
 
 
 def _report_two_parents(
