@@ -53,7 +53,8 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
             "add ament_package() at the end of the file",
         )
     if cmake.is_package and not finds:
-        end = next(c for c in cmake.commands if c.name.startswith("ament_"))
+        ends = ("ament_package", "ament_auto_package")
+        end = next(c for c in cmake.commands if c.name in ends)
         yield _missing_command(
             cmake.place(end.line),
             f"CMake does not know {end.name}() without find_package(ament_cmake "

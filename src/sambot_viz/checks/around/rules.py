@@ -65,6 +65,12 @@ from sambot_viz.checks.around.launch_uses import (
     unused_actions,
 )
 from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
+from sambot_viz.checks.around.nav2_sections import (
+    frames_with_slash,
+    odd_clocks,
+    unknown_sections,
+    unread_sections,
+)
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.sensors import (
     frames_of_sensors,
@@ -111,6 +117,10 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     misspelt_key,
     parameter_types,
     unreadable_footprints,
+    unread_sections,
+    unknown_sections,
+    frames_with_slash,
+    odd_clocks,
     unreadable_python,
     empty_launch_files,
     missing_entries,

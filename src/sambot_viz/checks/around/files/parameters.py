@@ -15,6 +15,9 @@ from sambot_viz.errors import Place
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MOST_NODES = 20_000
 _DEEPEST = 20
+_MOST_NAMES = 3
+"""Namespaces and the name of a node are so many keys at most."""
+
 _TRUE, _FALSE = frozenset({"true", "yes", "on"}), frozenset({"false", "no", "off"})
 
 
@@ -84,6 +87,20 @@ class YamlFile:
         for parameter in self.parameters:
             found.setdefault(parameter.node, parameter.place)
         return found
+
+    @cached_property
+    def keys(self) -> dict[str, Place]:
+        """The lines of the names of nodes, as `nodes` has them."""
+        found: dict[str, Place] = {}
+        waiting: list[tuple[tuple[str, ...], yaml.Node]] = [((), self.root)]
+        while waiting and len(found) < _MOST_NODES:
+            above, node = waiting.pop()
+            for key, value in pairs(node):
+                names = (*above, key.value)
+                if len(names) <= _MOST_NAMES and key.value != "ros__parameters":
+                    found["/".join(names)] = place_of(key, self.shown)
+                    waiting.append((names, value))
+        return {name: found[name] for name in self.nodes if name in found}
 
     def of(self, node: str) -> dict[str, Parameter]:
         """Return the parameters of a node, by their names."""

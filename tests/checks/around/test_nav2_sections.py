@@ -1,0 +1,150 @@
+"""Names within Nav2's parameters that do not meet are found, and mended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+MODEL = "urdf/cart.urdf.xacro"
+NAV2 = "config/nav2_params.yaml"
+SOURCES = "observation_sources: scan"
+LAYER = """\
+      plugins: ["voxel_layer"]
+      voxel_layer:
+        plugin: "nav2_costmap_2d::VoxelLayer"
+"""
+ONCE = """\
+global_costmap:
+  ros__parameters:
+    global_frame: map
+    robot_base_frame: base_link
+    use_sim_time: True
+    robot_radius: 0.3
+"""
+TWICE = """\
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      global_frame: map
+      robot_base_frame: base_link
+      use_sim_time: True
+      robot_radius: 0.3
+"""
+
+Copied = Callable[[str], Path]
+
+
+@pytest.mark.parametrize(
+    ("code", "right", "wrong", "line", "cause", "hint", "better"),
+    [
+        (
+            "nav2-section",
+            SOURCES,
+            "observation_sources: laser",
+            24,
+            "observation_sources names laser, but the section is called scan (line 26)",
+            "write scan",
+            SOURCES,
+        ),
+        (
+            "nav2-section",
+            "      voxel_layer:\n",
+            LAYER.replace('["voxel', '["obstacle'),
+            23,
+            "plugins names obstacle_layer, but the section is called voxel_layer",
+            "write voxel_layer",
+            LAYER,
+        ),
+        ("nav2-node-name", "amcl:", "Amcl:", 1, "no node Amcl", "write amcl:", "amcl:"),
+        (
+            "nav2-node-name",
+            "bt_navigator:",
+            "bt_navigater:",
+            9,
+            "Nav2 has no node bt_navigater",
+            "write bt_navigator:",
+            "bt_navigator:",
+        ),
+        (
+            "nav2-node-name",
+            TWICE,
+            ONCE,
+            29,
+            "here the name is only once",
+            "write a line global_costmap: below it, and two blanks more before each "
+            "line that follows",
+            TWICE,
+        ),
+        (
+            "frame-slash",
+            "robot_base_frame: base_link",
+            "robot_base_frame: /base_link",
+            13,
+            "bt_navigator asks for the frame /base_link",
+            "write base_link",
+            "robot_base_frame: base_link",
+        ),
+        (
+            "sim-time-off",
+            "use_sim_time: True",
+            "use_sim_time: False",
+            3,
+            "amcl uses the time of the computer, but bt_navigator (line 11)",
+            "write true",
+            "use_sim_time: true",
+        ),
+    ],
+)
+def test_a_name_that_nothing_has(
+    copied: Copied,
+    code: str,
+    right: str,
+    wrong: str,
+    line: int,
+    cause: str,
+    hint: str,
+    better: str,
+) -> None:
+    package = copied("gz")
+    nav2 = package / NAV2
+    text = nav2.read_text()
+    assert right in text
+    nav2.write_text(text.replace(right, wrong, 1))
+
+    (problem,) = check(package / MODEL)
+
+    assert (problem.code, problem.file) == (code, str(nav2))
+    assert cause in problem.message
+    assert problem.hint == hint
+    assert problem.line == line
+    nav2.write_text(text.replace(right, better, 1))
+    assert check(package / MODEL) == []
+
+
+@pytest.mark.parametrize(
+    ("right", "other"),
+    [
+        (SOURCES, 'observation_sources: ""'),
+        (SOURCES, f"{SOURCES} bumper\n        bumper:\n          data_type: LaserScan"),
+        (
+            "      voxel_layer:\n",
+            '      plugins: ["static_layer"]\n      voxel_layer:\n',
+        ),
+        ("amcl:", "my_localizer:"),
+        ("amcl:", "cart/amcl:"),
+        ("    use_sim_time: True\n", ""),
+    ],
+)
+def test_what_nav2_reads_is_not_reported(
+    copied: Copied, right: str, other: str
+) -> None:
+    package = copied("gz")
+    nav2 = package / NAV2
+    text = nav2.read_text()
+    assert right in text
+    nav2.write_text(text.replace(right, other, 1))
+    assert check(package / MODEL) == []
