@@ -261,7 +261,7 @@ def test_an_element_is_known_by_its_attributes() -> None:
         (
             '<link name="finger"/>',
             '<link name="finger"><origin xyz="1 1 1"/></link>',
-            "delete <origin>, or move it there",
+            'move <origin> into <joint name="knuckle"> (line 41)',
         ),
     ],
 )

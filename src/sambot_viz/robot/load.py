@@ -159,9 +159,12 @@ class _Loader:
         tree = self._tree(root, files, findings, expanded)
         if expanded is not None and findings.problems:
             from sambot_viz.robot.xacro.diagnose.given_values import name_given_values
+            from sambot_viz.robot.xacro.diagnose.macro_names import name_with_parameters
 
             names = (source.label, *map(str, expanded.files))
-            findings.problems[:] = name_given_values(findings.problems, names)
+            findings.problems[:] = name_with_parameters(
+                name_given_values(findings.problems, names), self.opened.document
+            )
         problems += findings.problems
         read = expanded.files if expanded is not None else ()
         if tree is None or findings.rejected:

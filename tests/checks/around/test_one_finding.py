@@ -232,6 +232,59 @@ SLIPS = [
         "write <child>lidar_link</child> for lidar_joint",
         "<child>lidar_link</child>",
     ),
+    Slip(
+        "urdf",
+        "joint-duplicate",
+        '<joint name="${prefix}_joint" type="continuous"',
+        '<joint name="drive_joint" type="continuous"',
+        '<joint name="drive_joint"',
+        'write name="${prefix}_joint"',
+        '<joint name="${prefix}_joint" type="continuous"',
+    ),
+    Slip(
+        "urdf",
+        "link-duplicate",
+        '<link name="${prefix}_link"',
+        '<link name="{prefix}_link"',
+        '<link name="{prefix}_link"',
+        'write name="${prefix}_link"',
+        '<link name="${prefix}_link"',
+    ),
+    Slip(
+        "sdf",
+        "sdf-name-taken",
+        '<link name="${prefix}_link"',
+        '<link name="drive_link"',
+        '<link name="drive_link"',
+        'write name="${prefix}_link"',
+        '<link name="${prefix}_link"',
+    ),
+    Slip(
+        "sdf",
+        "sdf-frame-unknown",
+        '<pose relative_to="${prefix}_joint"/>',
+        '<pose relative_to="wheel_joint"/>',
+        '<pose relative_to="wheel_joint"/>',
+        "write ${prefix}_joint",
+        '<pose relative_to="${prefix}_joint"/>',
+    ),
+    Slip(
+        "urdf",
+        "element-misplaced",
+        '<link name="lidar_link"/>\n  <joint name="lidar_joint" type="fixed">\n    '
+        '<parent link="base_link"/>\n    <child link="lidar_link"/>\n    '
+        '<origin xyz="0 0 0.12"/>',
+        '<link name="lidar_link"><origin xyz="0 0 0.12"/><visual><geometry><sphere '
+        'radius="0.02"/></geometry></visual></link>\n  <joint name="lidar_joint" '
+        'type="fixed">\n    <parent link="base_link"/>\n    '
+        '<child link="lidar_link"/>',
+        "<origin xyz",
+        'move <origin> into <joint name="lidar_joint">',
+        '<link name="lidar_link"><visual><geometry><sphere radius="0.02"/></geometry>'
+        '</visual></link>\n  <joint name="lidar_joint" type="fixed">\n    '
+        '<parent link="base_link"/>\n    <child link="lidar_link"/>\n    '
+        '<origin xyz="0 0 0.12"/>',
+    ),
 ]
 
 

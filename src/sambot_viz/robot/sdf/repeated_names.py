@@ -43,7 +43,11 @@ def report_repeated(
             element,
             "name",
         )
-    elif element.call is not None and element.call != first.call:
+    elif (
+        element.call is not None
+        and element.call != first.call
+        and not _is_fixed(element, first, written)
+    ):
         _report_call(what, element.call, first, written, findings)
     else:
         findings.reject(
@@ -54,6 +58,14 @@ def report_repeated(
             element,
             "name",
         )
+
+
+def _is_fixed(element: Element, first: Element, written: Element) -> bool:
+    """Tell whether the body of a macro has the name without a parameter."""
+    return element.place == first.place and any(
+        other.place == element.place and "${" not in (other.get("name") or "${")
+        for other in written.iter()
+    )
 
 
 def _use_of(name: str, link: Element) -> str:

@@ -163,12 +163,29 @@ def misplaced(
     parents = vocabulary.parents(child.tag)
     if not parents:
         return None
-    target = _target(number, parent, vocabulary)
+    target = _joint_of(child, parent) or _target(number, parent, vocabulary)
     around = vocabulary.around(tag, child.tag) if target is None else ()
     present = [other.tag for other in parent.children]
     if around and around[0] not in vocabulary.free(tag, present):
         around = ()
     return Slip(child, child.tag, None, tuple(parents), target, around)
+
+
+def _joint_of(child: Element, parent: Element) -> Element | None:
+    """Return the joint without <origin> that a link with one hangs from."""
+    if (child.tag, parent.tag) != ("origin", "link") or parent.parent is None:
+        return None
+    if not (child.get("xyz") or "").strip("0. "):
+        # A part that is only turned is most often a shape.
+        return None
+    joints = [
+        joint
+        for joint in parent.parent.find_all("joint")
+        for end in joint.find_all("child")
+        if end.get("link") == parent.get("name")
+    ]
+    alone = len(joints) == 1 and joints[0].find("origin") is None
+    return joints[0] if alone else None
 
 
 def _target(number: int, parent: Element, vocabulary: Vocabulary) -> Element | None:

@@ -30,7 +30,7 @@ def check_ends(parts: RobotParts, findings: ModelFindings) -> RobotParts:
         if link not in parts.links
     ]
     missing = {link for _, _, link in unknown}
-    if len(missing) <= max(parts.nameless, len(parts.duplicates)):
+    if len(missing) <= max(parts.nameless, len(parts.duplicates), parts.shared):
         # The link exists but lost its name, which has been reported.
         unknown = []
     _report_unknown(parts, findings, _without_blanks(parts, findings, unknown))

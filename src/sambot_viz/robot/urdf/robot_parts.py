@@ -27,6 +27,7 @@ class RobotParts:
         nameless: number of links without a name, which a joint may refer to.
         duplicates: link names that are used twice, so that a joint may mean either.
         repeated_calls: macro calls that made links of a name that was used.
+        shared: number of links to which one place in a macro gives the same name.
     """
 
     robot: Element
@@ -38,6 +39,7 @@ class RobotParts:
     nameless: int = 0
     duplicates: set[str] = field(default_factory=set[str])
     repeated_calls: set[Place] = field(default_factory=set[Place])
+    shared: int = 0
 
     @property
     def is_fragment(self) -> bool:
@@ -130,6 +132,9 @@ def _report_duplicate(
         hint,
         element,
     )
+    if element.place == parts.link_elements[name].place:
+        parts.shared += 1 if name in parts.duplicates else 2
+        parts.excused.add(name)
     parts.duplicates.add(name)
     if element.call is not None:
         parts.repeated_calls.add(element.call)

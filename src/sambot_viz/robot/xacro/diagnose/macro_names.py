@@ -1,0 +1,151 @@
+"""Names in a macro that lack its parameter, so that all its calls share them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xacro.diagnose.failed_expansion import parameters
+from sambot_viz.robot.xml.element import Element
+
+_REPEATED = ("link-duplicate", "joint-duplicate", "sdf-name-taken")
+_UNKNOWN = ("sdf-frame-unknown", "joint-child-unknown", "joint-parent-unknown")
+_NO_DOLLAR = re.compile(r"(?<!\$)\{\s*(\w+)\s*\}")
+_PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
+_MISSING = re.compile(r" link '([^']+)', which does not| frame called ([^ ;]+)")
+_OFFER = re.compile(r" \((?:did you mean|known:)[^)]*\)")
+
+
+def name_with_parameters(
+    problems: Sequence[Problem], document: Element
+) -> list[Problem]:
+    """Return the problems, with the names that macros should make of their parameters.
+
+    Args:
+        problems: those of a model that came out of xacro.
+        document: the root element before xacro.
+    """
+    if not any(problem.code in _REPEATED + _UNKNOWN for problem in problems):
+        return list(problems)
+    done: set[tuple[str, int | None]] = set()
+    found: list[Problem] = []
+    made: list[str] = []
+    for problem in problems:
+        key = (problem.code, problem.line)
+        if key in done:
+            continue
+        group = [p for p in problems if (p.code, p.line) == key]
+        if problem.code in _REPEATED:
+            better = _repeated(problem, document)
+        elif problem.code in _UNKNOWN:
+            better = _unknown(group, document)
+        else:
+            better = None
+        if better is not None:
+            done.add(key)
+        if better is not None and problem.code in _REPEATED:
+            made.append(_made_by(better.hint))
+        found.append(better or problem)
+    return [p for p in found if not any(_lacks(p, pattern) for pattern in made)]
+
+
+def _made_by(hint: str) -> str:
+    """Return the pattern of the names that a parameter in a name makes."""
+    name = re.fullmatch('write name="(.*)"', hint)
+    return _pattern(name[1]) if name else "$."
+
+
+def _pattern(template: str) -> str:
+    return re.escape(_PARAMETER.sub("\0", template)).replace("\0", r"[\w.-]+")
+
+
+def _lacks(problem: Problem, pattern: str) -> bool:
+    """Tell whether a problem is that a name does not exist which is to be made."""
+    if problem.code not in _UNKNOWN:
+        return False
+    name = _MISSING.search(problem.message)
+    return name is not None and re.fullmatch(pattern, name[1] or name[2]) is not None
+
+
+def _repeated(problem: Problem, document: Element) -> Problem | None:
+    for element in _at(problem, document):
+        name, macro = element.get("name"), _macro_around(element)
+        if not name or macro is None or "${" in name:
+            continue
+        better = _with_parameter(name, element, macro)
+        return replace(
+            problem,
+            message=f"the {element.tag} name {name} is the same in all calls of the "
+            f"macro {macro.get('name')}; names must be unique, and ROS refuses the "
+            "model",
+            hint=f'write name="{better}"'
+            if better
+            else "put a parameter of the macro into the name",
+        )
+    return None
+
+
+def _with_parameter(name: str, element: Element, macro: Element) -> str | None:
+    """Return a name as the other names in the macro are written."""
+    known = parameters(macro.get("params") or "")
+    bare = _NO_DOLLAR.search(name)
+    if bare is not None and bare[1] in known:
+        return _NO_DOLLAR.sub(r"${\1}", name)
+    templates = [t for t in _templates(macro) if _PARAMETER.match(t)]
+    heads = {match[1] for t in templates if (match := _PARAMETER.match(t))}
+    if len(heads) != 1 or not heads <= set(known):
+        return None
+    better = f"${{{heads.pop()}}}_{name.rpartition('_')[2]}"
+    same = (e.get("name") for e in macro.iter() if e.tag == element.tag)
+    return None if better in same else better
+
+
+def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
+    """Report once what each call says of its own name."""
+    first = group[0]
+    hints = {problem.hint for problem in group}
+    if len(hints) < 2 and not any(_NO_DOLLAR.search(p.message) for p in group):
+        return None
+    for element in _at(first, document):
+        macro = _macro_around(element)
+        if macro is None or any("${" in v for v in element.attributes.values()):
+            continue
+        for template in _templates(macro):
+            words = [_word(problem.hint, _pattern(template)) for problem in group]
+            if all(words):
+                return replace(
+                    first,
+                    message=_OFFER.sub("", first.message),
+                    hint=first.hint.replace(words[0] or "", template),
+                )
+    return None
+
+
+def _word(hint: str, pattern: str) -> str | None:
+    words = re.findall(r"[\w.-]+", hint)
+    return next((word for word in words if re.fullmatch(pattern, word)), None)
+
+
+def _templates(macro: Element) -> Iterator[str]:
+    """Yield the names in a macro that have a parameter."""
+    named = ("link", "joint", "frame")
+    names = (e.get("name") or "" for e in macro.iter() if e.tag in named)
+    return (name for name in dict.fromkeys(names) if _PARAMETER.search(name))
+
+
+def _macro_around(element: Element) -> Element | None:
+    around = element.parent
+    while around is not None and around.tag != "xacro:macro":
+        around = around.parent
+    return around
+
+
+def _at(problem: Problem, document: Element) -> Iterable[Element]:
+    return [
+        element
+        for element in document.iter()
+        if (element.place.file, element.place.line) == (problem.file, problem.line)
+        and problem.column in (None, element.place.column)
+    ]
