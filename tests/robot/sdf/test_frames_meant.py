@@ -132,3 +132,31 @@ def test_with_a_joint_to_the_world_goes_what_counts_from_it() -> None:
         "(line 3), or"
     )
     assert found(wrong.replace(joint, "").replace(' relative_to="fix"', "")) == ()
+
+
+ARM = GOOD.replace(
+    "</model>",
+    """<joint name="tip_joint" type="fixed">
+<parent>base_link</parent><child>tip</child>
+<pose relative_to="base_link">1 0 0 0 0 0</pose>
+</joint>
+<link name="tip"><pose relative_to="tip_joint"/></link>
+</model>""",
+)
+
+
+@pytest.mark.parametrize("wrong", ["", '<pose relative_to="lidar_joint"/>'])
+def test_a_link_that_is_not_at_its_joint_is_told_where_the_others_are(
+    wrong: str,
+) -> None:
+    right = '<pose relative_to="tip_joint"/>'
+
+    (problem,) = found(ARM.replace(right, wrong))
+
+    assert problem.code == "sdf-link-away-from-joint"
+    assert problem.hint == f"write {right} into it"
+    assert found(ARM) == ()
+
+
+def test_links_that_count_from_the_robot_are_right_where_most_do() -> None:
+    assert found(re.sub(r'<pose relative_to="\w+_joint"/>', "", ARM)) == ()

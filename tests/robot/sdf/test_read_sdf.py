@@ -196,6 +196,21 @@ def test_a_pose_in_round_large_angles_is_meant_as_degrees() -> None:
     assert 'degrees="true"' in warning.hint
 
 
+@pytest.mark.parametrize(("angle", "hint"), [("3.1416", "180"), ("-1.5708", "-90")])
+def test_a_part_of_pi_is_no_angle_in_degrees(angle: str, hint: str) -> None:
+    visual = '<visual name="v"><pose degrees="true">0 0 0 {} 0 0</pose>{}</visual>'
+    box = "<geometry><box><size>1 1 1</size></box></geometry>"
+
+    wrong, right = (
+        load_robot(sdf(f'<link name="a">{visual.format(value, box)}</link>'))
+        for value in (angle, hint)
+    )
+
+    (warning,) = with_code(wrong, "rpy-in-degrees")
+    assert warning.hint == f"write {hint} for it, or delete degrees"
+    assert with_code(right, "rpy-in-degrees") == []
+
+
 def test_all_errors_of_a_file_are_told_together() -> None:
     text = sdf(
         '<pose>1 0 0 0 0 0</pose><link name="a"><pose relative_to="x"/></link>'

@@ -90,8 +90,9 @@ def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
         return np.eye(4)
     _check_length(pose, element, findings)
     # Where a unit is ignored, that is the finding.
-    if not degrees and not pose.ignored:
-        _check_degrees(pose, element, findings)
+    if not pose.ignored:
+        check = _check_radians if degrees else _check_degrees
+        check(pose, element, findings)
     T = pose.matrix
     T[:3, 3] = [_bounded(value) for value in T[:3, 3].tolist()]
     return T
@@ -110,6 +111,26 @@ def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) ->
             f"write {_with_degrees(element)}, or the angles in radians",
             element,
         )
+
+
+def _check_radians(pose: PoseText, element: Element, findings: ModelFindings) -> None:
+    """Warn of parts of pi that are said to be degrees."""
+    angles = pose.numbers[3:6] if len(pose.numbers) == 6 else ()
+    for angle in map(math.degrees, angles):
+        parts = angle / (math.pi / 4)
+        if round(parts) and abs(parts - round(parts)) < 1e-3 and abs(parts) <= _PARTS:
+            findings.warn(
+                "rpy-in-degrees",
+                f"{angle:.5g} of <pose> in {described(element)} is a part of pi, but "
+                'degrees="true" makes it an angle in degrees',
+                f"write {45 * round(parts)} for it, or delete degrees",
+                element,
+            )
+            return
+
+
+_PARTS = 8
+"""So many eighths of a turn are looked for."""
 
 
 def _with_degrees(pose: Element) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, RobotTree
+from sambot_viz.robot.sdf.away_from_joint import warn_of_links_away_from_joints
 from sambot_viz.robot.sdf.check_elements import check_elements
 from sambot_viz.robot.sdf.frames import FramePoses
 from sambot_viz.robot.sdf.gazebo_only import note_gazebo_only
@@ -51,6 +52,7 @@ def read_sdf(
     root = root_link(scope, findings)
     if root is not None:
         check_tree(scope, root, ends, findings)
+    warn_of_links_away_from_joints(scope, ends, findings)
     note_gazebo_only(model, findings)
     holders = {e.child: e.joint for e in reversed(ends)}
     reader = SdfLinkReader(frames, findings, find_mesh)
