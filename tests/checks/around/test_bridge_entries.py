@@ -1,4 +1,4 @@
-"""An entry of a bridge without its "- " is named at its line."""
+"""An entry of a bridge without its "- ", and one for what nobody sends."""
 
 from __future__ import annotations
 
@@ -37,3 +37,38 @@ def test_an_entry_without_its_dash_is_named(
     assert problems[0].hint == hint.format(topic)
     bridge.write_text(right)
     assert check(folder / MODEL) == []
+
+
+SENDER = """    <plugin filename="gz-sim-joint-state-publisher-system"
+            name="gz::sim::systems::JointStatePublisher">
+      <topic>joint_states</topic>
+    </plugin>
+"""
+
+
+def test_joint_states_that_no_plugin_sends(copied: Copied) -> None:
+    folder = copied("gz")
+    model = folder / MODEL
+    right = model.read_text()
+    assert SENDER in right
+    model.write_text(right.replace(SENDER, ""))
+
+    (problem,) = check(model)
+
+    assert problem.file == str(folder / BRIDGE)
+    assert "the bridge carries /joint_states, but no plugin" in problem.message
+    plugin = problem.hint.removeprefix("add ").removesuffix(" beside that of the drive")
+    model.write_text(right.replace(SENDER, plugin))
+    assert check(model) == []
+
+
+def test_joint_states_that_are_sent_to_a_topic_of_gazebo(copied: Copied) -> None:
+    model = copied("gz") / MODEL
+    right, topic = model.read_text(), "<topic>joint_states</topic>"
+    model.write_text(right.replace(topic, ""))
+
+    (problem,) = check(model)
+
+    assert problem.file == str(model)
+    assert "has no <topic>" in problem.message
+    assert problem.hint == f"add {topic} to the plugin"

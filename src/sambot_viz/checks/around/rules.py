@@ -40,6 +40,7 @@ from sambot_viz.checks.around.generations import (
     xacro_py,
 )
 from sambot_viz.checks.around.installed import not_installed
+from sambot_viz.checks.around.joint_states import unsent_joint_states
 from sambot_viz.checks.around.joints import (
     joints_of_controllers,
     unknown_joints,
@@ -151,6 +152,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     bridge_types,
     bridge_directions,
     bridge_topics,
+    unsent_joint_states,
     scoped_frames,
     clock_not_bridged,
     different_clocks,
