@@ -234,6 +234,7 @@ def test_a_yaml_file_that_is_none_does_no_harm(
     assert set(codes(package)) <= {
         "clock-not-bridged",
         "launch-parameters-unread",
+        "parameters-empty",
         "parameters-yaml",
     }
     assert time.process_time() - begin < 3

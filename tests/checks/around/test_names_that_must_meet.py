@@ -570,31 +570,6 @@ MISTAKES = [
         "write direction: ROS_TO_GZ",
         ((BRIDGE, "direction:  GZ_TO_ROS", "direction: ROS_TO_GZ"),),
     ),
-    Mistake(
-        "clock-not-bridged",
-        (
-            (
-                BRIDGE,
-                '- ros_topic_name: "/clock"\n  gz_topic_name: "/clock"\n'
-                '  ros_type_name: "rosgraph_msgs/msg/Clock"\n'
-                '  gz_type_name: "gz.msgs.Clock"\n  direction: GZ_TO_ROS\n',
-                "",
-            ),
-        ),
-        (BRIDGE, "---"),
-        (LAUNCH, '{"use_sim_time": use_sim_time},'),
-        "add - {ros_topic_name: /clock, gz_topic_name: /clock, ros_type_name: "
-        "rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock, direction: GZ_TO_ROS}",
-        (
-            (
-                BRIDGE,
-                "",
-                "- {ros_topic_name: /clock, gz_topic_name: /clock, ros_type_name: "
-                "rosgraph_msgs/msg/Clock, gz_type_name: gz.msgs.Clock, direction: "
-                "GZ_TO_ROS}\n",
-            ),
-        ),
-    ),
     one(
         "sim-time-off",
         LAUNCH,

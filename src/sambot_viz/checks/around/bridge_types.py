@@ -63,6 +63,14 @@ _GZ_PACKAGES = ("gz.msgs", "ignition.msgs")
 _LIKE_TYPE = 0.87
 
 
+def counterpart(written: str) -> str | None:
+    """Return the other type of a topic for one of the two; None for an unknown one."""
+    if written in _PAIRS:
+        return f"gz.msgs.{_PAIRS[written][0]}"
+    kind = written.rpartition(".")[2]
+    return next((name for name, kinds in _PAIRS.items() if kind in kinds), None)
+
+
 def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
     """Report types that are almost one that a bridge knows."""
     for entry in entries(around):

@@ -92,7 +92,8 @@ def bridge_directions(around: Surroundings) -> Iterator[Problem]:
         for entry in every:
             said = entry.direction
             same = bare(entry.gz.value) == bare(topic.name.value)
-            if same and entry.kind == topic.kind and said.value not in (right, _BOTH):
+            wrong = said.value in (_TO_ROS, _TO_GZ) and said.value != right
+            if same and entry.kind == topic.kind and wrong:
                 yield Problem.at(
                     said.place,
                     "warning",

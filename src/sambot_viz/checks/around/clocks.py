@@ -62,7 +62,9 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
         return
     place: Place | None = None
     if bridges:
-        place, hint = Place(bridges[0].shown, 1), f"add - {_ENTRY}"
+        lines = (around.files.text(bridges[0].path) or "").splitlines()
+        place = Place(bridges[0].shown, len(lines))
+        hint = f"add - {_ENTRY} at the end of the file"
     else:
         hint = f"add '{_ARGUMENT}' to the arguments of parameter_bridge"
         place = next((p for la in around.launches for p in _bridging(la)), None)

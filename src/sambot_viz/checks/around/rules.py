@@ -4,6 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.bridge_files import (
+    empty_parameters,
+    entries_outside_lists,
+    entries_without_type,
+    misspelt_entries,
+    second_documents,
+)
 from sambot_viz.checks.around.bridge_types import bridge_types, unknown_bridge_types
 from sambot_viz.checks.around.bridges import (
     bridge_directions,
@@ -115,6 +122,11 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
 IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unreadable_yaml,
     joined_entries,
+    second_documents,
+    entries_outside_lists,
+    entries_without_type,
+    misspelt_entries,
+    empty_parameters,
     misspelt_key,
     parameter_types,
     unreadable_footprints,

@@ -25,7 +25,7 @@ _KEY, _LIKENESS = "ros__parameters", 0.84
 def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
     """Report parameter files that are no YAML."""
     read = {file.path for file in around.yaml_files}
-    for path, user in _parameter_files(around):
+    for path, user in parameter_files(around):
         text = around.files.text(path) if path not in read else None
         if text is None or _TEMPLATE.search(text):
             continue
@@ -66,7 +66,7 @@ def joined_entries(around: Surroundings) -> Iterator[Problem]:
 
 def misspelt_key(around: Surroundings) -> Iterator[Problem]:
     """Report ros__parameters with a wrong letter."""
-    users = dict(_parameter_files(around))
+    users = dict(parameter_files(around))
     for file in around.yaml_files:
         for key, place in _above_parameters(file) if file.path in users else ():
             user = users[file.path]
@@ -92,8 +92,8 @@ def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
         level = [value for key, value in below if key.value != _KEY]
 
 
-def _parameter_files(around: Surroundings) -> Iterator[tuple[str, Place | None]]:
-    """The files that a launch file names, and those with usual names."""
+def parameter_files(around: Surroundings) -> Iterator[tuple[str, Place | None]]:
+    """Give the parameter files: those that launch files name, and usual names."""
     named = {
         around.own(fact.value): fact.place
         for launch in reversed(around.launches)
