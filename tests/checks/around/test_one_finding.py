@@ -285,6 +285,28 @@ SLIPS = [
         '<parent link="base_link"/>\n    <child link="lidar_link"/>\n    '
         '<origin xyz="0 0 0.12"/>',
     ),
+    Slip(
+        "urdf",
+        "xacro-expression-value",
+        '<xacro:wheel prefix="left_wheel" side="1"/>',
+        '<xacro:property name="on_left" value="1m"/>\n  '
+        '<xacro:wheel prefix="left_wheel" side="${on_left}"/>',
+        "<xacro:property",
+        'write value="1"',
+        '<xacro:property name="on_left" value="1"/>\n  '
+        '<xacro:wheel prefix="left_wheel" side="${on_left}"/>',
+    ),
+    Slip(
+        "sdf",
+        "xacro-expression-value",
+        '<xacro:wheel prefix="left_wheel" side="1"/>',
+        '<xacro:property name="on_left" value="1"/>\n    '
+        '<xacro:wheel prefix="left_wheel" side="on_left"/>',
+        "<xacro:wheel",
+        'write side="${on_left}"',
+        '<xacro:property name="on_left" value="1"/>\n    '
+        '<xacro:wheel prefix="left_wheel" side="${on_left}"/>',
+    ),
 ]
 
 

@@ -15,6 +15,7 @@ from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
 from sambot_viz.robot.xacro.diagnose.macro_parameters import unknown_parameter
 from sambot_viz.robot.xacro.diagnose.reports import CALL, ELEMENT, EXPRESSION, ROWS
 from sambot_viz.robot.xacro.diagnose.source_slips import source_slip
+from sambot_viz.robot.xacro.diagnose.text_for_number import wrong_value
 from sambot_viz.robot.xacro.diagnose.unknown_names import (
     undefined_argument,
     undefined_name,
@@ -23,7 +24,6 @@ from sambot_viz.robot.xacro.diagnose.unknown_names import (
 from sambot_viz.robot.xacro.diagnose.values import (
     broken_yaml,
     placeholder,
-    wrong_value,
 )
 
 _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (

@@ -1,4 +1,4 @@
-"""Values that make an expansion fail: text for a number, a placeholder, broken yaml."""
+"""Values that make an expansion fail: a placeholder in a path, broken yaml."""
 
 from __future__ import annotations
 
@@ -7,44 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem, nearest
-from sambot_viz.robot.slips.units import without_units
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, line_in
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")
-_WITH_UNIT = re.compile(r"\s*([+-]?\d*[.,]?\d+)\s*[^\d\s.,+*/()-]*\s*")
 _NO_FILE = re.compile(r"No such file or directory: '?([^'\[\n]+)")
 _YAML_PLACE = re.compile(r'in "([^"\n]+)", line (\d+), column (\d+)')
 _ARGUMENT = re.compile(r"\$\(\s*arg\s+([\w.-]+)\s*\)")
 _PROPERTY = re.compile(r"\$\{\s*(\w+)\s*\}")
 _DEEPEST = 4
-
-
-def wrong_value(failed: FailedExpansion) -> Problem | None:
-    """Name the property or argument that is text where a number is needed."""
-    if failed.failure.kind not in ("TypeError", "ValueError"):
-        return None
-    if not re.search(r"\bstr\b|sequence|string", failed.failure.text):
-        return None
-    for name in dict.fromkeys(re.findall(r"[A-Za-z_]\w*", failed.expression)):
-        for kind, attribute in (("property", "value"), ("arg", "default")):
-            for place, value in _given(failed, kind, attribute, name):
-                if "$" not in value and not _NUMBER.fullmatch(value):
-                    return _not_a_number(failed, name, place, attribute, value)
-    return None
-
-
-def _not_a_number(
-    failed: FailedExpansion, name: str, place: Place, attribute: str, value: str
-) -> Problem:
-    number = _WITH_UNIT.fullmatch(without_units(value.replace(",", ".")))
-    better = number[1] if number else None
-    used = line_in(failed.expression_place(), place)
-    return failed.pointing_at(place).error(
-        "xacro-expression-value",
-        f'{name} is "{value}", which is not a number, but ${{{failed.expression}}} on '
-        f"{used} calculates with it",
-        f'write {attribute}="{better}"' if better else "write a number",
-    )
 
 
 def broken_yaml(failed: FailedExpansion) -> Problem | None:
@@ -143,9 +112,10 @@ def _arguments(failed: FailedExpansion) -> Iterator[tuple[str, Place, str]]:
             yield name, place, default
 
 
-def _given(
+def given_in(
     failed: FailedExpansion, kind: str, attribute: str, name: str
 ) -> Iterator[tuple[Place, str]]:
+    """Yield the places that define a name, and the values that they give it."""
     for place, token in failed.sources.calls(f"xacro:{kind}"):
         value = token.get(attribute)
         if token.get("name") == name and value is not None:
@@ -169,6 +139,6 @@ def _named_at(failed: FailedExpansion) -> set[str]:
         texts = [
             value
             for name in names
-            for _, value in _given(failed, "property", "value", name)
+            for _, value in given_in(failed, "property", "value", name)
         ]
     return found
