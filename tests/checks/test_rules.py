@@ -347,6 +347,34 @@ def test_the_inertia_of_a_real_body_is_accepted(checked: Checked) -> None:
 
 
 @pytest.mark.parametrize(
+    ("masses", "wrong"),
+    [
+        ((15, 0.125), []),
+        ((15, 125), ["lidar"]),
+        ((15_000, 125), ["base", "lidar"]),
+        # A small shape may stand for a large part.
+        ((150, 20), []),
+    ],
+)
+def test_a_mass_in_grams_is_more_than_metal_and_than_all_others(
+    checked: Checked, masses: tuple[float, float], wrong: list[str]
+) -> None:
+    links = "".join(
+        f'<link name="{name}"><visual><geometry><box size="{size}"/></geometry>'
+        f'</visual><inertial><mass value="{mass}"/><inertia ixx="9" iyy="9" izz="9" ixy="0" '
+        'ixz="0" iyz="0"/></inertial></link>'
+        for name, size, mass in zip(
+            ("base", "lidar"), ("0.4 0.3 0.2", "0.05 0.05 0.05"), masses, strict=True
+        )
+    )
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="lidar"/>'
+
+    found = checked(f"{links}{joint}</joint>", "mass-in-grams")
+
+    assert [p.message.split()[1] for p in found] == wrong
+
+
+@pytest.mark.parametrize(
     ("mass", "inertia", "said"),
     [
         ("-1", (1, 0, 0, 1, 0, 1), "mass -1 is negative"),

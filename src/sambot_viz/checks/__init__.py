@@ -13,6 +13,7 @@ from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_pla
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.lengths import lengths_in_another_unit, robot_in_metres
+from sambot_viz.checks.masses import masses_in_grams
 from sambot_viz.checks.mesh_files import (
     MeshFiles,
     meshes_of_wrong_size,
@@ -63,6 +64,7 @@ RULES: tuple[Rule, ...] = (
     missing_inertia,
     impossible_inertia,
     zero_mass,
+    masses_in_grams,
     invisible_materials,
 )
 """All rules, in the order in which they run."""
