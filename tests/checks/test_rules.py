@@ -361,8 +361,8 @@ def test_a_mass_in_grams_is_more_than_metal_and_than_all_others(
 ) -> None:
     links = "".join(
         f'<link name="{name}"><visual><geometry><box size="{size}"/></geometry>'
-        f'</visual><inertial><mass value="{mass}"/><inertia ixx="9" iyy="9" izz="9" ixy="0" '
-        'ixz="0" iyz="0"/></inertial></link>'
+        f'</visual><inertial><mass value="{mass}"/><inertia ixx="9" iyy="9" izz="9" '
+        'ixy="0" ixz="0" iyz="0"/></inertial></link>'
         for name, size, mass in zip(
             ("base", "lidar"), ("0.4 0.3 0.2", "0.05 0.05 0.05"), masses, strict=True
         )
