@@ -28,8 +28,10 @@ from sambot_viz.robot.slips.needs_xacro import (
     left_over,
     missing_prefixes,
     only_names_files,
+    refused_without_prefix,
     undeclared_prefix,
 )
+from sambot_viz.robot.urdf.attributes import NOT_REPLACED
 from sambot_viz.robot.urdf.read_urdf import read_urdf
 from sambot_viz.robot.urdf.urdf_words import URDF
 from sambot_viz.robot.xacro.child_result import (
@@ -106,7 +108,7 @@ class _Loader:
         undeclared = undeclared_prefix(document, own, path)
         if undeclared is not None:
             # urdfdom does not look at prefixes: for ROS this is plain URDF.
-            return self._robot(document, None, [*problems, undeclared])
+            return self._without_xacro(document, problems, undeclared)
         xacro = own or first_substitution(document)
         if xacro is None:
             problems += missing_prefixes(document)
@@ -124,6 +126,20 @@ class _Loader:
         problems += _note_ending(self.opened.source, xacro)
         problems += expanded.problems
         return self._robot(expanded.root, expanded, problems)
+
+    def _without_xacro(
+        self, document: Element, problems: list[Problem], undeclared: Problem
+    ) -> LoadedModel:
+        """Read a file that needs xacro as ROS does; what is left of xacro follows."""
+        if first_substitution(document) is None:
+            return self._robot(document, None, [*problems, undeclared])
+        try:
+            model = self._robot(document, None, [*problems, undeclared])
+        except RobotError as error:
+            cause = refused_without_prefix(document, undeclared)
+            raise RobotError([*problems, cause], error.files) from None
+        kept = [p for p in model.problems if NOT_REPLACED not in p.message]
+        return model._replace(problems=tuple(kept))
 
     def expanded(self) -> ExpandedModel:
         source = self.opened.source

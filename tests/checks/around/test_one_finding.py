@@ -14,6 +14,7 @@ import pytest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
+from sambot_viz.robot.packages.package_model import models_in
 
 SDF = Path(__file__).parents[2] / "data" / "around" / "cart.sdf"
 MODELS = {"urdf": "urdf/cart.urdf.xacro", "sdf": "src/description/cart.sdf"}
@@ -422,4 +423,72 @@ def test_exchanged_ends_of_a_joint_are_told_at_the_joint(
         problem.hint == f"write {' and '.join(p.strip() for p in right.splitlines())}"
     )
     edit(model, wrong, right)
+    assert found(model) == []
+
+
+@pytest.mark.parametrize(
+    ("height", "code", "line"),
+    [
+        ("-0.15", "xacro-prefix-undeclared", 3),
+        ("${-0.15}", "xml-prefix-undeclared", 2),
+    ],
+)
+def test_a_urdf_without_the_declaration_of_xacro_is_one_finding(
+    height: str, code: str, line: int, copied: Copied
+) -> None:
+    source = model_in(copied, "urdf")
+    model = source.with_name("cart.urdf")
+    source.rename(model)
+    launch = source.parents[1] / "launch/display.launch.py"
+    edit(launch, "cart.urdf.xacro", "cart.urdf")
+    edit(model, ' xmlns:xacro="http://ros.org/wiki/xacro"', "")
+    edit(model, "0 0 -0.15", f"0 0 {height}")
+    (problem,) = found(model)
+
+    assert (problem.code, problem.line) == (code, line)
+    declared = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    assert problem.hint == f"add {declared} to <robot> on line 2"
+    edit(model, "<robot ", f"<robot {declared} ")
+    assert found(model) == []
+
+
+def test_a_mesh_of_the_package_with_half_its_name_is_told_the_whole(
+    copied: Copied,
+) -> None:
+    model = model_in(copied, "urdf")
+    mesh = model.parents[1] / "meshes/lidar.stl"
+    mesh.parent.mkdir()
+    mesh.write_text(
+        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0.1 0 0\n"
+        "vertex 0 0.1 0\nendloop\nendfacet\nendsolid s\n"
+    )
+    edit(model.parents[1] / "CMakeLists.txt", "urdf", "urdf meshes")
+    edit(
+        model,
+        '<link name="lidar_link"/>',
+        '<link name="lidar_link"><visual><geometry>'
+        '<mesh filename="package://cart/meshes/lidar.stl"/></geometry></visual></link>',
+    )
+    (problem,) = found(model)
+
+    assert problem.code == "file-by-path-only"
+    assert problem.hint == "write package://cart_description/meshes/lidar.stl"
+    edit(model, "package://cart/", "package://cart_description/")
+    assert found(model) == []
+
+
+def test_the_folder_of_a_robot_inside_a_world_is_answered_with_what_to_delete(
+    copied: Copied,
+) -> None:
+    model = model_in(copied, "sdf")
+    edit(model, '<model name="cart"', '<world name="w"><model name="cart"')
+    edit(model, "</model>", "</model></world>")
+    folder = model.parents[2]
+    (only,) = models_in(folder)
+
+    assert only == model
+    (problem,) = found(only)
+    assert problem.code == "sdf-world"
+    edit(model, '<world name="w">', "")
+    edit(model, "</world>", "")
     assert found(model) == []

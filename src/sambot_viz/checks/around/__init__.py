@@ -17,6 +17,9 @@ from sambot_viz.errors import Problem
 __all__ = ["names_that_must_meet"]
 
 
+_INCOMPLETE = ("xacro-prefix-missing", "xacro-prefix-undeclared")
+
+
 def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     """Report names and sizes that are written twice and differ."""
     files = package_of(subject)
@@ -26,7 +29,7 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE
     from sambot_viz.checks.around.surroundings import Surroundings
 
-    if any(p.code == "xacro-prefix-missing" for p in subject.robot.problems):
+    if any(p.code in _INCOMPLETE for p in subject.robot.problems):
         # A part of the robot is missing, and with it what others name.
         return
     for rule in IN_MODEL:

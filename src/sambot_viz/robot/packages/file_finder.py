@@ -130,7 +130,11 @@ class FileFinder:
         code, message, hint = _DOUBTS[found.doubt or "path-only"]
         path = found.path or "no file"
         text = message.format(path=path, name=found.path.name if found.path else "")
-        hint = _with_right_package(filename, found) or hint
+        hint = (
+            _with_right_package(filename, found)
+            or self._with_longer_name(filename, found)
+            or hint
+        )
         self._warn(code, f"the {kind} {filename}: {text}", hint, filename, element)
 
     def _report_missing(
@@ -141,7 +145,11 @@ class FileFinder:
             searched = ", ".join(found.searched[:4]) or "nowhere"
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
-            hint = _with_right_package(filename, found) or hint
+            hint = (
+                _with_right_package(filename, found)
+                or self._with_longer_name(filename, found)
+                or hint
+            )
             if "\\" in package:
                 reason = "it has \\ in place of /"
                 right = filename.replace("\\", "/")
@@ -161,6 +169,20 @@ class FileFinder:
         stand_in = "; a placeholder is drawn" if kind == "mesh" else ""
         text = f"the {kind} {filename} was not found: {reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, filename, element)
+
+    def _with_longer_name(self, filename: str, found: Resolution) -> str:
+        """Advise to name the only package that has the name and words behind it."""
+        package = found.missing_package
+        longer = [n for n in found.known_packages if n.startswith(f"{package}_")]
+        if package is None or len(longer) != 1:
+            return ""
+        right = filename.replace(package, longer[0], 1)
+        if self._resolver.resolve(right).path is not None:
+            return f"write {right}"
+        return (
+            f"did you mean {right}? If not, add --package-path "
+            f"FOLDER-THAT-HOLDS-{package}"
+        )
 
     def _warn(
         self, code: str, text: str, hint: str, filename: str, element: Element

@@ -66,7 +66,21 @@ def models_in(folder: Path) -> list[Path]:
     """
     paths = list(_walk(folder))
     products = [p for p in paths if not _is_for_tests(p.relative_to(folder))]
-    return _complete_models(products) or _complete_models(paths)
+    return (
+        _complete_models(products)
+        or _complete_models(paths)
+        or [path for path in products if _is_model_in_world(path)]
+    )
+
+
+def _is_model_in_world(path: Path) -> bool:
+    """Tell whether a file is a robot inside a <world>, which is said when it is read.
+
+    A world has its own folder, or the word in its name.
+    """
+    text = _text_of(path)
+    is_world = any("world" in part for part in (path.stem, path.parent.name))
+    return not is_world and bool(_WORLD.search(text) and _LINK.search(text))
 
 
 def _is_for_tests(path: Path) -> bool:
@@ -136,14 +150,18 @@ def _worth_entering(name: str) -> bool:
     return name not in _SKIPPED and not name.startswith(".")
 
 
-def _look_at(path: Path) -> _ModelFile:
+def _text_of(path: Path) -> str:
+    """Return the text of a file without comments; "" when it cannot be read."""
     try:
-        text = ""
-        if path.stat().st_size <= _LARGEST:
-            text = path.read_text("utf-8", "replace")
+        if path.stat().st_size > _LARGEST:
+            return ""
+        return _COMMENT.sub("", path.read_text("utf-8", "replace"))
     except OSError:
-        text = ""
-    text = _COMMENT.sub("", text)
+        return ""
+
+
+def _look_at(path: Path) -> _ModelFile:
+    text = _text_of(path)
     includes = tuple(_INCLUDE.findall(text))
     outside = _MACRO.sub("", text)
     builds = bool(_LINK.search(outside) or _CALL.search(outside) or includes)

@@ -152,6 +152,25 @@ def missing_prefixes(document: Element) -> list[Problem]:
     ]
 
 
+def refused_without_prefix(document: Element, undeclared: Problem) -> Problem:
+    """Make the error for a file that has expressions, and that nothing replaces.
+
+    Args:
+        document: the root element.
+        undeclared: the warning of `undeclared_prefix`.
+    """
+    return Problem.at(
+        document.place,
+        "error",
+        "xml-prefix-undeclared",
+        f"the prefix xacro: is used (first on line {undeclared.line}) but not declared "
+        f"on <{document.tag}>: xacro refuses the file, and without xacro ROS does not "
+        "know what ${…} is",
+        f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
+        f"{document.place.line}",
+    )
+
+
 def undeclared_prefix(
     document: Element, first: Element | None, path: Path | None
 ) -> Problem | None:
@@ -181,5 +200,5 @@ def undeclared_prefix(
         "not a xacro file: ROS ignores these elements, and what they would create "
         "is missing",
         f'add xmlns:xacro="http://www.ros.org/wiki/xacro" to <{document.tag}> on line '
-        f"{document.place.line}, and call the file .urdf.xacro",
+        f"{document.place.line}",
     )

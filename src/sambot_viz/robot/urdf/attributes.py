@@ -13,6 +13,9 @@ from sambot_viz.robot.parts import Origin
 from sambot_viz.robot.slips.units import is_with_unit, without_units
 from sambot_viz.robot.xml.element import Element
 
+NOT_REPLACED = "which xacro has not replaced"
+"""The words for an expression that is in place of a number."""
+
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _SEPARATORS = re.compile(r"[\s,;]+")
 _WORDS = {2: "two", 3: "three", 4: "four"}
@@ -113,7 +116,7 @@ def _complaint(part: str, whole: str) -> tuple[str, str]:
         return "is empty", "write a number"
     if "$" in part:
         return (
-            f"still contains the expression {part}, which xacro has not replaced",
+            f"still contains the expression {part}, {NOT_REPLACED}",
             "declare xmlns:xacro on <robot>, or write the number",
         )
     if part.lower().lstrip("+-") in ("nan", "inf", "infinity"):
