@@ -52,7 +52,6 @@ def read_sdf(
     root = root_link(scope, findings)
     if root is not None:
         check_tree(scope, root, ends, findings)
-    warn_of_links_away_from_joints(scope, ends, findings)
     note_gazebo_only(model, findings)
     holders = {e.child: e.joint for e in reversed(ends)}
     reader = SdfLinkReader(frames, findings, find_mesh)
@@ -64,6 +63,7 @@ def read_sdf(
     motion = {joint.name: motions.read(joint) for joint in scope.of_kind("joint")}
     if findings.rejected or root is None:
         return None
+    warn_of_links_away_from_joints(scope, ends, findings)
     above = {name: holders.get(name, scope.frames[name]) for name in links}
     joints = {
         e.joint.name: _joint(e, motion[e.joint.name], frames, above[e.parent])
