@@ -8,7 +8,7 @@ from sambot_viz.checks.around.bridges import BridgeEntry, entries
 from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, taken
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.topics import kinds_read
+from sambot_viz.checks.around.topics import kinds_read, published_topics
 from sambot_viz.errors import Problem, nearest
 
 _PAIRS: dict[str, tuple[str, ...]] = {
@@ -61,6 +61,7 @@ _OTHER_ROS_TYPES = frozenset(
 )
 _GZ_PACKAGES = ("gz.msgs", "ignition.msgs")
 _LIKE_TYPE = 0.87
+_CLOUDS = frozenset({"LaserScan", "PointCloud2"})
 
 
 def counterpart(written: str) -> str | None:
@@ -135,6 +136,37 @@ def bridge_types(around: Surroundings) -> Iterator[Problem]:
             yield _mismatch(entry, fitting, own, around)
         elif own and entry.kind not in {*left, *(t.kind for t in own)}:
             yield _misfit(entry, own[0])
+
+
+def wrong_data_types(around: Surroundings) -> Iterator[Problem]:
+    """Report sensors of a costmap whose topic has the other type."""
+    if around.namespaced or any(bridge_types(around)):
+        return
+    published = list(published_topics(around))
+    topics = {
+        (p.node, p.name.removesuffix(".topic")): p
+        for p in around.parameters
+        if p.name.endswith(".topic")
+    }
+    for parameter in around.parameters:
+        topic = topics.get((parameter.node, parameter.name.removesuffix(".data_type")))
+        if topic is None or not parameter.name.endswith(".data_type"):
+            continue
+        name, said = bare(topic.fact.value), parameter.fact.value
+        sources = {p.kind: p for p in published if bare(p.topic.value) == name}
+        if said not in _CLOUDS or len(sources) != 1 or said in sources:
+            continue
+        ((kind, source),) = sources.items()
+        if kind in _CLOUDS:
+            yield Problem.at(
+                parameter.value_place,
+                "warning",
+                "topic-type",
+                f"{parameter.node.rpartition('/')[2]} reads {topic.fact.value} as "
+                f"{said}, but {source.what} publishes it as {kind} "
+                f"({where(source.topic.place, parameter.place)}): nothing arrives",
+                f"write {kind}",
+            )
 
 
 def _mismatch(

@@ -11,7 +11,11 @@ from sambot_viz.checks.around.bridge_files import (
     misspelt_entries,
     second_documents,
 )
-from sambot_viz.checks.around.bridge_types import bridge_types, unknown_bridge_types
+from sambot_viz.checks.around.bridge_types import (
+    bridge_types,
+    unknown_bridge_types,
+    wrong_data_types,
+)
 from sambot_viz.checks.around.bridges import (
     bridge_directions,
     bridge_topics,
@@ -160,6 +164,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     world_frames,
     planes,
     unknown_topics,
+    wrong_data_types,
     unknown_bridge_types,
     bridge_types,
     bridge_directions,

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.gazebo_topics import bare
+from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import filters, is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -35,7 +36,7 @@ _USED: tuple[tuple[str, str, str], ...] = (
 )
 
 
-class _Published(NamedTuple):
+class Published(NamedTuple):
     """A topic in ROS: its name with its place, its type, and who publishes it."""
 
     topic: Fact
@@ -52,10 +53,12 @@ class _Used(NamedTuple):
 
 def unknown_topics(around: Surroundings) -> Iterator[Problem]:
     """Report topics that are read under another name than they are published."""
-    published = list(_published(around))
+    published = list(published_topics(around))
     if around.namespaced:
         return
     used = list(_used(around))
+    renamed = {u.kind: p for p, u in _renamed(around, used, published)}
+    yield from renamed.values()
     for parameter, kind in used:
         name = bare(parameter.fact.value)
         known = {bare(p.topic.value): p for p in published if p.kind == kind}
@@ -67,19 +70,54 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
             continue
         if around.said_elsewhere(name, as_topic=True) or _of_a_node(around, name):
             continue
-        near = _meant(name, known)
-        if near is None:
+        near = _meant(name, known) or _only(known, around)
+        if near is not None and kind not in renamed:
+            yield _unknown(parameter, kind, known[near])
+
+
+def _unknown(parameter: Parameter, kind: str, source: Published) -> Problem:
+    return Problem.at(
+        parameter.place,
+        "warning",
+        "topic-unknown",
+        f"{parameter.node} reads {parameter.fact.value}, but {source.what} "
+        f"publishes this {kind} as {source.topic.value} "
+        f"({where(source.topic.place, parameter.place)})",
+        f"write {source.topic.value}",
+    )
+
+
+def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
+    """The one topic of a type, when nobody else can publish another."""
+    alone = len(known) == 1 and starts_only_known(around)
+    return next(iter(known)) if alone else None
+
+
+def _renamed(
+    around: Surroundings, used: Sequence[_Used], published: Sequence[Published]
+) -> Iterator[tuple[Problem, _Used]]:
+    """Entries of a bridge whose topic all read under its name in Gazebo."""
+    names = {bare(p.topic.value) for p in published}
+    for entry in entries(around):
+        gz, ros = bare(entry.gz.value), entry.ros
+        kind = entry.ros_type.value.rpartition("/")[2]
+        readers = [u for u in used if u.kind == kind]
+        agree = all(bare(u.parameter.fact.value) == gz for u in readers)
+        if len(readers) < 2 or not agree or gz in names or gz == bare(ros.value):
             continue
-        source, place = known[near], parameter.place
-        yield Problem.at(
-            place,
+        if around.said_elsewhere(gz) or entry.direction.value == "ROS_TO_GZ":
+            continue
+        first = readers[0].parameter
+        problem = Problem.at(
+            ros.place,
             "warning",
             "topic-unknown",
-            f"{parameter.node} reads {parameter.fact.value}, but {source.what} "
-            f"publishes this {kind} as {source.topic.value} "
-            f"({where(source.topic.place, place)})",
-            f"write {source.topic.value}",
+            f"the bridge publishes this {kind} as {ros.value}, but {first.node} "
+            f"({where(first.place, ros.place)}) and all others read "
+            f"{first.fact.value}",
+            f"write /{gz}",
         )
+        yield problem, readers[0]
 
 
 def kinds_read(around: Surroundings) -> dict[str, Fact]:
@@ -104,7 +142,7 @@ def _same(one: Parameter, other: Parameter) -> bool:
     return (one.node, one.name) == (other.node, other.name) and one is not other
 
 
-def _meant(name: str, known: dict[str, _Published]) -> str | None:
+def _meant(name: str, known: dict[str, Published]) -> str | None:
     """The topic that is meant: the same below another name, or a similar one."""
     last = name.rpartition("/")[2]
     same = [k for k in known if k.rpartition("/")[2] == last]
@@ -132,16 +170,17 @@ def _used(around: Surroundings) -> Iterator[_Used]:
                 yield _Used(parameter, _SCAN)
 
 
-def _published(around: Surroundings) -> Iterator[_Published]:
+def published_topics(around: Surroundings) -> Iterator[Published]:
+    """Give the topics in ROS that bridges and plugins publish."""
     for entry in entries(around):
         if entry.direction.value != "ROS_TO_GZ":
             kind = entry.ros_type.value.rpartition("/")[2]
-            yield _Published(entry.ros, kind, "the bridge")
+            yield Published(entry.ros, kind, "the bridge")
     for plugin in around.plugins:
         yield from _of_classic(plugin)
 
 
-def _of_classic(plugin: Plugin) -> Iterator[_Published]:
+def _of_classic(plugin: Plugin) -> Iterator[Published]:
     kind, topic = _CLASSIC.get(plugin.filename, ("", ""))
     output = plugin.one("output_type")
     if output is not None:
@@ -164,4 +203,4 @@ def _of_classic(plugin: Plugin) -> Iterator[_Published]:
     whole = topic if topic.startswith("/") or not namespace else f"{namespace}/{topic}"
     if not is_open(whole):
         fact = Fact(f"/{bare(whole)}", place)
-        yield _Published(fact, kind, f"the plugin {plugin.filename}")
+        yield Published(fact, kind, f"the plugin {plugin.filename}")

@@ -1,0 +1,110 @@
+"""A topic with quite another name than the only one of its type is found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+MODEL = "urdf/cart.urdf.xacro"
+LAUNCH = "launch/display.launch.py"
+EKF, NAV2 = "config/ekf.yaml", "config/nav2_params.yaml"
+BRIDGE = "config/bridge_config.yaml"
+
+Copied = Callable[[str], Path]
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong", "cause", "hint", "better"),
+    [
+        (
+            EKF,
+            "imu0: demo/imu",
+            "imu0: sensors/data",
+            "the bridge publishes this Imu as /demo/imu (bridge_config.yaml line 8)",
+            "write /demo/imu",
+            "imu0: /demo/imu",
+        ),
+        (
+            NAV2,
+            "topic: /scan",
+            "topic: /lidar",
+            "the bridge publishes this LaserScan as /scan (bridge_config.yaml line 32)",
+            "write /scan",
+            "topic: /scan",
+        ),
+        (
+            NAV2,
+            "scan_topic: scan",
+            "scan_topic: front_laser",
+            "amcl reads front_laser",
+            "write /scan",
+            "scan_topic: /scan",
+        ),
+        (
+            BRIDGE,
+            'ros_topic_name: "/scan"',
+            'ros_topic_name: "/lidar"',
+            "amcl (nav2_params.yaml line 7) and all others read scan",
+            "write /scan",
+            'ros_topic_name: "/scan"',
+        ),
+        (
+            NAV2,
+            'data_type: "LaserScan"',
+            'data_type: "PointCloud2"',
+            "local_costmap reads /scan as PointCloud2, but the bridge publishes it as "
+            "LaserScan (bridge_config.yaml line 32)",
+            "write LaserScan",
+            "data_type: LaserScan",
+        ),
+    ],
+)
+def test_a_topic_that_nobody_publishes(
+    copied: Copied,
+    file: str,
+    right: str,
+    wrong: str,
+    cause: str,
+    hint: str,
+    better: str,
+) -> None:
+    package = copied("gz")
+    text = (package / file).read_text()
+    assert right in text
+    (package / file).write_text(text.replace(right, wrong, 1))
+
+    (problem,) = check(package / MODEL)
+
+    assert problem.file == str(package / file)
+    assert cause in problem.message
+    assert problem.hint == hint
+    (package / file).write_text(text.replace(right, better, 1))
+    assert check(package / MODEL) == []
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        'Node(package="lidar_driver", executable="driver"),',
+        "OpaqueFunction(function=print),",
+        "IncludeLaunchDescription(PythonLaunchDescriptionSource("
+        'get_package_share_directory("lidar_driver") + "/a.launch.py")),',
+    ],
+)
+def test_another_node_may_publish_it(copied: Copied, action: str) -> None:
+    package = copied("gz")
+    nav2, launch = package / NAV2, package / LAUNCH
+    nav2.write_text(nav2.read_text().replace("topic: scan", "topic: front_laser"))
+    assert [p.code for p in check(package / MODEL)] == ["topic-unknown"]
+    text = launch.read_text()
+    text = text.replace(
+        "            bridge,", f"            bridge,\n{' ' * 12}{action}"
+    )
+    launch.write_text(
+        text.replace("    ExecuteProcess,", "    ExecuteProcess,\n    OpaqueFunction,")
+    )
+    assert check(package / MODEL) == []
