@@ -298,6 +298,15 @@ MISTAKES = [
         "write odom",
     ),
     one(
+        "ekf-world-frame",
+        EKF,
+        "odom_frame: odom",
+        "odom_frame: odometry",
+        (EKF, "world_frame: odom"),
+        "write odom",
+        name="of which the odom_frame is wrong",
+    ),
+    one(
         "frame-odom",
         NAV2,
         "      global_frame: odom",

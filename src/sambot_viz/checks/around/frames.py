@@ -16,6 +16,7 @@ from sambot_viz.checks.around.navigation import (
 )
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem, nearest
 
 _BASES: dict[str, tuple[str, ...]] = {
@@ -186,7 +187,7 @@ def odometry_frames(around: Surroundings) -> Iterator[Problem]:
 
 def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
     for one in filters(around):
-        if one.moves_base and "odom_frame" in one.given:
+        if one.moves_base and "odom_frame" in one.given and not _is_odd(around, one):
             yield one.given["odom_frame"].fact, one.node
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
@@ -215,6 +216,18 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
         if world is None or one.world_frame in (one.odom_frame, one.map_frame):
             continue
         other = one.given.get("odom_frame")
+        if other is not None and _is_odd(around, one):
+            users = [user for _, user in _used_odoms(around)]
+            yield Problem.at(
+                other.place,
+                "warning",
+                "ekf-world-frame",
+                f"odom_frame is {one.odom_frame}, but world_frame is {one.world_frame} "
+                f"({where(world.place, other.place)}), and so it is for "
+                f"{listed(dict.fromkeys(users))}: {one.node} publishes no transform",
+                f"write {one.world_frame}",
+            )
+            continue
         what = where(other.place, world.place) if other else "the default"
         yield Problem.at(
             world.place,
@@ -225,6 +238,16 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
             "publishes no transform",
             f"write {one.odom_frame}",
         )
+
+
+def _is_odd(around: Surroundings, one: StateFilter) -> bool:
+    """Tell whether all others call the frame of odometry what world_frame is."""
+    if "world_frame" not in one.given:
+        return False
+    if one.world_frame in (one.odom_frame, one.map_frame):
+        return False
+    used = {bare_frame(fact.value) for fact, _ in _used_odoms(around)}
+    return used == {one.world_frame}
 
 
 def planes(around: Surroundings) -> Iterator[Problem]:
