@@ -125,7 +125,7 @@ def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
             yield base.fact, one.node, one.world_frame
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
-        if fact is not None and _drive_tf(around, plugin) is not None:
+        if fact is not None and drive_tf(around, plugin) is not None:
             odom = plugin.one(*_DRIVE_ODOMS)
             name = bare_frame(odom.value) if odom is not None else "odom"
             yield fact, f"the plugin {plugin.filename}", name
@@ -135,7 +135,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
     """Report a base that both Gazebo and robot_localization move."""
     moving = [one for one in filters(around) if one.started and one.moves_base]
     for plugin in around.plugins if moving else ():
-        told = _drive_tf(around, plugin) if plugin.is_drive else None
+        told = drive_tf(around, plugin) if plugin.is_drive else None
         base = plugin.one(*_DRIVE_BASES)
         if told is None or base is None:
             continue
@@ -191,7 +191,7 @@ def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
             yield one.given["odom_frame"].fact, one.node
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
-        if fact is not None and _drive_tf(around, plugin) is not None:
+        if fact is not None and drive_tf(around, plugin) is not None:
             yield fact, f"the plugin {plugin.filename}"
 
 
@@ -280,7 +280,7 @@ def planes(around: Surroundings) -> Iterator[Problem]:
 _ODOM_TF = ("publish_odom_tf", "publishOdomTF", "publishTf")
 
 
-def _drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
+def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
     """Return where a drive is told to publish the transform of the base to ROS.
 
     A drive of Gazebo does when a bridge carries its tf_topic.

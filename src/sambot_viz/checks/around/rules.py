@@ -83,6 +83,7 @@ from sambot_viz.checks.around.nav2_sections import (
     unknown_sections,
     unread_sections,
 )
+from sambot_viz.checks.around.odometry import unpublished_odometry
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.sensors import (
     frames_of_sensors,
@@ -104,6 +105,7 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_yaml,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
+from sambot_viz.checks.around.world_systems import missing_systems
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -162,6 +164,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     moved_twice,
     odometry_frames,
     world_frames,
+    unpublished_odometry,
     planes,
     unknown_topics,
     wrong_data_types,
@@ -180,6 +183,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     missing_files,
     unread_parameters,
     world_names,
+    missing_systems,
     project_name,
     missing_folders,
     not_installed,

@@ -1,0 +1,72 @@
+"""The transform of the base in odometry, which one node has to publish."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.bridges import entries
+from sambot_viz.checks.around.files.gazebo import Plugin
+from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.frames import drive_tf
+from sambot_viz.checks.around.gazebo_topics import bare
+from sambot_viz.checks.around.known_nodes import starts_only_known
+from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Problem
+
+
+def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
+    """Report a filter that is told not to publish what only it could publish."""
+    started = [one for one in filters(around) if one.started]
+    if len(started) != 1 or around.namespaced or started[0].moves_base:
+        return
+    (one,) = started
+    user = _user(around, one.odom_frame)
+    if user is None or _others_publish(around) or not starts_only_known(around):
+        return
+    found = _reason(one)
+    if found is None:
+        return
+    reason, hint = found
+    base = one.frame("base_link_frame", "base_link")
+    yield Problem.at(
+        reason.value_place,
+        "warning",
+        "odometry-unpublished",
+        f"no node publishes the transform from {one.odom_frame} to {base}, which "
+        f"{user.node.rpartition('/')[2]} needs ({where(user.place, reason.place)}): "
+        f"{one.node} does not, because {reason.name} is {reason.fact.value}",
+        hint,
+    )
+
+
+def _reason(one: StateFilter) -> tuple[Parameter, str] | None:
+    publishes, world = one.given.get("publish_tf"), one.given.get("world_frame")
+    if publishes is not None and publishes.flag is False:
+        return publishes, "write true"
+    return None if world is None else (world, f"write {one.odom_frame}")
+
+
+def _user(around: Surroundings, odom: str) -> Parameter | None:
+    """The local costmap that is in the frame of odometry."""
+    for parameter in around.parameters:
+        if parameter.name == "global_frame" and "local_costmap" in parameter.node:
+            if bare_frame(parameter.fact.value) == odom:
+                return parameter
+    return None
+
+
+def _others_publish(around: Surroundings) -> bool:
+    if any(_may_publish(around, plugin) for plugin in around.plugins):
+        return True
+    return any(
+        entry.kind == "Pose_V" and bare(entry.ros.value) in ("tf", "tf_static")
+        for entry in entries(around)
+    )
+
+
+def _may_publish(around: Surroundings, plugin: Plugin) -> bool:
+    if plugin.is_drive:
+        return drive_tf(around, plugin) is not None
+    return plugin.generation != "gz" and "planar" in plugin.filename
