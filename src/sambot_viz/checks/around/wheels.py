@@ -20,6 +20,8 @@ _SEPARATION_OFF = 0.15
 _SEPARATION_OFF_MESH = 0.25
 _RADIUS_OFF = 0.1
 _SKIDDING = 4
+_SAME_PLACE = 0.001
+"""Wheels that are nearer have no separation [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +127,7 @@ def _apart(left: Joint, right: Joint, poses: Mapping[str, Matrix]) -> float | No
     if abs(float(axis @ other)) < 0.99:
         return None
     apart = abs(float((T_left[:3, 3] - T_right[:3, 3]) @ axis))
-    return apart if apart > 0 else None
+    return apart if apart > _SAME_PLACE else None
 
 
 def _radius(
