@@ -308,6 +308,15 @@ SLIPS = [
         '<xacro:property name="on_left" value="1"/>\n    '
         '<xacro:wheel prefix="left_wheel" side="${on_left}"/>',
     ),
+    Slip(
+        "urdf",
+        "gazebo-joint",
+        '<joint name="${prefix}_joint" type="continuous"',
+        '<joint name="${prefix}_joint" type="fixed"',
+        "<left_joint>",
+        'write type="continuous" for that joint',
+        '<joint name="${prefix}_joint" type="continuous"',
+    ),
 ]
 
 

@@ -68,6 +68,7 @@ def joints_of_controllers(around: Surroundings) -> Iterator[Problem]:
 def _unknown_joints(
     robot: Robot, named: Iterable[tuple[Fact, _User]]
 ) -> Iterator[Problem]:
+    said: set[tuple[str, Place | None]] = set()
     for fact, user in named:
         if any(mark in fact.value for mark in _SCOPED):
             continue
@@ -87,6 +88,10 @@ def _unknown_joints(
             )
         else:
             message, hint = _unknown(robot, fact, user)
+        if joint is not None and (hint, joint.place) in said:
+            # A macro has made both joints.
+            continue
+        said.add((hint, joint.place if joint is not None else None))
         yield Problem.at(fact.place, "warning", "gazebo-joint", message, hint)
 
 

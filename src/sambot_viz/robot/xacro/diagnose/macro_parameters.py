@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.errors import Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
@@ -130,8 +130,9 @@ def _other_parameter(
     if needed and len(needed) == len(others):
         lost = f"{message}, and the call lacks {_listed(needed)}"
         return here.error(_CODE, lost, f"write the right one of these for {name}")
+    known = did_you_mean(name, parameters(macro.params))
     return here.error(
         _CODE,
-        message,
+        f"{message} ({known})" if known.startswith("known") else message,
         f"delete {name}, or use the version of the macro's file that fits",
     )
