@@ -116,6 +116,30 @@ def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) ->
     assert codes(package) == ["launch-node-unused"]
 
 
+def test_an_image_may_have_a_bridge_of_its_own(copied: Copied) -> None:
+    package = copied("gz")
+    edit(
+        package / MODEL,
+        '<sensor name="lidar"',
+        '<sensor name="camera" type="camera"><topic>camera/image</topic></sensor>\n'
+        '<sensor name="lidar"',
+    )
+    bridge = package / BRIDGE
+    bridge.write_text(
+        bridge.read_text()
+        + '- topic_name: "/camera/depth_image"\n'
+        + '  ros_type_name: "sensor_msgs/msg/Image"\n  gz_type_name: "gz.msgs.Image"\n'
+    )
+    assert codes(package) == ["bridge-topic"]
+    edit(
+        package / LAUNCH,
+        "            spawn,",
+        '            spawn,\n    Node(package="ros_gz_image", '
+        'executable="image_bridge", arguments=["/camera/image"]),',
+    )
+    assert codes(package) == []
+
+
 def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None:
     package = copied("gz")
     (package / BRIDGE).unlink()

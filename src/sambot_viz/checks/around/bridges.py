@@ -21,7 +21,9 @@ from sambot_viz.robot.xml.element import Element
 
 _TO_ROS, _TO_GZ, _BOTH = "GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL"
 _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
-_BRIDGE = "parameter_bridge"
+_OF_IMAGES = "image_bridge"
+"""Carries only images, and finds their types itself."""
+_BRIDGES = ("parameter_bridge", _OF_IMAGES)
 _SCOPED = ("world/", "model/")
 
 
@@ -107,10 +109,14 @@ def bridge_directions(around: Surroundings) -> Iterator[Problem]:
 def bridge_topics(around: Surroundings) -> Iterator[Problem]:
     """Report entries for a topic that the model calls otherwise."""
     nodes = [node for launch in around.launches for node in launch.nodes]
-    if any(n.executable == _BRIDGE and not n.arguments_known for n in nodes):
+    if any(n.executable in _BRIDGES and not n.arguments_known for n in nodes):
         return
+    pictures = {
+        bare(text) for n in nodes if n.executable == _OF_IMAGES for text in n.arguments
+    }
     every = entries(around)
-    yield from _misnamed(every, sent(around), (_TO_ROS, _BOTH), "sends")
+    free = [topic for topic in sent(around) if bare(topic.name.value) not in pictures]
+    yield from _misnamed(every, free, (_TO_ROS, _BOTH), "sends")
     yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes")
 
 
