@@ -77,6 +77,9 @@ _OF_LENGTHS = frozenset(
 )
 """What is said of lengths, and of the robot that they make."""
 
+_OF_ANGLES = frozenset("footprint-size wheel-across-axle falls-over".split())
+"""What is said of a robot whose parts are turned wrongly."""
+
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 
 
@@ -183,7 +186,7 @@ def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     """Run rules; only the one about the unit of lengths is given another unit.
 
     Where one length is out of proportion, what rests on lengths is left out, and where
-    a wheel lies flat, how far the robot reaches.
+    a wheel lies flat, how far the robot reaches. Angles in degrees turn parts anyhow.
     """
     off = list(lengths_out_of_proportion(subject))
     robot = subject.robot if off else robot_in_metres(subject.robot)
@@ -196,10 +199,17 @@ def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     if off:
         found = [problem for problem in found if problem.code not in _OF_LENGTHS]
         return found + off if lengths_in_another_unit in rules else found
+    if _has_degrees(in_metres):
+        return [problem for problem in found if problem.code not in _OF_ANGLES]
     reach = {problem for problem in found if problem.code == "footprint-size"}
     if reach and any(wheels_across_their_axles(in_metres)):
         found = [problem for problem in found if problem not in reach]
     return found
+
+
+def _has_degrees(subject: Subject) -> bool:
+    told = any(problem.code == "rpy-in-degrees" for problem in subject.robot.problems)
+    return told or any(rpy_in_degrees(subject))
 
 
 def check_folder(

@@ -317,6 +317,24 @@ SLIPS = [
         'write type="continuous" for that joint',
         '<joint name="${prefix}_joint" type="continuous"',
     ),
+    Slip(
+        "sdf",
+        "rpy-in-degrees",
+        "<pose>0 0 0 ${pi/2} 0 0</pose>",
+        "<pose>0 0 0 90 0 0</pose>",
+        "<pose>0 0 0 90 0 0</pose>",
+        'write <pose degrees="true">',
+        '<pose degrees="true">0 0 0 90 0 0</pose>',
+    ),
+    Slip(
+        "urdf",
+        "rpy-in-degrees",
+        '<origin rpy="${pi/2} 0 0"/>',
+        '<origin rpy="90 0 0"/>',
+        '<origin rpy="90 0 0"/>',
+        'write rpy="1.5708 0 0"',
+        '<origin rpy="1.5708 0 0"/>',
+    ),
 ]
 
 

@@ -139,9 +139,10 @@ def _with_degrees(pose: Element) -> str:
     if pose.call is None:
         kept = "".join(f' {name}="{pose.get(name)}"' for name in others)
         return f'<pose{kept} degrees="true">'
+    if not others:
+        return '<pose degrees="true">'
     # What a macro has made of the attributes is not what is written there.
-    beside = f", beside {' and '.join(others)}" if others else ""
-    return f'degrees="true" into <pose>{beside}'
+    return f'degrees="true" into <pose>, beside {" and ".join(others)}'
 
 
 def _check_length(pose: PoseText, element: Element, findings: ModelFindings) -> None:
