@@ -121,7 +121,7 @@ def _note(viewer: Viewer, results: Results) -> str:
     reasons: dict[str, list[str]] = {}
     for robot, found in results.viewers.items():
         if viewer.name in found:
-            for why in found[viewer.name].reasons.values():
+            for why in dict.fromkeys(found[viewer.name].reasons.values()):
                 reasons.setdefault(why, []).append(robot)
     words = [viewer.note] if viewer.note else []
     words += [f"{', '.join(where)}: {why}" for why, where in reasons.items()]

@@ -33,6 +33,8 @@ FAST = 30.0
 """The rate for computing [Hz]."""
 SLOW = 4.0
 """The rate for bytes: where steps overtake each other, some are never sent [Hz]."""
+PAUSE = 0.06
+"""After a step, for its last frames, where a viewer needs longer for it [s]."""
 REST = 3.0
 """How long nothing is done [s]."""
 LONGEST = 60.0
@@ -206,7 +208,7 @@ def cost(
     if clients is not None:
         clients.seen()
         steps = STEPS // 2
-        driven.ask(do="pace", joints=joints, rate=SLOW, steps=steps)
+        driven.ask(do="pace", joints=joints, rate=SLOW, steps=steps, pause=PAUSE)
         frames = clients.seen()[0]
         found.add(f"bytes_{name}", sum(size for _, size in frames) / steps)
 
@@ -217,7 +219,8 @@ def _add_delays(count: int, driven: Driven, clients: Watchers, found: Found) -> 
 
 def _delays(driven: Driven, clients: Watchers) -> list[float]:
     """How long each step took until the last client had its last frame [s]."""
-    times: list[float] = driven.ask(do="pace", joints=1, rate=RATE, steps=STEPS)["at"]
+    steps = driven.ask(do="pace", joints=1, rate=RATE, steps=STEPS, pause=PAUSE)
+    times: list[float] = steps["at"]
     seen = clients.seen()
     late = [_of_steps(times, frames) for frames in seen]
     found = [max(of) for of in zip(*late, strict=True)]
@@ -230,7 +233,7 @@ def _delays(driven: Driven, clients: Watchers) -> list[float]:
 
 def _of_steps(times: list[float], frames: list[Frame]) -> Iterator[float]:
     stamps = sorted(at for at, _ in frames if at)
-    for start, end in itertools.pairwise([*times, times[-1] + 1.0 / RATE]):
+    for start, end in itertools.pairwise([*times, float("inf")]):
         own = [at for at in stamps if start < at < end]
         yield own[-1] - start if own else float("inf")
 

@@ -6,7 +6,8 @@ viewer's own environment, so nothing here needs more than Python itself::
     driver.py MODEL     says {"url": …, "loaded": s} as a line of JSON, and then obeys
                         lines of JSON on its standard input:
     {"do": "move", "joints": n, "value": q}                     moves the first n joints
-    {"do": "pace", "joints": n, "rate": Hz, "steps": m}         moves them m times
+    {"do": "pace", "joints": n, "rate": Hz, "steps": m, "pause": s}     m times, with
+                        a pause after each where the viewer does not keep the rate
     {"do": "poses", "times": n}                                 poses of all links
     {"do": "robot_at"}, {"do": "changed", "value": q}           a window of its own
 
@@ -121,18 +122,21 @@ def _do(
         move(moved, order["value"])
         return {"at": at, "clock": time.time() - time.perf_counter() + at}
     if order["do"] == "pace" and move is not None:
-        return {"at": _pace(move, moved, order["rate"], order["steps"])}
+        pause = order.get("pause", 0.0)
+        return {"at": _pace(move, moved, order["rate"], order["steps"], pause)}
     if order["do"] == "poses" and poses is not None:
         return {"each": _each(poses, order["times"])}
     return {"error": f"cannot {order['do']}"}
 
 
-def _pace(move: Move, names: Sequence[str], rate: float, steps: int) -> list[float]:
-    """Move at a rate [Hz]; returns when each step began."""
+def _pace(
+    move: Move, names: Sequence[str], rate: float, steps: int, pause: float
+) -> list[float]:
+    """Move at a rate [Hz], with a pause after each step [s]; returns their starts."""
     start = time.perf_counter()
     times: list[float] = []
     for number in range(1, steps + 1):
-        time.sleep(max(0.0, start + number / rate - time.perf_counter()))
+        time.sleep(max(pause, start + number / rate - time.perf_counter()))
         times.append(time.perf_counter())
         move(names, 0.5 * number / steps)
     return times
