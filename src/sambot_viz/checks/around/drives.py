@@ -91,7 +91,7 @@ def wrong_sides_of_controllers(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
-class _Wheel(NamedTuple):
+class _DriveWheel(NamedTuple):
     """A wheel of a drive, in the base frame, in which x is forwards.
 
     Attributes:
@@ -116,13 +116,13 @@ def _sides(
     poses = robot.forward_kinematics()
     T_base_root = np.linalg.inv(poses.get(base, poses[robot.root]))
 
-    def wheel(fact: Fact) -> _Wheel | None:
+    def wheel(fact: Fact) -> _DriveWheel | None:
         joint = robot.joints.get(fact.value)
         if joint is None or not joint.movable:
             return None
         T = T_base_root @ poses[joint.child]
         axis = float((T[:3, :3] @ np.array(joint.axis))[1])
-        return _Wheel(fact, joint, axis, float(T[0, 3]), round(float(T[1, 3]), 4))
+        return _DriveWheel(fact, joint, axis, float(T[0, 3]), round(float(T[1, 3]), 4))
 
     for names in zip(lefts, rights, strict=False):
         left, right = map(wheel, names)
@@ -141,7 +141,7 @@ def _sides(
 
 
 def _driven_twice(
-    robot: Robot, left: _Wheel, right: _Wheel, taken: Set[str]
+    robot: Robot, left: _DriveWheel, right: _DriveWheel, taken: Set[str]
 ) -> Problem:
     """Report a joint that is the left and the right one."""
     wrong, other, side = (left, right, "left") if left.y < 0 else (right, left, "right")
@@ -157,7 +157,7 @@ def _driven_twice(
     )
 
 
-def _exchanged(left: _Wheel, right: _Wheel) -> Problem | None:
+def _exchanged(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
     # With another axis the front is the back, and left is right.
     if min(left.axis, right.axis) <= _ALONG or not left.y < 0 < right.y:
         return None
@@ -174,7 +174,7 @@ def _exchanged(left: _Wheel, right: _Wheel) -> Problem | None:
     )
 
 
-def _turning(robot: Robot, left: _Wheel, right: _Wheel) -> Problem | None:
+def _turning(robot: Robot, left: _DriveWheel, right: _DriveWheel) -> Problem | None:
     """Report wheels that turn backwards, both or one of them."""
     back = [wheel for wheel in (left, right) if wheel.axis < -_ALONG]
     if not back or min(abs(left.axis), abs(right.axis)) <= _ALONG:
@@ -202,7 +202,7 @@ def _turning(robot: Robot, left: _Wheel, right: _Wheel) -> Problem | None:
     )
 
 
-def _off_the_axle(left: _Wheel, right: _Wheel) -> Problem | None:
+def _off_the_axle(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
     """Report a pair of wheels of which one is in front of the other."""
     ahead, apart = abs(left.x - right.x), abs(left.y - right.y)
     if min(abs(left.axis), abs(right.axis)) <= _ALONG or ahead <= _AHEAD * apart:
