@@ -9,6 +9,7 @@ from sambot_viz.checks.around.files.gazebo import Fact, sensors
 from sambot_viz.checks.around.gazebo_topics import (
     GazeboTopic,
     bare,
+    doubled_topics,
     sent,
     taken,
     topics_of_sensor,
@@ -115,7 +116,14 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
         bare(text) for n in nodes if n.executable == _OF_IMAGES for text in n.arguments
     }
     every = entries(around)
-    free = [topic for topic in sent(around) if bare(topic.name.value) not in pictures]
+    # Which of two sensors with one topic is meant is said at the sensor.
+    doubled = tuple(doubled_topics(around))
+    names = [(bare(topic.name.value), topic) for topic in sent(around)]
+    free = [
+        topic
+        for name, topic in names
+        if name not in pictures and not name.startswith(doubled)
+    ]
     yield from _misnamed(every, free, (_TO_ROS, _BOTH), "sends")
     yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes")
 

@@ -79,6 +79,15 @@ def topics_of_sensor(sensor: Element) -> Iterator[GazeboTopic]:
             yield GazeboTopic(name, gz_type, f"the sensor {sensor.get('name')}", wanted)
 
 
+def doubled_topics(around: Surroundings) -> frozenset[str]:
+    """Return the topics that sensors of different types have."""
+    kinds: dict[str, set[str]] = {}
+    for _, sensor in sensors(around.robot.gazebo):
+        for fact in facts(sensor, "topic")[:1] if any(topics_of_sensor(sensor)) else ():
+            kinds.setdefault(bare(fact.value), set()).add(sensor.get("type") or "")
+    return frozenset(topic for topic, types in kinds.items() if len(types) > 1)
+
+
 def taken(around: Surroundings) -> list[GazeboTopic]:
     """Return the topics for velocities that the model takes, where it names them."""
     rows = tuple((part, "topic", "Twist") for part in _TAKES)

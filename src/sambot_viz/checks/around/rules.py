@@ -91,6 +91,7 @@ from sambot_viz.checks.around.sensors import (
     sensor_values,
     sensors_without_link,
 )
+from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import (
     both_generations,
@@ -171,6 +172,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unknown_bridge_types,
     bridge_types,
     bridge_directions,
+    shared_topics,
     bridge_topics,
     unsent_joint_states,
     scoped_frames,
