@@ -265,6 +265,14 @@ def _check_config(path: Path, robot: Robot | None) -> list[Problem]:
 
 
 def _in_order(problems: Sequence[Problem]) -> list[Problem]:
-    """Each once: errors first, then in the order of the file."""
-    once = dict.fromkeys(problems)
-    return sorted(once, key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0))
+    """Each once: errors first, then in the order of the file.
+
+    What is said of one element with the same advice is what a macro repeats.
+    """
+    once: dict[object, Problem] = {}
+    for problem in problems:
+        repeated = (problem.code, problem.place, problem.hint)
+        once.setdefault(problem if problem.column is None else repeated, problem)
+    return sorted(
+        once.values(), key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0)
+    )

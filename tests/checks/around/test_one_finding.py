@@ -335,6 +335,16 @@ SLIPS = [
         'write rpy="1.5708 0 0"',
         '<origin rpy="1.5708 0 0"/>',
     ),
+    Slip(
+        "urdf",
+        "limit-in-degrees",
+        'type="continuous">',
+        'type="revolute"><limit lower="-180" upper="180" effort="1" velocity="1"/>',
+        "<limit",
+        'write lower="-3.1416" upper="3.1416"',
+        'type="revolute"><limit lower="-3.1416" upper="3.1416" effort="1" '
+        'velocity="1"/>',
+    ),
 ]
 
 
