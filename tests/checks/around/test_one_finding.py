@@ -345,6 +345,21 @@ SLIPS = [
         'type="revolute"><limit lower="-3.1416" upper="3.1416" effort="1" '
         'velocity="1"/>',
     ),
+    Slip(
+        "sdf",
+        "sdf-urdf-habit",
+        '<pose relative_to="${prefix}_joint"/>',
+        '<pose relative_to="${prefix}_joint"/><inertial>\n'
+        '<mass value="${0.5+side/1000}"/>'
+        "<inertia><ixx>0.0013</ixx><iyy>0.0013</iyy><izz>0.0025</izz></inertia>"
+        "</inertial>",
+        "<mass value=",
+        "write <mass>${0.5+side/1000}</mass>",
+        '<pose relative_to="${prefix}_joint"/><inertial>\n'
+        "<mass>${0.5+side/1000}</mass>"
+        "<inertia><ixx>0.0013</ixx><iyy>0.0013</iyy><izz>0.0025</izz></inertia>"
+        "</inertial>",
+    ),
 ]
 
 

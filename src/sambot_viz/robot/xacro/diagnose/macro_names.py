@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xacro.diagnose.failed_expansion import parameters
@@ -12,6 +13,7 @@ from sambot_viz.robot.xml.element import Element
 
 _REPEATED = ("link-duplicate", "joint-duplicate", "sdf-name-taken")
 _UNKNOWN = ("sdf-frame-unknown", "joint-child-unknown", "joint-parent-unknown")
+_OF_VALUES = ("sdf-urdf-habit",)
 _NO_DOLLAR = re.compile(r"(?<!\$)\{\s*(\w+)\s*\}")
 _PARAMETER = re.compile(r"\$\{\s*(\w+)\s*\}")
 _MISSING = re.compile(r" link '([^']+)', which does not| frame called ([^ ;]+)")
@@ -27,7 +29,8 @@ def name_with_parameters(
         problems: those of a model that came out of xacro.
         document: the root element before xacro.
     """
-    if not any(problem.code in _REPEATED + _UNKNOWN for problem in problems):
+    codes = (*_REPEATED, *_UNKNOWN, *_OF_VALUES)
+    if not any(problem.code in codes for problem in problems):
         return list(problems)
     done: set[tuple[str, int | None]] = set()
     found: list[Problem] = []
@@ -41,6 +44,8 @@ def name_with_parameters(
             better = _repeated(problem, document)
         elif problem.code in _UNKNOWN:
             better = _unknown(group, document)
+        elif problem.code in _OF_VALUES:
+            better = _with_expression(group, document)
         else:
             better = None
         if better is not None:
@@ -121,6 +126,30 @@ def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
                     hint=first.hint.replace(words[0] or "", template),
                 )
     return None
+
+
+def _with_expression(group: Sequence[Problem], document: Element) -> Problem | None:
+    """Report once what each call says of its own value: `<mass>${m}</mass>`."""
+    first, hints = group[0], [problem.hint for problem in group]
+    if len(set(hints)) < 2 or len({(p.place, p.column) for p in group}) > 1:
+        return None
+    for element in _at(first, document):
+        given = [v for v in element.attributes.values() if "${" in v]
+        if len(given) == 1 and _macro_around(element) is not None:
+            start = _common(hints, first.hint)
+            end = _common([hint[::-1] for hint in hints], first.hint[::-1])
+            before, after = first.hint[:start], first.hint[len(first.hint) - end :]
+            return replace(first, hint=f"{before}{given[0]}{after}")
+    return None
+
+
+def _common(hints: Sequence[str], hint: str) -> int:
+    """Return the length of what hints begin with, up to the end of a tag or quote."""
+    same = takewhile(lambda column: len(set(column)) == 1, zip(*hints, strict=False))
+    length = len(list(same))
+    while length and hint[length - 1] not in '<>"':
+        length -= 1
+    return length
 
 
 def _word(hint: str, pattern: str) -> str | None:
