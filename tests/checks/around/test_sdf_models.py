@@ -119,4 +119,6 @@ def test_a_mistake_is_found_and_its_fix_leaves_nothing(
     assert names in problems[0].message
     assert problems[0].file == str(package / file)
     edit(package / file, new, better)
+    if code == "gazebo-generation":
+        edit(package / MODEL, '"other"', '"gz-sim-joint-state-publisher-system"')
     assert found(package) == []
