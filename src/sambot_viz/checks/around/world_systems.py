@@ -31,14 +31,7 @@ _NEEDED: dict[str, tuple[str, str]] = {
 
 def missing_systems(around: Surroundings) -> Iterator[Problem]:
     """Report a world without the system of a sensor, beside other systems."""
-    worlds = {
-        path: text
-        for launch in around.launches
-        for fact in launch.paths
-        if (path := around.own(fact.value) or "").endswith((".sdf", ".world"))
-        and (text := around.files.text(path)) is not None
-        and _WORLD.search(text)
-    }
+    worlds = _worlds(around)
     if len(worlds) != 1:
         return
     ((path, text),) = worlds.items()
@@ -70,3 +63,15 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
             f'add <plugin filename="{file}" name="gz::sim::systems::{name}">{inner}'
             "</plugin> to the world",
         )
+
+
+def _worlds(around: Surroundings) -> dict[str, str]:
+    """The world files of the package that launch files use, each with its text."""
+    return {
+        path: text
+        for launch in around.launches
+        for fact in launch.paths
+        if (path := around.own(fact.value) or "").endswith((".sdf", ".world"))
+        and (text := around.files.text(path)) is not None
+        and _WORLD.search(text)
+    }
