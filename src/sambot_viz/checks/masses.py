@@ -31,7 +31,11 @@ def masses_in_grams(subject: Subject) -> Iterator[Problem]:
     }
     if sum(dense.values()) <= _TIMES * (sum(masses.values()) - sum(dense.values())):
         return
+    # A mass with its unit is read without it, and that is the finding.
+    cut = [p.message for p in subject.robot.problems if p.code == "sdf-number-cut-off"]
     for name, mass in dense.items():
+        if any(f"of link {name}:" in message for message in cut):
+            continue
         inertial = subject.robot.links[name].inertial
         yield Problem.at(
             inertial.place if inertial else None,
