@@ -106,3 +106,11 @@ def test_values_that_are_possible_are_not_reported(copied: Copied, text: str) ->
     model.write_text(model.read_text().replace(LIDAR, text))
 
     assert [p for p in check(model) if p.severity != "info"] == []
+
+
+def test_a_sensor_of_ros2_control_needs_no_link(copied: Copied) -> None:
+    model = copied("gz") / "urdf" / "cart.urdf.xacro"
+    control = '<ros2_control name="c" type="sensor"><sensor name="f"/></ros2_control>'
+    model.write_text(model.read_text().replace("</robot>", f"{control}\n</robot>"))
+
+    assert [p for p in check(model) if p.severity != "info"] == []

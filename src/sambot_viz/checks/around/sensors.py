@@ -24,6 +24,9 @@ def sensors_without_link(robot: Robot) -> Iterator[Problem]:
     if robot.language == "sdf":
         return
     for part in robot.gazebo:
+        if part.tag != "gazebo":
+            # <ros2_control> has sensors of its own.
+            continue
         name = part.get("reference")
         joint = robot.joints.get(name or "")
         for sensor in part.find_all("sensor"):
