@@ -116,6 +116,17 @@ def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) ->
     assert codes(package) == ["launch-node-unused"]
 
 
+def test_launch_files_of_tests_and_examples_need_not_be_installed(
+    copied: Copied,
+) -> None:
+    package = copied("gz")
+    for folder in ("test", "examples"):
+        (package / folder).mkdir()
+        text = (package / LAUNCH).read_text()
+        (package / folder / "other.launch.py").write_text(text)
+    assert codes(package) == []
+
+
 def test_an_image_may_have_a_bridge_of_its_own(copied: Copied) -> None:
     package = copied("gz")
     edit(

@@ -94,11 +94,15 @@ def _at_wrong_place(
     )
 
 
+_NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests"})
+"""Launch files in these are started by their path."""
+
+
 def _used_folders(around: Surroundings) -> Iterator[tuple[str, Place]]:
     """The folders of the package that are used; the first user comes last."""
     for launch in reversed(around.launches):
         folder, slash, _ = launch.path.partition("/")
-        if slash:
+        if slash and folder not in _NOT_INSTALLED:
             yield folder, Place(launch.shown, 1)
     facts = [fact for launch in around.launches for fact in launch.paths]
     for link in around.robot.links.values():
