@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.elements import ElementType
 from sambot_viz.robot.sdf.loose_text import loose_text
@@ -33,6 +35,18 @@ _REAL = {
 }
 
 
+_WHEEL = re.compile("(wheel|whl|t[iy]re)(?!.*(cast|steer|swivel))")
+
+
+def _example(element: Element, child: str) -> str:
+    """Return a value as it is usual there."""
+    joint = element.parent
+    if element.tag == "axis" and joint and _WHEEL.search(joint.get("name") or ""):
+        # About z it would spin like a top.
+        return "0 1 0"
+    return _EXAMPLES.get(child, "1")
+
+
 def is_needed(element: Element) -> bool:
     """Tell whether an element must not be left out."""
     return element.parent is not None and (element.parent.tag, element.tag) in _DEFAULTS
@@ -58,7 +72,7 @@ def check_left_out(
         return
     tags = and_list(f"<{child}>" for child in missing)
     written = "".join(
-        f"<{child}>{_EXAMPLES.get(child, '1')}</{child}>" for child in missing
+        f"<{child}>{_example(element, child)}</{child}>" for child in missing
     )
     real = _REAL.get(element.tag, "with its real size in metres")
     defaults = {_DEFAULTS[element.tag, child] for child in missing}
