@@ -192,10 +192,19 @@ def test_a_value_that_is_missing_is_told_with_what_sdf_takes(
     assert problem.message.endswith(f": SDF takes {says}")
     fix = problem.hint.removeprefix("write ").partition(" into it, ")[0]
     left = checked(model, MODEL.replace(there, fix))
-    if tag == "axis":
-        assert fix == there, "a wheel does not turn about z"
     # A moment of 1 is as impossible as the default; it is not guessed.
     assert [p.code for p in left] == (["sdf-inertia"] if tag == "inertia" else [])
+
+
+@pytest.mark.parametrize(
+    ("name", "axis"), [("wheel_joint", "0 1 0"), ("wheel_caster_joint", "0 0 1")]
+)
+def test_the_axis_of_a_wheel_is_not_upright(model: Path, name: str, axis: str) -> None:
+    text = MODEL.replace("arm_joint", name).replace("<xyz>0 1 0</xyz>", "")
+
+    hints = [p.hint for p in checked(model, text) if p.code == "sdf-value-missing"]
+
+    assert hints == [f"write <xyz>{axis}</xyz> into it, or another direction"]
 
 
 def test_the_default_that_is_told_is_the_one_that_is_drawn(model: Path) -> None:
