@@ -123,15 +123,7 @@ def unknown_names(around: Surroundings) -> Iterator[Problem]:
     """Report names that are used and neither imported nor defined."""
     for launch in around.launches:
         bound = _bound(launch.tree)
-        if "*" in bound:
-            continue
-        found: dict[str, ast.Name] = {}
-        for node in ast.walk(launch.tree):
-            if isinstance(node, ast.Name) and node.id not in bound:
-                first = found.setdefault(node.id, node)
-                if node.lineno < first.lineno:
-                    found[node.id] = node
-        for name, node in found.items():
+        for name, node in undefined_names(launch.tree).items():
             yield Problem.at(
                 launch.place(node),
                 "error",
@@ -140,6 +132,18 @@ def unknown_names(around: Surroundings) -> Iterator[Problem]:
                 "launch stops with it",
                 _advice(name, bound),
             )
+
+
+def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
+    """Return the names without a value, each where it is used first."""
+    bound = _bound(tree)
+    found: dict[str, ast.Name] = {}
+    for node in ast.walk(tree) if "*" not in bound else ():
+        if isinstance(node, ast.Name) and node.id not in bound:
+            first = found.setdefault(node.id, node)
+            if node.lineno < first.lineno:
+                found[node.id] = node
+    return found
 
 
 def _advice(name: str, bound: set[str]) -> str:

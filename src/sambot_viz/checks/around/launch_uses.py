@@ -11,6 +11,7 @@ import yaml
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import keyword
 from sambot_viz.checks.around.files.parameters import flag
+from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -45,8 +46,13 @@ _PROGRAMS: dict[str, str] = {
 
 
 def unused_actions(around: Surroundings) -> Iterator[Problem]:
-    """Report nodes that are built and are nowhere in the description."""
+    """Report nodes that are built and are nowhere in the description.
+
+    Where a name is misspelt, that is the finding.
+    """
     for launch in around.launches:
+        if undefined_names(launch.tree):
+            continue
         text = around.files.text(launch.path) or ""
         described = next(
             (c for c in launch.calls if call_name(c.func) == "LaunchDescription"), None
