@@ -50,12 +50,14 @@ def test_task_72_a_link_for_another_browser(
 
 
 def test_task_73_a_page_that_needs_no_program(s: Desk, chromium: Chromium) -> None:
-    user, wheel = s.user, node_of(s.viz, "drivewhl_l_link")
+    user = s.user
     user.menu("File", "Export Page…")
     user.click("radio", re.compile("^All joints"), ("dialog", "Export Page"))
     user.click("button", "Export", ("dialog", "Export Page"))
     file = s.downloads / "sam_bot.html"
     user.until(lambda: file.exists() and b"</html>" in file.read_bytes(), 30.0)
+    # The node that is in the file: what a task before has undone may make another.
+    wheel = node_of(s.viz, "drivewhl_l_link")
     page = open_page(chromium, 800, 640)
     try:
         page.goto(f"file://{file}?fixedDpr=0.1")
