@@ -8,6 +8,7 @@ from typing import Any
 import yaml
 
 from sambot_viz.checks.around.bridge_types import counterpart
+from sambot_viz.checks.around.bridges import DIRECTIONS
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import pairs, place_of
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -23,7 +24,6 @@ _OTHER_KEYS = frozenset(
     ros_type_name service_name subscriber_queue type_name
     """.split()
 )
-_WAYS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 _YAML: Any = yaml
 
 
@@ -35,8 +35,10 @@ def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
                 continue
             yield from _misspelt_keys(entry)
             way = entry.get("direction")
-            near = nearest(way.value.upper(), _WAYS, 0.7) if way is not None else None
-            if way is not None and near is not None and way.value not in _WAYS:
+            near = (
+                nearest(way.value.upper(), DIRECTIONS, 0.7) if way is not None else None
+            )
+            if way is not None and near is not None and way.value not in DIRECTIONS:
                 yield Problem.at(
                     way.place,
                     "error",

@@ -20,7 +20,8 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
-_TO_ROS, _TO_GZ, _BOTH = "GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL"
+DIRECTIONS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
+_TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
 _ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
 _OF_IMAGES = "image_bridge"
 """Carries only images, and finds their types itself."""
@@ -50,6 +51,16 @@ class BridgeEntry:
     def kind(self) -> str:
         """The type in Gazebo, without its package."""
         return self.gz_type.value.rpartition(".")[2]
+
+    @property
+    def reaches_ros(self) -> bool:
+        """True when it brings messages to ROS."""
+        return self.direction.value != _TO_GZ
+
+    @property
+    def scoped(self) -> bool:
+        """True for a name that Gazebo makes itself."""
+        return bare(self.gz.value).startswith(_SCOPED)
 
 
 def entries(around: Surroundings) -> list[BridgeEntry]:
@@ -140,8 +151,7 @@ def _misnamed(
         name = bare(entry.gz.value)
         if name in alike or entry.direction.value not in ways:
             continue
-        if name.startswith(_SCOPED):
-            # The names that Gazebo makes itself.
+        if entry.scoped:
             continue
         left = {k: t for k, t in alike.items() if t.wanted and k not in carried}
         alone = len(alike) == 1 and sum(e.kind == entry.kind for e in every) == 1
@@ -162,7 +172,7 @@ def _misnamed(
 def scoped_frames(around: Surroundings) -> Iterator[Problem]:
     """Report sensors whose messages reach ROS with a frame that Gazebo makes up."""
     every = entries(around)
-    if any(e.kind == "Pose_V" and bare(e.gz.value).startswith(_SCOPED) for e in every):
+    if any(e.kind == "Pose_V" and e.scoped for e in every):
         # A bridge may bring the frames of Gazebo too.
         return
     said = {text for launch in around.launches for text in launch.strings}
@@ -204,4 +214,4 @@ def _names_frame(sensor: Element) -> bool:
 
 def _brings(entry: BridgeEntry, topic: GazeboTopic) -> bool:
     same = bare(entry.gz.value) == bare(topic.name.value)
-    return same and entry.kind == topic.kind and entry.direction.value != _TO_GZ
+    return same and entry.kind == topic.kind and entry.reaches_ros

@@ -6,7 +6,13 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.exchanged_ends import exchanged_ends
-from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.files.gazebo import (
+    SENSOR_FRAMES,
+    Fact,
+    Plugin,
+    facts,
+    sensors,
+)
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import (
     StateFilter,
@@ -38,7 +44,6 @@ _ODOMS: dict[str, tuple[str, ...]] = {
 
 _DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
 _DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
-_SENSOR_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
 _NO_BASE = frozenset({"map", "odom", "world"})
 
 
@@ -73,10 +78,10 @@ def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     """Give each frame of the robot, who names it, and the link it probably is."""
     for plugin in around.plugins:
         tags = _DRIVE_BASES if plugin.is_drive else ()
-        for fact in plugin.all(*tags, *(_SENSOR_FRAMES if plugin.sensor else ())):
+        for fact in plugin.all(*tags, *(SENSOR_FRAMES if plugin.sensor else ())):
             yield fact, f"the plugin {plugin.filename}", plugin.link
     for link, sensor in sensors(around.robot.gazebo):
-        for fact in facts(sensor, *_SENSOR_FRAMES):
+        for fact in facts(sensor, *SENSOR_FRAMES):
             yield fact, f"the sensor {sensor.get('name')}", link
     for one in filters(around):
         if "base_link_frame" in one.given:
@@ -293,6 +298,6 @@ def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
         return None
     for entry in entries(around):
         if bare(entry.gz.value) == bare(topic.value) and entry.kind == "Pose_V":
-            if bare(entry.ros.value) == "tf" and entry.direction.value != "ROS_TO_GZ":
+            if bare(entry.ros.value) == "tf" and entry.reaches_ros:
                 return entry.ros
     return None

@@ -12,7 +12,6 @@ from sambot_viz.checks.around.systems import attributes
 from sambot_viz.errors import Problem
 
 _SENDER = "joint-state-publisher-system"
-_SCOPED = ("world/", "model/")
 
 
 def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
@@ -21,8 +20,8 @@ def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
     if not drives or any("ros2_control" in p.filename for p in around.plugins):
         return
     carried = (e for e in entries(around) if e.kind == "Model")
-    entry = next((e for e in carried if e.direction.value != "ROS_TO_GZ"), None)
-    if entry is None or bare(entry.gz.value).startswith(_SCOPED):
+    entry = next((e for e in carried if e.reaches_ros), None)
+    if entry is None or entry.scoped:
         return
     topic = f"<topic>{bare(entry.gz.value)}</topic>"
     senders = [p for p in around.plugins if _SENDER in p.filename]

@@ -5,14 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins, sensors
+from sambot_viz.checks.around.files.gazebo import (
+    SENSOR_FRAMES,
+    Fact,
+    facts,
+    plugins,
+    sensors,
+)
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xml.element import Element
 
-_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
 _FULL_TURN = 2 * math.pi + 0.01
@@ -68,7 +73,7 @@ def _named(sensor: Element) -> str:
 
 def _frame_of(robot: Robot, sensor: Element) -> str | None:
     """Return the link that a sensor names as its frame."""
-    named = facts(sensor, *_FRAMES)
+    named = facts(sensor, *SENSOR_FRAMES)
     return next((fact.value for fact in named if fact.value in robot.links), None)
 
 
@@ -138,7 +143,7 @@ def frames_of_sensors(robot: Robot) -> Iterator[Problem]:
     carriers = {link: sensor for link, sensor in sensors(robot.gazebo)}
     parents = {joint.child: joint.parent for joint in robot.joints.values()}
     for link, sensor in sensors(robot.gazebo):
-        for fact in facts(sensor, *_FRAMES)[:1]:
+        for fact in facts(sensor, *SENSOR_FRAMES)[:1]:
             other = carriers.get(fact.value)
             if other is None or fact.value == link or link not in robot.links:
                 continue

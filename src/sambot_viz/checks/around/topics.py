@@ -105,7 +105,7 @@ def _renamed(
         agree = all(bare(u.parameter.fact.value) == gz for u in readers)
         if len(readers) < 2 or not agree or gz in names or gz == bare(ros.value):
             continue
-        if around.said_elsewhere(gz) or entry.direction.value == "ROS_TO_GZ":
+        if around.said_elsewhere(gz) or not entry.reaches_ros:
             continue
         first = readers[0].parameter
         problem = Problem.at(
@@ -173,7 +173,7 @@ def _used(around: Surroundings) -> Iterator[_Used]:
 def published_topics(around: Surroundings) -> Iterator[Published]:
     """Give the topics in ROS that bridges and plugins publish."""
     for entry in entries(around):
-        if entry.direction.value != "ROS_TO_GZ":
+        if entry.reaches_ros:
             kind = entry.ros_type.value.rpartition("/")[2]
             yield Published(entry.ros, kind, "the bridge")
     for plugin in around.plugins:

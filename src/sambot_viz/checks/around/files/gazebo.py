@@ -16,6 +16,8 @@ Generation = Literal["gz", "classic"]
 
 _GZ = re.compile(r"(lib)?(gz-sim|ignition-gazebo|gz_|ign_)")
 _DRIVES = ("diff-drive-system", "diff_drive.so", "skid_steer_drive.so")
+SENSOR_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
+"""Elements in which a sensor, or its plugin, names its frame."""
 _OPEN = re.compile(r"\$\(|\$\{")
 
 
