@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.files.launch import NODES, LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE, keyword
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
@@ -15,7 +15,6 @@ _PACKAGES = frozenset(
     """.split()
 )
 _OPEN = frozenset({"ComposableNodeContainer", "LoadComposableNodes", "OpaqueFunction"})
-_NODES = frozenset({"Node", "LifecycleNode"})
 
 
 def starts_only_known(around: Surroundings) -> bool:
@@ -32,7 +31,7 @@ def _is_known(launch: LaunchFile, around: Surroundings) -> bool:
         name = call_name(call.func)
         if name in _OPEN:
             return False
-        if name in _NODES and text(keyword(call, "package")) not in _PACKAGES:
+        if name in NODES and text(keyword(call, "package")) not in _PACKAGES:
             return False
         if name == "IncludeLaunchDescription":
             source = text(keyword(call, "launch_description_source", 0)) or ""

@@ -122,8 +122,9 @@ def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
 def unknown_names(around: Surroundings) -> Iterator[Problem]:
     """Report names that are used and neither imported nor defined."""
     for launch in around.launches:
-        bound = _bound(launch.tree)
-        for name, node in undefined_names(launch.tree).items():
+        undefined = undefined_names(launch.tree)
+        bound = _bound(launch.tree) if undefined else set[str]()
+        for name, node in undefined.items():
             yield Problem.at(
                 launch.place(node),
                 "error",

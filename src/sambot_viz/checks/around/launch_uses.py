@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import yaml
 
-from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.launch_values import keyword
+from sambot_viz.checks.around.files.launch import NODES, LaunchFile
+from sambot_viz.checks.around.files.launch_values import keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.place import where
@@ -209,7 +209,7 @@ def times_as_text(around: Surroundings) -> Iterator[Problem]:
     """Report use_sim_time that is given to a node as a text."""
     for launch in around.launches:
         for call in launch.actions:
-            if call_name(call.func) not in ("Node", "LifecycleNode"):
+            if call_name(call.func) not in NODES:
                 continue
             for item in launch.values.items(keyword(call, "parameters")):
                 if isinstance(item, ast.Dict):
@@ -217,9 +217,7 @@ def times_as_text(around: Surroundings) -> Iterator[Problem]:
 
 
 def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
-    for key, value in zip(given.keys, given.values, strict=True):
-        if not isinstance(key, ast.Constant) or key.value != "use_sim_time":
-            continue
+    for value in values_for(given, "use_sim_time"):
         text = value.value if isinstance(value, ast.Constant) else None
         truth = flag(text) if isinstance(text, str) else None
         if truth is not None:

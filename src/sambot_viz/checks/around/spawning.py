@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.launch_values import keyword
+from sambot_viz.checks.around.files.launch_values import keyword, values_for
 from sambot_viz.checks.launch_files import call_name
 
 _SPAWNS = "gz_spawn_model.launch.py"
@@ -54,7 +54,7 @@ def _in_table(
     table = inner.value if isinstance(inner, ast.Attribute) else given
     if not isinstance(table, ast.Dict):
         return
-    for key, value in zip(table.keys, table.values, strict=True):
+    for value in values_for(table, option):
         text = launch.values.text(value)
-        if isinstance(key, ast.Constant) and key.value == option and text:
+        if text:
             yield Fact(text, launch.place(value))

@@ -9,11 +9,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from sambot_viz.checks.around.files.gazebo import Fact, Generation
-from sambot_viz.checks.around.files.launch_values import SHARE, LaunchValues, keyword
+from sambot_viz.checks.around.files.launch_values import (
+    SHARE,
+    LaunchValues,
+    keyword,
+    values_for,
+)
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 
-_NODES = frozenset({"Node", "LifecycleNode"})
+NODES = frozenset({"Node", "LifecycleNode"})
+"""Actions that start a node."""
+
 _PACKAGES: dict[str, Generation] = {
     "gazebo_ros": "classic",
     "ros_gz_sim": "gz",
@@ -159,7 +166,7 @@ class LaunchFile:
     @cached_property
     def nodes(self) -> list[LaunchNode]:
         """The nodes that are always started."""
-        return [self._node(c) for c in self.actions if call_name(c.func) in _NODES]
+        return [self._node(c) for c in self.actions if call_name(c.func) in NODES]
 
     def _node(self, call: ast.Call) -> LaunchNode:
         text = self.values.text
@@ -191,10 +198,9 @@ class LaunchFile:
         )
 
     def _sim_time(self, given: ast.Dict) -> Fact | None:
-        for key, value in zip(given.keys, given.values, strict=True):
-            if isinstance(key, ast.Constant) and key.value == "use_sim_time":
-                text = self.values.text(value)
-                return None if text is None else Fact(text, self.place(value))
+        for value in values_for(given, "use_sim_time"):
+            text = self.values.text(value)
+            return None if text is None else Fact(text, self.place(value))
         return None
 
     def _remappings(self, call: ast.Call) -> Iterator[tuple[str, str]]:
@@ -219,7 +225,7 @@ class LaunchFile:
         name, place = call_name(call.func), self.place(call)
         if name in _ACTIONS:
             yield Start(_ACTIONS[name], name, place)
-        elif name in _NODES:
+        elif name in NODES:
             package = self.values.text(keyword(call, "package")) or ""
             program = self.values.text(keyword(call, "executable")) or ""
             if package in _PACKAGES:

@@ -37,6 +37,13 @@ def keyword(call: ast.Call, name: str, position: int | None = None) -> ast.expr 
     return None
 
 
+def values_for(table: ast.Dict, key: str) -> Iterator[ast.expr]:
+    """Give the values that a dict of the file has for a text as its key."""
+    for node, value in zip(table.keys, table.values, strict=True):
+        if isinstance(node, ast.Constant) and node.value == key:
+            yield value
+
+
 class LaunchValues:
     """Works out texts: paths in packages, names, defaults of launch arguments.
 
