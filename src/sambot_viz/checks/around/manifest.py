@@ -33,7 +33,7 @@ def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
     text, shown = around.files.text(_FILE), around.files.shown(_FILE)
     if text is None or len(text) > _LONGEST:
         return
-    root = _root(text)
+    root = around.manifest
     fault = _fault(text, around) if root is None else None
     if fault is not None:
         yield Problem.at(
@@ -49,16 +49,17 @@ def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
 
 def named_as_its_folder(around: Surroundings) -> bool:
     """True when package.xml says no name that colcon takes."""
-    root = _root(around.files.text(_FILE) or "")
+    root = around.manifest
     name = root.find("name") if root is not None else None
     return name is None or not _NAME.fullmatch(name.text.strip())
 
 
-def _root(text: str) -> Element | None:
+def _is_xml(text: str) -> bool:
     try:
-        return parse_xml(text, _FILE)
+        parse_xml(text, _FILE)
     except XmlFault:
-        return None
+        return False
+    return True
 
 
 def _fault(text: str, around: Surroundings) -> Fault | None:
@@ -70,7 +71,7 @@ def _fault(text: str, around: Surroundings) -> Fault | None:
             f"write {_SMALLEST.format(name)}",
         )
     lines = text.splitlines()
-    if _root(f"{text}\n</package>") is not None:
+    if _is_xml(f"{text}\n</package>"):
         last = max(n for n, line in enumerate(lines, 1) if line.strip())
         return Fault(
             last,
@@ -79,7 +80,7 @@ def _fault(text: str, around: Surroundings) -> Fault | None:
         )
     for n, line in enumerate(lines):
         for better, cause, hint in _repairs(line):
-            if _root("\n".join([*lines[:n], better, *lines[n + 1 :]])) is not None:
+            if _is_xml("\n".join([*lines[:n], better, *lines[n + 1 :]])):
                 return Fault(n + 1, f"this file is no XML: {cause}", hint)
     try:
         parse_xml(text, _FILE)
@@ -94,20 +95,13 @@ def _fault(text: str, around: Surroundings) -> Fault | None:
 
 def _repairs(line: str) -> Iterator[tuple[str, str, str]]:
     """Give better lines for one, each with the cause and what to write."""
-    if match := _OPENED_TWICE.search(line):
-        tag = match[1]
-        better = f"<{tag}{match[2]}>{match[3]}</{tag}>"
+    if match := _OPENED_TWICE.search(line) or _CLOSED_AS_OTHER.search(line):
+        better = f"<{match[1]}{match[2]}>{match[3]}</{match[1]}>"
+        twice = match.re is _OPENED_TWICE
+        wrong = "opened twice and not closed" if twice else f"closed by </{match[4]}>"
         yield (
             line.replace(match[0], better),
-            f"<{tag}> is opened twice and not closed",
-            f"write {better}",
-        )
-    elif match := _CLOSED_AS_OTHER.search(line):
-        tag, other = match[1], match[4]
-        better = f"<{tag}{match[2]}>{match[3]}</{tag}>"
-        yield (
-            line.replace(match[0], better),
-            f"<{tag}> is closed by </{other}>",
+            f"<{match[1]}> is {wrong}",
             f"write {better}",
         )
     elif match := _NOT_CLOSED.search(line):
@@ -154,7 +148,7 @@ def _proposed(around: Surroundings, said: str) -> str:
 
 def build_types(around: Surroundings) -> Iterator[Problem]:
     """Report a build type whose file is not there, where that of the other is."""
-    root = _root(around.files.text(_FILE) or "")
+    root = around.manifest
     kinds = [e for e in root.iter() if e.tag == "build_type"] if root else []
     if len(kinds) != 1 or kinds[0].get("condition") is not None:
         return

@@ -14,6 +14,8 @@ from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.package_files import PackageFiles
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import Element, parse_xml
 
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
 _MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")
@@ -67,6 +69,15 @@ class Surroundings:
     def parameters(self) -> tuple[Parameter, ...]:
         """All parameters in all YAML files."""
         return tuple(p for file in self.yaml_files for p in file.parameters)
+
+    @cached_property
+    def manifest(self) -> Element | None:
+        """The root of package.xml; None when there is none that is XML."""
+        name = "package.xml"
+        try:
+            return parse_xml(self.files.text(name) or "", name)
+        except XmlFault:
+            return None
 
     @cached_property
     def cmake(self) -> CMakeFile | None:
