@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.checks.rule import Subject, listed
+from sambot_viz.checks.rule import Subject, axis_text, listed
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.parts import Cylinder, Joint, Shape
+from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
 
 _Vector = npt.NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
             yield _in_one_place(other, joint, robot.language)
 
 
-def _in_one_place(one: Joint, other: Joint, language: str) -> Problem:
+def _in_one_place(one: Joint, other: Joint, language: Language) -> Problem:
     x, y, z = one.origin.xyz
     written = _numbers(np.array((x, -y, z)))
     element = "<pose>" if language == "sdf" else "<origin>"
@@ -133,7 +133,7 @@ def _numbers(values: _Vector) -> str:
     return " ".join(f"{round(float(values[i]), 4) + 0.0:g}" for i in range(3))
 
 
-def _laid_down(shape: Shape, axle: _Vector, language: str) -> str:
+def _laid_down(shape: Shape, axle: _Vector, language: Language) -> str:
     """Say how a cylinder is laid along its axle."""
     rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0"}.get(_named(axle))
     if rpy is None:
@@ -144,8 +144,7 @@ def _laid_down(shape: Shape, axle: _Vector, language: str) -> str:
     return f'lay it down: <origin xyz="{xyz}" rpy="{rpy}"/> for the shape'
 
 
-def _turned_axis(joint: Joint, middle: _Vector, language: str) -> str:
+def _turned_axis(joint: Joint, middle: _Vector, language: Language) -> str:
     """Say which axis fits a wheel that stands upright."""
     xyz = _UNITS.get(_named(middle)) or _numbers(middle)
-    written = f"<xyz>{xyz}</xyz>" if language == "sdf" else f'<axis xyz="{xyz}"/>'
-    return f"write {written} for joint {joint.name}"
+    return f"write {axis_text(xyz, language)} for joint {joint.name}"

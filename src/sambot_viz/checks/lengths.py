@@ -25,7 +25,7 @@ from sambot_viz.robot.parts import (
 
 _HOUSE, _ROOM = 15.0, 4.0
 """Sides of a shape [m]: the longest is longer, and the shortest is longer."""
-_UNITS = {"centimetres": 0.01, "millimetres": 0.001}
+UNITS = {"centimetres": 0.01, "millimetres": 0.001}
 _USUAL = 0.3
 """Usual size of a robot [m], where its joints do not say."""
 _NEAR = 0.05
@@ -134,9 +134,9 @@ def _lengths_of(robot: Robot) -> _Lengths | None:
         return None
     reach = max((_reach(joint.origin) for joint in robot.joints.values()), default=0.0)
     usual = 2 * reach if _NEAR < reach <= _ROOM else _USUAL
-    unit = min(_UNITS, key=lambda u: abs(math.log(largest * _UNITS[u] / usual)))
-    size = largest * _UNITS[unit]
-    return _Lengths(unit, _UNITS[unit], size, reach > max(_ROOM, _APART * size))
+    unit = min(UNITS, key=lambda u: abs(math.log(largest * UNITS[u] / usual)))
+    size = largest * UNITS[unit]
+    return _Lengths(unit, UNITS[unit], size, reach > max(_ROOM, _APART * size))
 
 
 def _reach(origin: Origin) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from sambot_viz.checks.lengths import written_lengths
+from sambot_viz.checks.lengths import UNITS, written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.model import Robot
@@ -28,7 +28,6 @@ _CARRIES = 2.5
 """A part that carries the others may be so many times larger than these."""
 _LINES, _ELEMENT = 4, 2000
 """Of its element a property is looked for in so many lines, and characters."""
-_UNITS = (("centimetres", 0.01), ("millimetres", 0.001))
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +184,8 @@ def _single(large: Sequence[_Written], usual: float) -> Iterator[Problem]:
 def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
     """Return the unit in which a length is no larger than the robot."""
     most = _CARRIES * usual if element.carries else usual
-    return next((unit for unit in _UNITS if length * unit[1] <= most), _UNITS[-1])
+    units = list(UNITS.items())
+    return next((unit for unit in units if length * unit[1] <= most), units[-1])
 
 
 def _problem(

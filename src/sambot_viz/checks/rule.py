@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.parts import Link, Shape
+from sambot_viz.robot.parts import Language, Link, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh
@@ -56,6 +56,11 @@ def listed(names: Iterable[str], most: int = 6) -> str:
     if len(known) < 2:
         return "".join(known)
     return f"{', '.join(known[:-1])} and {known[-1]}"
+
+
+def axis_text(xyz: str, language: Language) -> str:
+    """Write the direction of a joint's axis, as SDF or URDF has it."""
+    return f"<xyz>{xyz}</xyz>" if language == "sdf" else f'<axis xyz="{xyz}"/>'
 
 
 def number(value: float) -> str:

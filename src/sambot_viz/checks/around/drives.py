@@ -11,7 +11,7 @@ from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.wheel_joints import meant_wheel, side_in
-from sambot_viz.checks.rule import listed, number
+from sambot_viz.checks.rule import axis_text, listed, number
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
@@ -184,9 +184,6 @@ def _turning(robot: Robot, left: _DriveWheel, right: _DriveWheel) -> Problem | N
     joints = [wheel.joint for wheel in back]
     names = listed(joint.name for joint in joints)
     axis = " ".join(number(0.0 - value) for value in joints[0].axis)
-    written = (
-        f"<xyz>{axis}</xyz>" if robot.language == "sdf" else f'<axis xyz="{axis}"/>'
-    )
     return Problem.at(
         joints[0].place,
         "warning",
@@ -198,7 +195,7 @@ def _turning(robot: Robot, left: _DriveWheel, right: _DriveWheel) -> Problem | N
             if len(back) == 2
             else "turns the robot where straight on is meant"
         ),
-        f"write {written} for {names}",
+        f"write {axis_text(axis, robot.language)} for {names}",
     )
 
 

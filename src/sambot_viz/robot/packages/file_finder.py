@@ -130,11 +130,7 @@ class FileFinder:
         code, message, hint = _DOUBTS[found.doubt or "path-only"]
         path = found.path or "no file"
         text = message.format(path=path, name=found.path.name if found.path else "")
-        hint = (
-            _with_right_package(filename, found)
-            or self._with_longer_name(filename, found)
-            or hint
-        )
+        hint = self._with_near_package(filename, found) or hint
         self._warn(code, f"the {kind} {filename}: {text}", hint, filename, element)
 
     def _report_missing(
@@ -145,11 +141,7 @@ class FileFinder:
             searched = ", ".join(found.searched[:4]) or "nowhere"
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
-            hint = (
-                _with_right_package(filename, found)
-                or self._with_longer_name(filename, found)
-                or hint
-            )
+            hint = self._with_near_package(filename, found) or hint
             if "\\" in package:
                 reason = "it has \\ in place of /"
                 right = filename.replace("\\", "/")
@@ -169,6 +161,11 @@ class FileFinder:
         stand_in = "; a placeholder is drawn" if kind == "mesh" else ""
         text = f"the {kind} {filename} was not found: {reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, filename, element)
+
+    def _with_near_package(self, filename: str, found: Resolution) -> str:
+        """Advise to name a package with a name like it, or with words behind it."""
+        right = _with_right_package(filename, found)
+        return right or self._with_longer_name(filename, found)
 
     def _with_longer_name(self, filename: str, found: Resolution) -> str:
         """Advise to name the only package that has the name and words behind it."""
