@@ -158,17 +158,19 @@ class User:
     def row(self, panel: str, *names: str) -> Thing:
         """Wait for the row of a panel with the last name, below rows with those before.
 
-        A name may leave out what stands behind a colon, as in "Status: Ok". A browser
-        names rows of a long list only near the screen: the user scrolls through it.
+        Levels between may be left out; of several rows the one with the fewest is meant:
+        a status may have the name of a property. A name may leave out what stands behind
+        a colon, as in "Status: Ok". A browser names rows of a long list only near the
+        screen: the user scrolls through it.
         """
         at = 0
 
         def found() -> Thing:
             nonlocal at
             rows = rows_of(self.see().one("treegrid", panel))
-            fitting = [row for path, row in rows if _is_path(path, names)]
+            fitting = [(path, row) for path, row in rows if _is_path(path, names)]
             if fitting:
-                return fitting[0]
+                return min(fitting, key=lambda found: len(found[0]))[1]
             if any(path[-1] == "" for path, _ in rows):
                 at = (at + 15) % len(rows)
                 self.go_to(rows[at][1])
