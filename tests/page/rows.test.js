@@ -130,6 +130,21 @@ test("the numbers of a vector are rows of their own", () => {
   assert.equal(rows.get("v/.X"), undefined);
 });
 
+test("who stops listening twice does not stop those who came after", () => {
+  const rows = new Rows();
+  /** @type {string[]} */
+  const heard = [];
+  const stop = rows.listen("a", () => heard.push("first"));
+  stop();
+  const later = rows.listen("a", () => heard.push("later"));
+  stop();
+  rows.notify("a");
+  assert.deepEqual(heard, ["later"]);
+  later();
+  rows.notify("a");
+  assert.deepEqual(heard, ["later"]);
+});
+
 test("a value that is hoped for is shown, and put back when it is refused", () => {
   const { rows } = grid();
   rows.hope("a", 7);

@@ -230,7 +230,7 @@ export class Rows {
   /**
    * Call a function after each change of a row, of data, of a command, of the list of a panel ("panel:NAME"), or
    * after all rows were sent ("whole:session", "whole:browser").
-   * @param {string} key @param {() => void} listener @returns {() => void} stops it
+   * @param {string} key @param {() => void} listener @returns {() => void} stops it; again, it does nothing
    */
   listen(key, listener) {
     if (!this.listeners.has(key)) this.listeners.set(key, new Set());
@@ -238,7 +238,8 @@ export class Rows {
     set.add(listener);
     return () => {
       set.delete(listener);
-      if (!set.size) this.listeners.delete(key);
+      // Others may have begun to listen since the last one of these has stopped.
+      if (!set.size && this.listeners.get(key) === set) this.listeners.delete(key);
     };
   }
 
