@@ -158,10 +158,10 @@ class User:
     def row(self, panel: str, *names: str) -> Thing:
         """Wait for the row of a panel with the last name, below rows with those before.
 
-        Levels between may be left out; of several rows the one with the fewest is meant:
-        a status may have the name of a property. A name may leave out what stands behind
-        a colon, as in "Status: Ok". A browser names rows of a long list only near the
-        screen: the user scrolls through it.
+        Levels between may be left out; of several rows the one with the fewest is
+        meant: a status may have the name of a property. A name may leave out what
+        stands behind a colon, as in "Status: Ok". A browser names rows of a long list
+        only near the screen: the user scrolls through it.
         """
         at = 0
 
