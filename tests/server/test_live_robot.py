@@ -104,8 +104,9 @@ def test_a_page_that_only_waited_has_no_view_of_its_own_when_it_comes_back(
     with Visualizer(source=peer.uri, port=0) as viz:
         session = session_of(viz)
         # It has kept the camera that it had before the program was started again.
-        protocol(viz.viser.get_port())
-        eventually(lambda: len(session.clients.all) == 1)
+        page = protocol(viz.viser.get_port())
+        # A report of it that came after "first" would end that.
+        page.settle(viz.viser)
         (client,) = session.clients.all.values()
         panel = panel_of(ViewsPanel, session, client)
         assert not data_of(panel)["view/waits"]
