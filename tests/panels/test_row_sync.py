@@ -173,6 +173,28 @@ def test_rows_that_were_replaced_are_sent_whole_and_keys_that_are_gone_as_null(
     made.close()
 
 
+@pytest.mark.parametrize("only_changed", [False, True])
+def test_rows_in_the_same_order_below_another_one_are_sent_whole(
+    worker: Worker, only_changed: bool
+) -> None:
+    panel = Numbers(worker, 0)
+    rows = [Row("a", "", "group"), Row("b", "", "group")]
+    panel.rows = lambda: rows
+    panel.changed_by = (panel.moved,)
+    made = RowSync(worker, [panel], "session")
+    page = Page(made)
+    page.ask()
+    rows[1] = Row("b", "a", "group")
+    if only_changed:
+        panel.changed_rows = lambda: [rows[1]]
+        panel.moved.touch()
+    else:
+        made.remake(panel)
+    (sent,) = page.ask()["panels"].values()
+    assert [(row["id"], row["in"]) for row in sent] == [("a", ""), ("b", "a")]
+    made.close()
+
+
 def test_what_pages_have_to_be_sent_is_packed_once_for_those_that_are_as_far(
     worker: Worker,
 ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 
@@ -125,7 +125,7 @@ class RowSync:
         before, self._items[panel.name] = self._items[panel.name], made
         moved = self._moved_rows & made.keys()
         self._moved_rows -= moved
-        if before is None or list(before) != list(made):
+        if before is None or _places(before) != _places(made):
             self.store.replace(panel.name, [item.json() for item in made.values()])
             return True
         differing = [
@@ -140,7 +140,10 @@ class RowSync:
         rows, items = panel.changed_rows(), self._items[panel.name]
         if rows is None or items is None:
             return self._make(panel)
-        items.update((row.id, row) for row in rows)
+        made = {**items, **{row.id: row for row in rows}}
+        if _places(items) != _places(made):
+            return self._make(panel)
+        self._items[panel.name] = made
         return any([self._update(row) for row in rows])
 
     def _update(self, item: Item) -> bool:
@@ -160,6 +163,11 @@ class RowSync:
                 self._moved_rows.add(row_id)
                 changed = True
         return changed
+
+
+def _places(items: Mapping[str, Item]) -> list[tuple[str, str]]:
+    """Return all items in order, each with what it is below: so a tree is laid out."""
+    return [(i, x.parent if isinstance(x, Row) else "") for i, x in items.items()]
 
 
 def _is_same(item: Item, before: Item) -> bool:
