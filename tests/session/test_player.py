@@ -190,6 +190,52 @@ def test_the_joints_follow_until_a_user_takes_them(
     assert not np.allclose(viz.frames.lookup("base_link", WHEEL).matrix, turned)
 
 
+def test_what_turns_or_drives_stops_when_the_joints_follow_again(
+    viz: Visualizer, player: Player
+) -> None:
+    session = session_of(viz)
+    viz.player.jump(2.0)
+    followed, data = dict(viz.joint_positions), session.data
+    assert data is not None
+    data.follow(False)
+    session.motion.turn(LEFT, 1.0)
+    session.motion.advance(0.25)
+    assert dict(viz.joint_positions) != followed
+    data.follow(True)
+    assert not session.motion.moving and session.motion.turning.value == ()
+    session.motion.advance(0.25)
+    assert dict(viz.joint_positions) == followed
+    with pytest.raises(JointError, match="Follow"):
+        session.motion.turn(LEFT, 1.0)
+    session.drive.reset()
+    assert dict(viz.joint_positions) == followed
+
+
+def test_an_edit_of_joints_is_undone_when_they_do_not_follow(
+    viz: Visualizer, player: Player
+) -> None:
+    session = session_of(viz)
+    viz.player.jump(2.0)
+    followed, data = dict(viz.joint_positions), session.data
+    assert data is not None
+    data.follow(False)
+    with session.history.acting(0):
+        session.robot.set_positions({LEFT: 0.5})
+    data.follow(True)
+    with pytest.raises(UsageError, match=r"cannot be undone: .* Follow off"):
+        session.history.undo(0)
+    assert dict(viz.joint_positions) == followed
+    data.follow(False)
+    assert session.history.undo(0) == f"Move {LEFT}"
+    assert dict(viz.joint_positions) == followed
+    data.follow(True)
+    with pytest.raises(UsageError, match=r"cannot be done again: .* Follow off"):
+        session.history.redo(0)
+    data.follow(False)
+    assert session.history.redo(0) == f"Move {LEFT}"
+    assert viz.joint_positions[LEFT] == 0.5
+
+
 def test_wheels_that_have_turned_often_stay_on_their_sliders(
     viz: Visualizer, player: Player
 ) -> None:

@@ -33,6 +33,10 @@ class _Action:
     of_document: bool = False
 
 
+class NotNowError(SambotVizError):
+    """A step cannot be undone or done again now, but later it can."""
+
+
 def _check(step: Step, may_edit: bool) -> None:
     """Let viewers touch only what they have done as viewers."""
     if not (may_edit or step.by_viewer):
@@ -212,8 +216,8 @@ class History:
             What was undone; None when there is nothing to undo.
 
         Raises:
-            UsageError: it needs control, or cannot be undone any more, because of
-                what was done since; then it is forgotten.
+            UsageError: it needs control, or cannot be undone now, or not any more,
+                because of what was done since; then it is forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
@@ -222,7 +226,8 @@ class History:
             _check(history.done[-1], may_edit)
             step = history.done.pop()
             edits = step.edits[::-1]
-            self._run("undone", history, step, [(e.undo, e.redo) for e in edits])
+            actions = [(e.undo, e.redo) for e in edits]
+            self._run("undone", history, history.done, step, actions)
             history.undone.append(step)
             self._applied.discard(step.number or 0)
             history.tell(step)
@@ -240,8 +245,8 @@ class History:
             What was done again; None when there is nothing.
 
         Raises:
-            UsageError: it needs control, or cannot be done again; then it is
-                forgotten.
+            UsageError: it needs control, or cannot be done again now, or not any more;
+                then it is forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
@@ -250,7 +255,7 @@ class History:
             _check(history.undone[-1], may_edit)
             step = history.undone.pop()
             actions = [(e.redo, e.undo) for e in step.edits]
-            self._run("done again", history, step, actions)
+            self._run("done again", history, history.undone, step, actions)
             history.done.append(step)
             if step.number is not None:
                 self._applied.add(step.number)
@@ -262,10 +267,14 @@ class History:
         self,
         what: str,
         history: ClientSteps,
+        steps: list[Step],
         step: Step,
         actions: list[tuple[Callable[[], None], Callable[[], None]]],
     ) -> None:
-        """Run the first functions of all pairs; the second ones undo them."""
+        """Run the first functions of all pairs; the second ones undo them.
+
+        A step that cannot be now goes back to those that it was taken from.
+        """
         reached: list[Callable[[], None]] = []
         self._undoing = True
         try:
@@ -276,6 +285,8 @@ class History:
         except SambotVizError as error:
             for reverse in reversed(reached):
                 reverse()
+            if isinstance(error, NotNowError):
+                steps.append(step)
             history.tell()
             label = step.edits[0].label
             raise UsageError(f"'{label}' cannot be {what}: {error}") from error

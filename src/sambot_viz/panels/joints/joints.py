@@ -252,13 +252,13 @@ class JointsPanel(Panel):
         def put_back() -> None:
             nonlocal reached
             reached = self._position(name)
+            robot.move_again({name: before})
             motion.turn(name, 0.0)
-            robot.move({name: before}, {})
 
         self._history.record(
             f"Turn {name}",
             put_back,
-            lambda: robot.move({name: reached}, {}),
+            lambda: robot.move_again({name: reached}),
             of_document=False,
         )
 

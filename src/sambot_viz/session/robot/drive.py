@@ -131,7 +131,7 @@ class Drive:
             seconds: how long [s].
 
         Raises:
-            JointError: no wheels, or a number that is not finite.
+            JointError: no wheels, a number that is not finite, or messages move them.
             FrameError: the root link cannot be attached to odom.
         """
         with self._change.lock:
@@ -140,6 +140,7 @@ class Drive:
             if not (math.isfinite(v) and math.isfinite(w)):
                 raise JointError(f"cannot drive with v={v!r}, w={w!r}")
             if v or w:
+                self._robot.require_free()
                 self.enter_odom()
             self._left = seconds
             self.velocity.set((v, w))
@@ -163,7 +164,8 @@ class Drive:
                 self._drive.reset()
                 self._drawing.to(self._robot.positions)
                 wheels = self._drive.wheels.left, self._drive.wheels.right
-                start = {name: joints.start(name) for name in wheels}
+                free = not self._robot.followed.value
+                start = {name: joints.start(name) for name in wheels if free}
                 placed = self.root in self._frames.added
                 self._robot.move(start, {self.root: self._matrix()} if placed else {})
 

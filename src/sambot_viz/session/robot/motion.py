@@ -83,6 +83,7 @@ class Motion:
         self._closed = False
         self._last = 0.0
         connect([drive.velocity], self.start)
+        connect([robot.followed], self._leave_to_messages)
 
     @property
     def moving(self) -> bool:
@@ -139,6 +140,10 @@ class Motion:
             self._glide = None
             self._drive.stop()
             self._tell()
+
+    def _leave_to_messages(self) -> None:
+        if self._robot.followed.value:
+            self.stop()
 
     def advance(self, dt: float) -> None:
         """Move on by a time [s]; this is what happens at every step."""

@@ -20,7 +20,7 @@ from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal
-from sambot_viz.session.undo import History
+from sambot_viz.session.undo import History, NotNowError
 from sambot_viz.session.worker import Clock, Throttle, Worker
 from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
@@ -212,8 +212,8 @@ class RobotState:
                 glide(after)
                 self._history.record(
                     f"Pose {name}",
-                    partial(self.move, before, {}),
-                    partial(self.move, after, {}),
+                    partial(self.move_again, before),
+                    partial(self.move_again, after),
                     of_document=False,
                 )
         return tuple(joint for joint in pose if joint not in known)
@@ -246,11 +246,24 @@ class RobotState:
             if after:
                 self._history.record(
                     label,
-                    partial(self.move, before, {}),
-                    partial(self.move, after, {}),
+                    partial(self.move_again, before),
+                    partial(self.move_again, after),
                     merge and ("joints", *merge),
                     of_document=False,
                 )
+
+    def move_again(self, positions: Mapping[str, float]) -> None:
+        """Move some joints to undo a step, or to do it again.
+
+        Raises:
+            NotNowError: messages move them.
+            JointError: as `move`.
+        """
+        try:
+            self.require_free()
+        except JointError as error:
+            raise NotNowError(str(error)) from None
+        self.move(positions, {})
 
     # What moves by itself
 
