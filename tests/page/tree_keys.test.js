@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { edits } from "../../src/sambot_viz/page/tree/row_view.js";
 import { treeKey } from "../../src/sambot_viz/page/tree/tree_keys.js";
-import { rows } from "../../src/sambot_viz/page/wire/channel.js";
+import { rows, WATCHING } from "../../src/sambot_viz/page/wire/channel.js";
 
 const row = (kind, more = {}) => ({ id: "a", in: "", kind, ...more });
 
@@ -51,4 +51,16 @@ test("a number that the user was led to is edited by Enter and F2; other keys ar
   assert.deepEqual(press("7", "a"), [false, true]);
   for (const key of ["Enter", "F2"]) assert.deepEqual(press(key, "a"), [true, false]);
   assert.deepEqual(press("m", "another"), [true, false]);
+});
+
+test("who only watches types into no tool", () => {
+  let told = 0;
+  const stop = rows.listen(WATCHING, () => (told += 1));
+  rows.watch(true);
+  assert.deepEqual(press("1", undefined), [false, false]);
+  assert.equal(told, 1);
+  // Led to the row, and has not touched it: the key is for the view.
+  assert.deepEqual(press("1", "a"), [false, true]);
+  rows.watch(false);
+  stop();
 });

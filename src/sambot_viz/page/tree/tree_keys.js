@@ -1,7 +1,7 @@
 // @ts-check
 /* The keys of a tree grid, on the row that is selected. */
 
-import { rows, send } from "../wire/channel.js";
+import { mayChange, rows, send } from "../wire/channel.js";
 import { fold, isOpen } from "../state.js";
 import { copyRow } from "./row_text.js";
 import { edits } from "./row_view.js";
@@ -84,6 +84,9 @@ function changeByKey(event, row, types) {
   else if (types && edits(row, event.key)) {
     /** @type {HTMLElement | null} */ (event.target.querySelector("input.field"))?.focus();
     return "types";
+  } else if (types && rows.watching && edits({ ...row, off: false }, event.key)) {
+    // What was meant for the value is no key of a tool or a view.
+    mayChange();
   } else return false;
   return true;
 }
