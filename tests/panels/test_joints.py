@@ -182,6 +182,47 @@ def test_undo_stops_a_wheel_and_puts_it_where_it_stood_before_it_turned(
         session.history.undo(1)
 
 
+@pytest.mark.parametrize(
+    ("row", "value", "reached"),
+    [
+        (f"j/{LEFT}", 0.25, 0.25),
+        ("joints/center", [], 0.0),
+        ("joints/randomize", [], 0),
+    ],
+)
+def test_a_wheel_that_is_put_somewhere_stays_there(
+    panel: JointsPanel,
+    session: Session,
+    viz: Visualizer,
+    row: str,
+    value: Any,
+    reached: float,
+) -> None:
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    for wheel in (LEFT, RIGHT):
+        edit(panel, "joints/turn", [f"j/{wheel}"])
+    session.motion.advance(0.5)
+    edit(panel, row, value)
+    put = viz.joint_positions[LEFT]
+    assert row == "joints/randomize" or put == reached
+    session.motion.advance(0.5)
+    assert viz.joint_positions[LEFT] == put
+    # A value is for its wheel alone.
+    assert turning(panel) == ([f"j/{RIGHT}"] if row == f"j/{LEFT}" else [])
+
+
+def test_a_wheel_goes_to_its_pose_and_stays_there(
+    session: Session, viz: Visualizer
+) -> None:
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    session.motion.turn(LEFT, 1.0)
+    session.motion.glide({LEFT: 0.25}, 1.0)
+    for _ in range(4):
+        session.motion.advance(0.5)
+    assert viz.joint_positions[LEFT] == 0.25
+    assert not session.motion.moving
+
+
 def test_the_turn_rate_can_be_undone(panel: JointsPanel, session: Session) -> None:
     for rate in (2.0, 3.0):
         with session.history.acting(1, gesture=7):

@@ -149,15 +149,18 @@ class JointsPanel(Panel):
     # Positions
 
     def _move(self, joint: Joint, value: float) -> None:
+        self._motion.stop_turning((joint.name,))
         self._robot.set_positions({joint.name: value})
         self._arrow.moved(joint)
 
     @command("joints/center")
     def _center(self) -> None:
+        self._motion.stop_turning(self._motion.turning.value)
         self._robot.center()
 
     @command("joints/randomize")
     def _randomize(self) -> None:
+        self._motion.stop_turning(self._motion.turning.value)
         self._robot.randomize()
 
     @command("joints/restore", LIST, LIST)

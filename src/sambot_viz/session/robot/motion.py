@@ -7,7 +7,7 @@ nothing runs and nothing is sent.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from sambot_viz.joints.animation import eased, turn
@@ -113,6 +113,13 @@ class Motion:
             self._tell()
         self.start()
 
+    def stop_turning(self, joints: Iterable[str]) -> None:
+        """Let some joints turn no more: they are moved to where they shall stay."""
+        with self._change.lock:
+            for name in joints:
+                self._turning.pop(name, None)
+            self._tell()
+
     def glide(self, positions: Mapping[str, float], seconds: float) -> None:
         """Move joints to a pose; one that is moved meanwhile stays where it was put.
 
@@ -124,6 +131,7 @@ class Motion:
             state = self._robot.joints
             if state is None:
                 return
+            self.stop_turning(positions)
             now = {name: state.positions[name] for name in positions}
             ways = {name: (now[name], goal) for name, goal in positions.items()}
             self._glide = _Glide(ways, now, seconds)
