@@ -99,6 +99,9 @@ def test_a_display_is_dragged_into_a_folded_group_and_out_of_it(
     user.until(lambda: user.row("Displays", "Ground", "Grid").state("focused"))
     drag(user, "Grid", "Robot", 0.1)
     user.until(lambda: names(session) == ["Grid", "Robot", "Ground", "Axes", "TF"])
+    # The last one of a group comes before it in the list, too.
+    drag(user, "TF", "Ground", 0.5)
+    user.until(lambda: user.row("Displays", "Ground", "TF").states["level"] == 2)
 
 
 def test_escape_puts_a_dragged_display_back(user: User, session: Session) -> None:
