@@ -99,9 +99,19 @@ def test_a_display_is_dragged_into_a_folded_group_and_out_of_it(
     user.until(lambda: user.row("Displays", "Ground", "Grid").state("focused"))
     drag(user, "Grid", "Robot", 0.1)
     user.until(lambda: names(session) == ["Grid", "Robot", "Ground", "Axes", "TF"])
-    # The last one of a group comes before it in the list, too.
-    drag(user, "TF", "Ground", 0.5)
-    user.until(lambda: user.row("Displays", "Ground", "TF").states["level"] == 2)
+
+
+def test_a_display_goes_into_the_group_before_it_and_out_again_by_keys(
+    user: User, session: Session
+) -> None:
+    before = names(session)
+    user.unfold("Displays", "Ground")
+    select(user, "TF")
+    # The order of the rows stays the same.
+    for key, level in (("ArrowUp", 2), ("ArrowDown", 1)):
+        user.keys(f"Alt+{key}")
+        user.until(lambda n=level: user.row("Displays", "TF").states["level"] == n)
+        assert names(session) == before
 
 
 def test_escape_puts_a_dragged_display_back(user: User, session: Session) -> None:
