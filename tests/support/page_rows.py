@@ -50,6 +50,8 @@ class PageRows:
 
 
 def _patched(row: Row, patch: Row | None) -> Row:
+    # A page lays its trees out when it is sent all rows of a panel.
+    assert "in" not in (patch or {}), f"{row} is not moved by {patch}"
     new = row | (patch or {})
     return {key: value for key, value in new.items() if value is not None}
 
