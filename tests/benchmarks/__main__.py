@@ -186,7 +186,7 @@ def _checkers(folder: Path, kept: Results) -> None:
     wrong, spare = folder / "wrong", folder / "reports"
     for one in (wrong, spare):
         one.mkdir()
-    cases = list(checkers.own_cases(REPOSITORY, wrong))
+    cases = list(checkers.own_cases(wrong))
     beside = REPOSITORY.parent / "shared" / "data" / "bad-models" / "index.yaml"
     right = [robots.write(wrong, REPOSITORY)["tree50"].path]
     if beside.is_file():

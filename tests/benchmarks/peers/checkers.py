@@ -10,13 +10,15 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import yaml
+from problem_samples import all_samples
 from tests.benchmarks.peers.peers import Checker
 
 LONGEST = 20.0
 """A check that takes longer hangs [s]."""
+_MODELS = {".urdf", ".xacro", ".sdf"}
+"""Launch files and configs are not for all of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,13 +28,13 @@ class Case:
     Attributes:
         path: of the model.
         line: where the mistake is.
-        refused: ROS refuses it, or nothing is said of that; otherwise it works in ROS,
-            but not as was meant.
+        refused: whether ROS refuses it, or shows it, though not as was meant; None
+            where that is not known.
     """
 
     path: Path
     line: int
-    refused: bool
+    refused: bool | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,21 +42,23 @@ class Verdict:
     """How a checker did.
 
     Attributes:
-        cases: how many wrong models it was given that ROS may refuse, and others.
-        refused: of the first, so many it ended with an error on.
-        noticed: of the others, so many it said something else about than about the
-            right model.
-        lines: of all, so many whose line its words name.
+        cases: how many wrong models it was given.
+        noticed: so many it said something else about than about the right model.
+        lines: so many whose line its words name.
+        refused: of those that ROS refuses, so many it ended with an error on, and how
+            many these are.
+        accepted: the same of those that ROS shows, without an error.
         hangs: so many took longer than `LONGEST`, or it crashed on.
         complaints: right models that it ended with an error on.
         right: how many right models it was given.
         seconds: the median time of one check [s].
     """
 
-    cases: tuple[int, int]
-    refused: int
+    cases: int
     noticed: int
     lines: int
+    refused: tuple[int, int]
+    accepted: tuple[int, int]
     hangs: int
     complaints: int
     right: int
@@ -68,19 +72,21 @@ class _Answer:
     seconds: float
 
 
-def own_cases(repository: Path, folder: Path) -> Iterator[Case]:
-    """Write the wrong models of the tests that are one file."""
-    entries: list[dict[str, Any]] = yaml.safe_load(
-        (repository / "tests" / "data" / "problems.yaml").read_text("utf-8")
-    )
-    for number, entry in enumerate(entries):
-        if "model" not in entry or "line" not in entry or "files" in entry:
+def own_cases(folder: Path) -> Iterator[Case]:
+    """Write the wrong models of the tests that are one file, each into its folder."""
+    for sample in all_samples():
+        if (
+            sample.line is None
+            or not sample.trusted
+            or list(sample.files) != [sample.name]
+        ):
             continue
-        text = str(entry["model"])
-        kind = ".urdf.xacro" if "xmlns:xacro" in text else ".urdf"
-        path = folder / f"{number:03}-{entry['code']}{kind}"
-        path.write_text(text, "utf-8")
-        yield Case(path, int(entry["line"]), "why" not in entry)
+        path = folder / sample.code / sample.name
+        path.parent.mkdir()
+        content = sample.files[sample.name]
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        # What this program refuses, ROS may show.
+        yield Case(path, sample.line, False if sample.why else None)
 
 
 def further_cases(index: Path) -> Iterator[Case]:
@@ -88,7 +94,8 @@ def further_cases(index: Path) -> Iterator[Case]:
     table = yaml.safe_load(index.read_text("utf-8"))
     for entry in table["models"]:
         path = index.parent / str(entry["file"])
-        if path.is_file() and entry.get("line") and entry["severity"] != "none":
+        is_wrong = entry.get("line") and entry["severity"] != "none"
+        if is_wrong and path.suffix in _MODELS and path.is_file():
             yield Case(path, int(entry["line"]), entry["severity"] == "error")
 
 
@@ -102,24 +109,28 @@ def judge(
     """Give a checker all models."""
     good = [_ask(checker, program, path, folder) for path in right]
     usual = {_without_names(answer.words) for answer in good}
-    refused = noticed = lines = hangs = 0
+    noticed = lines = hangs = 0
+    # Whether ROS refuses a model → whether this checker ended with an error.
+    ended: dict[bool | None, list[bool]] = {True: [], False: [], None: []}
     times = [answer.seconds for answer in good]
     for case in cases:
         answer = _ask(checker, program, case.path, folder)
         times.append(answer.seconds)
         if answer.exit is None or answer.exit < 0 or "Traceback" in answer.words:
             hangs += 1
+            ended[case.refused].append(not case.refused)
             continue
+        ended[case.refused].append(answer.exit != 0)
         said = _without_names(answer.words) not in usual
-        refused += case.refused and answer.exit != 0
-        noticed += not case.refused and said
+        noticed += said
         lines += said and _names_line(answer.words, case)
-    count = sum(case.refused for case in cases)
+    refuses, shows = ended[True], ended[False]
     return Verdict(
-        (count, len(cases) - count),
-        refused,
+        len(cases),
         noticed,
         lines,
+        (sum(refuses), len(refuses)),
+        (len(shows) - sum(shows), len(shows)),
         hangs,
         sum(answer.exit != 0 for answer in good),
         len(right),

@@ -94,12 +94,10 @@ def _cell(column: Column, measure: Measure, best: float) -> str:
 
 def _checker_table(verdicts: Mapping[str, Verdict]) -> Iterator[str]:
     rows: list[tuple[str, Callable[[Verdict], str]]] = [
-        (
-            "known to be accepted by ROS: noticed",
-            lambda v: f"{v.noticed} of {v.cases[1]}",
-        ),
-        ("all others: ends with an error", lambda v: f"{v.refused} of {v.cases[0]}"),
-        ("the line is named", lambda v: f"{v.lines} of {sum(v.cases)}"),
+        ("noticed", lambda v: f"{v.noticed} of {v.cases}"),
+        ("the line is named", lambda v: f"{v.lines} of {v.cases}"),
+        ("ROS refuses it: ends with an error", lambda v: _of(v.refused)),
+        ("ROS shows it: ends without an error", lambda v: _of(v.accepted)),
         ("hangs or crashes", lambda v: str(v.hangs)),
         ("complaints about right models", lambda v: f"{v.complaints} of {v.right}"),
         ("time of a check [s]", lambda v: f"{v.seconds:.2f}"),
@@ -107,6 +105,10 @@ def _checker_table(verdicts: Mapping[str, Verdict]) -> Iterator[str]:
     yield from _head("", verdicts)
     for title, cell in rows:
         yield _row(title, [cell(verdict) for verdict in verdicts.values()])
+
+
+def _of(part: tuple[int, int]) -> str:
+    return f"{part[0]} of {part[1]}"
 
 
 def _notes(results: Results) -> Iterator[str]:
