@@ -140,10 +140,10 @@ class RowSync:
         rows, items = panel.changed_rows(), self._items[panel.name]
         if rows is None or items is None:
             return self._make(panel)
-        made = {**items, **{row.id: row for row in rows}}
-        if _places(items) != _places(made):
+        places = ((items.get(row.id), row.parent) for row in rows)
+        if any(not isinstance(x, Row) or x.parent != above for x, above in places):
             return self._make(panel)
-        self._items[panel.name] = made
+        items.update((row.id, row) for row in rows)
         return any([self._update(row) for row in rows])
 
     def _update(self, item: Item) -> bool:
