@@ -6,7 +6,7 @@ edit puts back the values that it has set, never the whole document.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, MutableSequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -267,7 +267,7 @@ class History:
         self,
         what: str,
         history: ClientSteps,
-        steps: list[Step],
+        steps: MutableSequence[Step],
         step: Step,
         actions: list[tuple[Callable[[], None], Callable[[], None]]],
     ) -> None:
