@@ -33,8 +33,8 @@ class _Action:
     of_document: bool = False
 
 
-class NotNowError(SambotVizError):
-    """A step cannot be undone or done again now, but later it can."""
+class NotNow(Exception):
+    """A step cannot be undone or done again now, but later it can; says why."""
 
 
 def _check(step: Step, may_edit: bool) -> None:
@@ -126,8 +126,8 @@ class History:
 
         Args:
             label: what was done, in a few words.
-            undo: undoes it; it may raise SambotVizError.
-            redo: does it again; it may raise SambotVizError.
+            undo: undoes it; it may raise SambotVizError, or NotNow.
+            redo: does it again; it may raise these, too.
             merge: what has changed: of one gesture, changes of the same thing in a
                 row are one edit.
             touched: see `Edit`.
@@ -282,10 +282,10 @@ class History:
                 for act, reverse in actions:
                     act()
                     reached.append(reverse)
-        except SambotVizError as error:
+        except (SambotVizError, NotNow) as error:
             for reverse in reversed(reached):
                 reverse()
-            if isinstance(error, NotNowError):
+            if isinstance(error, NotNow):
                 steps.append(step)
             history.tell()
             label = step.edits[0].label

@@ -20,7 +20,7 @@ from sambot_viz.session.robot.motion_recorder import MotionRecorder
 from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal
-from sambot_viz.session.undo import History, NotNowError
+from sambot_viz.session.undo import History, NotNow
 from sambot_viz.session.worker import Clock, Throttle, Worker
 from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
@@ -256,13 +256,13 @@ class RobotState:
         """Move some joints to undo a step, or to do it again.
 
         Raises:
-            NotNowError: messages move them.
+            NotNow: messages move them.
             JointError: as `move`.
         """
         try:
             self.require_free()
         except JointError as error:
-            raise NotNowError(str(error)) from None
+            raise NotNow(str(error)) from None
         self.move(positions, {})
 
     # What moves by itself
