@@ -60,19 +60,23 @@ class Sample:
         """What `check` says about it; files are named without their folder."""
         return _problems(self.code)
 
+    def write(self, folder: Path) -> Path:
+        """Write its files into a new folder; returns the path of the model."""
+        folder.mkdir()
+        for name, content in self.files.items():
+            target = folder / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            data = content.encode() if isinstance(content, str) else content
+            target.write_bytes(data)
+        return folder / self.name
+
     def find_problems(self) -> list[Problem]:
         """The same, checked again."""
         if self.stated is not None:
             return [self.stated]
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder).resolve() / "model"
-            root.mkdir()
-            for name, content in self.files.items():
-                target = root / name
-                target.parent.mkdir(parents=True, exist_ok=True)
-                data = content.encode() if isinstance(content, str) else content
-                target.write_bytes(data)
-            found = check(root / self.name, trusted=self.trusted)
+            found = check(self.write(root), trusted=self.trusted)
         return [_without_folder(problem, str(root)) for problem in found]
 
 

@@ -75,18 +75,11 @@ class _Answer:
 def own_cases(folder: Path) -> Iterator[Case]:
     """Write the wrong models of the tests that are one file, each into its folder."""
     for sample in all_samples():
-        if (
-            sample.line is None
-            or not sample.trusted
-            or list(sample.files) != [sample.name]
-        ):
-            continue
-        path = folder / sample.code / sample.name
-        path.parent.mkdir()
-        content = sample.files[sample.name]
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
-        # What this program refuses, ROS may show.
-        yield Case(path, sample.line, False if sample.why else None)
+        is_one_file = list(sample.files) == [sample.name]
+        if sample.line is not None and sample.trusted and is_one_file:
+            path = sample.write(folder / sample.code)
+            # What this program refuses, ROS may show.
+            yield Case(path, sample.line, False if sample.why else None)
 
 
 def further_cases(index: Path) -> Iterator[Case]:
@@ -110,27 +103,28 @@ def judge(
     good = [_ask(checker, program, path, folder) for path in right]
     usual = {_without_names(answer.words) for answer in good}
     noticed = lines = hangs = 0
-    # Whether ROS refuses a model → whether this checker ended with an error.
-    ended: dict[bool | None, list[bool]] = {True: [], False: [], None: []}
+    # Whether ROS refuses a model, and how this checker ended; None when it hung.
+    ends: list[tuple[bool | None, int | None]] = []
     times = [answer.seconds for answer in good]
     for case in cases:
         answer = _ask(checker, program, case.path, folder)
         times.append(answer.seconds)
         if answer.exit is None or answer.exit < 0 or "Traceback" in answer.words:
             hangs += 1
-            ended[case.refused].append(not case.refused)
+            ends.append((case.refused, None))
             continue
-        ended[case.refused].append(answer.exit != 0)
+        ends.append((case.refused, answer.exit))
         said = _without_names(answer.words) not in usual
         noticed += said
         lines += said and _names_line(answer.words, case)
-    refuses, shows = ended[True], ended[False]
+    refused = [end for is_refused, end in ends if is_refused]
+    shown = [end for is_refused, end in ends if is_refused is False]
     return Verdict(
         len(cases),
         noticed,
         lines,
-        (sum(refuses), len(refuses)),
-        (len(shows) - sum(shows), len(shows)),
+        (sum(end not in (0, None) for end in refused), len(refused)),
+        (shown.count(0), len(shown)),
         hangs,
         sum(answer.exit != 0 for answer in good),
         len(right),
