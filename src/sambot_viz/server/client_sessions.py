@@ -188,6 +188,8 @@ class ClientSessions:
     def _give_view(
         self, session: Session, client: viser.ClientHandle, context: ClientContext
     ) -> None:
+        if self._has_left(client):
+            return
         session.join(client, presenter=context.presenter, login=context.login)
         with self._joined:
             self._joined.notify_all()
@@ -200,19 +202,24 @@ class ClientSessions:
         copy: SessionCopy | None = None,
     ) -> None:
         """Draw the session of one client; its worker runs this and has its lock."""
-        if place.left:
+        if self._has_left(client):
             return
         session = self._sessions.open(client, place.worker, copy)
         self._sessions.admit(place, session, copied=copy is not None)
         self._add_panels(place, session)
         self._give_view(session, client, ClientContext())
 
+    def _has_left(self, client: viser.ClientHandle) -> bool:
+        """Tell if a client has gone before its turn: to let it in would be for nobody.
+
+        `leave` is posted after viser has forgotten it, so behind who is let in.
+        """
+        return client.client_id not in self._server.get_clients()
+
     async def leave(self, client: viser.ClientHandle) -> None:
         """Take a client that has gone out of its session; its own one ends."""
         place = self._places.own(client.client_id)
         if place is not None:
-            # A session that has not begun to open stays closed.
-            place.left = True
             # Behind one that opens at the moment: this must not wait on the loop.
             # Behind what it has sent.
             close = partial(self._close_private, client.client_id, place)

@@ -18,7 +18,6 @@ class SessionPlace:
     worker: Worker
     session: Session | None = None
     window: Window | None = None
-    left: bool = False
 
 
 class SessionPlaces:
