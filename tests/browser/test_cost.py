@@ -45,6 +45,24 @@ def is_quiet(viewer: ViewerPage, seconds: float) -> bool:
     return viewer.page.messages == before
 
 
+def test_a_page_at_rest_draws_nothing(viewer: ViewerPage) -> None:
+    viewer.wait_until_drawn()
+    assert any(draws_nothing(viewer, 2.5) for _ in range(4))
+    # The same after the tab was hidden and shown.
+    viewer.minimize()
+    viewer.minimize(False)
+    viewer.wait_until_drawn()
+    assert any(draws_nothing(viewer, 2.5) for _ in range(4))
+
+
+def draws_nothing(viewer: ViewerPage, seconds: float) -> bool:
+    """Whether no picture is drawn; before, viser drew one each second."""
+    pictures = "sambotVizLook.frames"
+    before = viewer.page.evaluate(pictures)
+    viewer.page.evaluate(f"new Promise(done => setTimeout(done, {1000 * seconds}))")
+    return viewer.page.evaluate(pictures) == before
+
+
 def test_a_joint_is_a_few_elements_and_a_folded_one_none(viewer: ViewerPage) -> None:
     viewer.wait_for(f"{ROWS}.length === {COUNT}")
     most = viewer.page.evaluate(

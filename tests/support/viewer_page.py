@@ -166,8 +166,20 @@ class ViewerPage:
         self.page.wait_for(condition, patience(timeout))
 
     def sleep(self, asleep: bool = True) -> None:
-        """Draw nothing while no test uses the page: viser draws once a second."""
+        """Draw nothing while no test uses the page."""
         self.page.evaluate(_SLEEP.replace("ASLEEP", "true" if asleep else "false"))
+
+    def minimize(self, minimized: bool = True) -> None:
+        """Hide the page as a desktop does, or show it again."""
+        # A page that is to seem focused is never hidden.
+        focus = {"enabled": not minimized}
+        self.page.call("Emulation.setFocusEmulationEnabled", focus)
+        window = self.page.call("Browser.getWindowForTarget")["windowId"]
+        state = "minimized" if minimized else "normal"
+        bounds = {"windowId": window, "bounds": {"windowState": state}}
+        self.page.call("Browser.setWindowBounds", bounds)
+        # What is hidden has no frames to ask at.
+        self.user.until(lambda: self.page.evaluate("document.hidden") == minimized)
 
     def wait_for_frames(self) -> None:
         """Ask for a picture and wait until two frames have been drawn."""

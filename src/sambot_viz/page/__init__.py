@@ -26,8 +26,8 @@ _COMMENT = re.compile(
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
-_NAMES = "view/font.js"
-"""Runs before viser's own script too, and finds the font in an element before it."""
+_EARLY = ("view/font.js", "view/still.js")
+"""Run before viser's own script too; the first finds the font in an element before it."""
 _FONT = "vendor/names.woff2"
 _WINDOW_STYLES = (
     "window/window.css",
@@ -114,10 +114,14 @@ def _head(first: str, styles: Iterable[str], look: str) -> str:
     """
     modules = {_PREFIX + name: _address(name) for name in sorted(_needed(first))}
     css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
+    early = "".join(
+        f"<script>{_FOLDER.joinpath(name).read_text('utf-8')}</script>"
+        for name in _EARLY
+    )
     font = base64.b64encode(_FOLDER.joinpath(_FONT).read_bytes()).decode()
     return (
         f'<script type="text/plain" id="sambot-font">{font}</script>'
-        f"<script>{_FOLDER.joinpath(_NAMES).read_text('utf-8')}</script>"
+        f"{early}"
         f'<meta name="sambot-look" content="{escape(look)}">'
         f'<script type="importmap">{json.dumps({"imports": modules})}</script>'
         f'<script type="module" async>import "{_PREFIX}{first}";</script>'

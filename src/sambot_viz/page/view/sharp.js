@@ -1,7 +1,7 @@
 // @ts-check
-/* Keeps the picture sharp at rest. On a slow machine viser draws with fewer pixels, also when
- * nothing moves any more: here the last picture is drawn once more with all of them. A motion that
- * lasts has viser's choice again. An address with fixedDpr says itself how many there are. */
+/* The last picture of a change is drawn once more: what came late is in it, and so are all pixels.
+ * On a slow machine viser draws with fewer of them, also at rest; a motion that lasts has viser's
+ * choice again. An address with fixedDpr says itself how many there are. */
 
 /** So long after the last change the view is at rest [ms]. */
 const REST = 600;
@@ -25,7 +25,7 @@ let timer = 0;
 /** Follow what is asked to be drawn. @param {any} mutable viser's */
 export function keepSharp(mutable) {
   const draw = mutable?.requestRender;
-  if (!draw || fixed || ours.has(draw)) return;
+  if (!draw || ours.has(draw)) return;
   mutable.requestRender = () => {
     draw();
     const now = performance.now();
@@ -51,7 +51,10 @@ function sharpen(mutable) {
   began = null;
   const state = stateOf(mutable);
   const full = Math.min(MOST, Math.max(1, devicePixelRatio));
-  if (!(state?.viewport.dpr < full)) return;
+  if (fixed || !(state?.viewport.dpr < full)) {
+    state?.invalidate();
+    return;
+  }
   chosen = state.viewport.dpr;
   sharpened = performance.now();
   // This draws it too.
