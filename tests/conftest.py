@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
+    from hand_clock import HandClock
     from protocol_client import ProtocolClient
 
     from sambot_viz import Robot, Visualizer
@@ -109,6 +110,18 @@ def sam_bot() -> Robot:
     from sambot_viz import bundled, load_robot
 
     return load_robot(bundled.model_path())
+
+
+@pytest.fixture
+def hand_clock(monkeypatch: pytest.MonkeyPatch) -> HandClock:
+    """The clock of the sessions that begin from now on; it is named before `viz`."""
+    from hand_clock import HandClock
+
+    from sambot_viz.session import worker
+
+    clock = HandClock()
+    monkeypatch.setattr(worker, "WallClock", lambda: clock)
+    return clock
 
 
 @pytest.fixture

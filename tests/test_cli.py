@@ -9,7 +9,6 @@ import signal
 import struct
 import subprocess
 import sys
-import time
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -32,12 +31,9 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         with urlopen(url) as page:
             assert page.status == 200
         process.send_signal(signal.SIGINT)
-        started = time.monotonic()
         out, err = process.communicate(timeout=patience(20.0))
         assert process.returncode == 0
         assert (out, err) == ("", "")
-        # "Within a second", with room for a busy machine.
-        assert time.monotonic() - started < patience(10.0)
 
 
 @pytest.mark.parametrize(

@@ -8,13 +8,11 @@ import subprocess
 import sys
 import tempfile
 import textwrap
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from browser_input import Keyboard, Mouse
-from patience import patience
+from patience import until
 
 from sambot_viz.export.browser_process import find_browser
 from sambot_viz.export.chromium import Chromium
@@ -46,14 +44,6 @@ def is_running(process: int) -> bool:
     except (FileNotFoundError, ProcessLookupError):
         return False
     return state.rpartition(")")[2].split()[0] != "Z"
-
-
-def becomes_true(condition: Callable[[], bool], timeout: float = 20.0) -> bool:
-    """Whether a condition is met in time [s]."""
-    end = time.monotonic() + patience(timeout)
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.02)
-    return condition()
 
 
 def processes_with(text: str) -> list[int]:
@@ -92,8 +82,8 @@ def test_a_browser_ends_when_its_python_process_is_killed() -> None:
         assert python.stdout.readline() == b"open\n"
         assert processes_with(str(tmp_path))
         python.kill()
-    assert becomes_true(lambda: not processes_with(str(tmp_path)))
-    assert becomes_true(lambda: not list(tmp_path.glob("sambot-viz-browser-*")))
+    until(lambda: not processes_with(str(tmp_path)), 20.0)
+    until(lambda: not list(tmp_path.glob("sambot-viz-browser-*")), 20.0)
     shutil.rmtree(tmp_path)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -56,9 +55,8 @@ def test_a_flood_of_small_frames_ends_its_connection(
 
 
 def test_who_does_not_stop_sending_is_disconnected(client: ClientConnection) -> None:
-    end = time.monotonic() + 20.0
     with pytest.raises(OSError):
-        while time.monotonic() < end:
+        for _ in range(100_000):
             client.socket.sendall(Frame(Opcode.PONG, b"").serialize(mask=True) * 1000)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from inside import session_of, viser_server
+from patience import until
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, load_robot
@@ -136,13 +137,8 @@ def test_a_session_keeps_a_model_of_its_own_and_gives_it_to_its_copies(
 def test_a_copy_ends_with_its_browser(viz: Visualizer, copy: ProtocolClient) -> None:
     threads = threading.active_count()
     copy.close()
-    end = threading.Event()
-    for _ in range(1000):
-        if len(viz.server.sessions.all()) == 1 and threading.active_count() < threads:
-            break
-        end.wait(0.01)
-    assert len(viz.server.sessions.all()) == 1
-    assert threading.active_count() < threads
+    until(lambda: len(viz.server.sessions.all()) == 1)
+    until(lambda: threading.active_count() < threads)
 
 
 def test_the_class_goes_on_when_the_teacher_makes_a_copy(

@@ -90,7 +90,6 @@ def test_nothing_goes_out_while_changes_belong_together(
     with server.atomic():
         for number in range(10):
             server.scene.add_frame(f"/{number}")
-        assert client.quiet(0.1)
     client.settle(server)
     frames = [m.frame for m in client.since(mark) if m.type == "FrameMessage"]
     assert len(frames) == 10

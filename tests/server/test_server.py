@@ -7,14 +7,13 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
 import yaml
-from patience import patience
+from patience import until
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
@@ -47,18 +46,6 @@ def is_free(port: int) -> bool:
         except OSError:
             return False
     return True
-
-
-def until(condition: Callable[[], bool]) -> None:
-    """Return when a condition is true.
-
-    Raises:
-        AssertionError: it did not become true within 10 s.
-    """
-    end, pause = time.monotonic() + patience(10.0), threading.Event()
-    while not condition():
-        assert time.monotonic() < end
-        pause.wait(0.01)
 
 
 def has_row(client: ProtocolClient, name: str) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from urllib.parse import urlsplit
@@ -10,7 +9,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 from inside import viser_server
-from patience import patience
+from patience import until
 from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer
@@ -77,13 +76,13 @@ def two(join: Callable[[], Person]) -> tuple[Person, Person]:
 def leave(session: Session, person: Person, other: Person) -> None:
     """Close a page, and wait until the session has taken note."""
     person.client.close()
-    end = time.monotonic() + patience(30.0)
-    while time.monotonic() < end:
+
+    def has_left() -> bool:
         other.settle()
         with session.lock:
-            if person.browser.client_id not in session.clients.all:
-                return
-    raise AssertionError("the session takes no note")
+            return person.browser.client_id not in session.clients.all
+
+    until(has_left, 30.0, "the session takes no note")
 
 
 # Tools

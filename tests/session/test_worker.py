@@ -8,21 +8,29 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Literal
 
+import numpy as np
 import pytest
 import viser
+from hand_clock import HandClock
 from inside import session_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.session.worker import Worker
+from sambot_viz.session.worker import Throttle, Worker
 
 JOINT = "drivewhl_l_joint"
 
 
 @pytest.fixture
-def worker() -> Iterator[Worker]:
+def clock() -> HandClock:
+    return HandClock()
+
+
+@pytest.fixture
+def worker(clock: HandClock) -> Iterator[Worker]:
     loop = asyncio.new_event_loop()
-    worker = Worker(loop)
+    worker = Worker(loop, clock)
     yield worker
     worker.close()
     loop.close()
@@ -32,7 +40,7 @@ def run_all(worker: Worker, client: int | None = None) -> None:
     """Wait for everything of a client."""
     done = threading.Event()
     worker.post(done.set, client=client)
-    assert done.wait(10)
+    assert done.wait(patience(10.0))
 
 
 def test_actions_run_in_the_order_in_which_they_were_posted(worker: Worker) -> None:
@@ -124,13 +132,59 @@ def test_an_error_is_reported_with_the_client_that_has_caused_it(
     assert met[-1] == (ValueError, None)
 
 
-def test_a_later_action_runs_after_its_delay(worker: Worker) -> None:
+def test_a_later_action_runs_after_its_delay(worker: Worker, clock: HandClock) -> None:
     ran: list[str] = []
-    done = threading.Event()
-    worker.post_later(0.05, lambda: (ran.append("late"), done.set()))
+    worker.post_later(0.05, lambda: ran.append("late"))
+    worker.post_later(0.02, lambda: ran.append("sooner"))
     worker.post(lambda: ran.append("now"))
-    assert done.wait(10)
-    assert ran == ["now", "late"]
+    run_all(worker)
+    assert ran == ["now"]
+    for seconds, expected in ((0.01, 1), (0.02, 2), (0.01, 2), (0.02, 3)):
+        clock.advance(seconds)
+        run_all(worker)
+        assert ran == ["now", "sooner", "late"][:expected]
+
+
+def test_a_worker_that_waits_wakes_for_a_later_action(
+    worker: Worker, clock: HandClock
+) -> None:
+    done = threading.Event()
+    worker.post_later(60.0, done.set)
+    clock.advance(60.0)
+    assert done.wait(patience(10.0))
+
+
+def test_a_stream_of_requests_runs_at_a_steady_rate(
+    worker: Worker, clock: HandClock
+) -> None:
+    ran: list[float] = []
+    throttle = Throttle(worker, 0.1, lambda: ran.append(clock.now()))
+    for _ in range(100):
+        throttle.request()
+        clock.advance(0.01)
+        run_all(worker)
+    assert np.diff(ran) == pytest.approx(0.1, abs=0.011)
+    assert len(ran) == 10
+
+
+def test_a_throttle_runs_at_once_after_a_pause_and_nothing_that_was_not_requested(
+    worker: Worker, clock: HandClock
+) -> None:
+    ran: list[float] = []
+    throttle = Throttle(worker, 0.1, lambda: ran.append(clock.now()))
+    throttle.request()
+    assert len(ran) == 1
+    clock.advance(5.0)
+    run_all(worker)
+    assert len(ran) == 1
+    throttle.request()
+    throttle.request()
+    assert len(ran) == 2
+    throttle.close()
+    clock.advance(5.0)
+    run_all(worker)
+    throttle.request()
+    assert len(ran) == 2
 
 
 def test_closing_never_waits_for_the_lock_of_the_caller(worker: Worker) -> None:
@@ -142,7 +196,7 @@ def test_closing_never_waits_for_the_lock_of_the_caller(worker: Worker) -> None:
 
 def test_an_action_may_close_its_own_worker(worker: Worker) -> None:
     worker.post(worker.close)
-    worker.join(10)
+    worker.join(patience(10.0))
     assert not worker.is_alive()
 
 
@@ -186,5 +240,5 @@ def test_the_event_loop_goes_on_while_a_session_is_busy(
             )
             protocol(viz.viser.get_port()).close()
             client.set_value(client.uuid_of("echo"), "still there")
-            assert answered.wait(10)
+            assert answered.wait(patience(10.0))
         client.settle(viz.viser)

@@ -24,7 +24,6 @@ What it offers:
     client.set_value(uuid, v)  what a browser sends when a widget was moved
     client.send(type, **f)     any other message
     client.wait_until(cond)    until cond() is true; fails after `timeout` seconds
-    client.quiet(seconds)      True when nothing arrives for so long
     client.settle(server)      a fence, see below
     client.ticket, .channel_code   which page it is, and how its channel has ended
     client.close()
@@ -59,6 +58,7 @@ from typing import Any, cast
 import msgspec.msgpack
 import viser
 import zstandard
+from hand_clock import HandClock
 from page_rows import PageRows, Row, decode, named
 from patience import patience
 from websockets.exceptions import ConnectionClosed
@@ -306,12 +306,6 @@ class ProtocolClient:
                 counts = dict(Counter(m.type for m in self._messages))
                 raise AssertionError(f"{end} while waiting; received {counts}")
 
-    def quiet(self, seconds: float) -> bool:
-        """Whether no frame at all arrives during `seconds`."""
-        with self._changed:
-            before = self._frames
-            return not self._changed.wait_for(lambda: self._frames > before, seconds)
-
     def settle(self, server: viser.ViserServer, timeout: float = 10.0) -> None:
         """Wait until everything caused so far has arrived (see above)."""
         if server not in _fences:
@@ -475,7 +469,8 @@ def wait_for_workers(timeout: float = 10.0, put_off: float = 0.0) -> None:
     """Wait until the sessions' threads have run what was posted so far.
 
     That goes two rounds deep: what an action of the first round posts is waited for,
-    and also the changes of rows that it has put off.
+    and also the changes of rows that it has put off. A clock that a test moves goes on
+    by as much.
 
     Args:
         timeout: how long each round may take [s].
@@ -486,6 +481,8 @@ def wait_for_workers(timeout: float = 10.0, put_off: float = 0.0) -> None:
             if isinstance(thread, Worker):
                 done = threading.Event()
                 thread.post_later(delay, partial(_behind_all, thread, done.set))
+                if isinstance(thread.clock, HandClock):
+                    thread.clock.advance(delay)
                 end = time.monotonic() + patience(timeout)
                 # A worker that is closed meanwhile drops what was posted to it.
                 while not done.wait(0.02) and thread.is_alive():

@@ -48,7 +48,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
-from sambot_viz.session.worker import Clock, WallClock, Worker
+from sambot_viz.session.worker import Worker
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
@@ -68,7 +68,6 @@ class Session:
         poses: the named poses; None keeps new ones in memory.
         moved_by: the robot of a recording or of a live source, which moves this one;
             None leaves it to the sliders.
-        clock: the time of what moves; the computer's by default.
 
     Attributes:
         lock: the worker's; held while the state changes.
@@ -92,13 +91,11 @@ class Session:
         options: Options | None = None,
         poses: Presets | None = None,
         moved_by: RecordedRobot | LiveRobot | None = None,
-        clock: Clock | None = None,
     ) -> None:
         self.audience, self.worker, self.lock = audience, worker, worker.lock
         self.options = options = options or Options()
         self.poses = poses or Presets()
         change = self.change = Change(worker, audience)
-        clock = clock or WallClock()
         private = self.private = isinstance(audience, viser.ClientHandle)
         self.own_model = False
         self.roles = Roles(change, options.presenter is not None and not private)
@@ -115,9 +112,7 @@ class Session:
 
         added = UserFrames(tree)
         data_frames = DataFrames(tree)
-        robot = RobotState(
-            tree, added, data_frames, scene, history, change, worker, clock
-        )
+        robot = RobotState(tree, added, data_frames, scene, history, change, worker)
         self.robot = robot
         self._size = SizeOfRobot(
             document, scene, robot, picker, self.display_edits, history
@@ -141,7 +136,6 @@ class Session:
                 robot,
                 change,
                 worker,
-                clock,
             )
         if self.data is not None:
             scene.context.now = self.data.time_s
@@ -149,7 +143,7 @@ class Session:
         self._descriptions = self._describe(moved_by)
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
-        self.motion = Motion(robot, self.drive, change, worker, clock)
+        self.motion = Motion(robot, self.drive, change, worker)
         self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
         played = None if self.data is None else self.data.problems

@@ -8,7 +8,8 @@ that asks for much holds up nobody; when those who have control and those who ha
 wait, every other action is of one in control.
 
 A throttle runs an action at once for a single event, and at a steady rate for a
-stream. The clock is the computer's; that of a recording or of ROS may take its place.
+stream. All parts of a session measure time with the worker's clock, which also says
+when an action that was put off is due. It is the computer's; a test moves one by hand.
 """
 
 from __future__ import annotations
@@ -38,16 +39,21 @@ class Worker(threading.Thread):
 
     Args:
         loop: viser's event loop, for `on_loop`.
+        clock: the time of the session; the computer's by default.
 
     Attributes:
+        clock: the same.
         lock: held while an action runs; threads of the program may take it too.
         in_control: whether a client has control; asked in any thread, takes no lock.
         on_error: called with an exception that an action raised, and the client that
             has caused it; logs it by default.
     """
 
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+    def __init__(
+        self, loop: asyncio.AbstractEventLoop, clock: Clock | None = None
+    ) -> None:
         super().__init__(name="sambot-viz-session", daemon=True)
+        self.clock = clock or WallClock()
         self.lock = threading.RLock()
         self.in_control: Callable[[int], bool] = lambda client: True
         self.on_error: OnError = lambda error, client: log_error(error)
@@ -88,7 +94,7 @@ class Worker(threading.Thread):
             if self._closed:
                 return
             self._count += 1
-            due = time.monotonic() + delay
+            due = self.clock.now() + delay
             heapq.heappush(self._timers, (due, self._count, action))
             self._wake()
 
@@ -150,14 +156,12 @@ class Worker(threading.Thread):
         """Wait for the next action, and whose it is; None after `close`."""
         with self._changed:
             while not self._closed:
-                wait = None
-                if self._timers:
-                    wait = self._timers[0][0] - time.monotonic()
-                    if wait <= 0:
-                        return None, heapq.heappop(self._timers)[2]
+                due = self._timers[0][0] if self._timers else None
+                if due is not None and due <= self.clock.now():
+                    return None, heapq.heappop(self._timers)[2]
                 if self._inbox:
                     return self._next_turn()
-                self._changed.wait(wait)
+                self.clock.wait(self._changed, due)
             return None
 
     def _next_turn(self) -> tuple[int | None, Action]:
@@ -225,12 +229,12 @@ class Throttle:
         with self._lock:
             if self._waiting or self._closed:
                 return
-            left = self._last + self.period - time.monotonic()
+            left = self._last + self.period - self._worker.clock.now()
             if left > 0:
                 self._waiting = True
                 self._worker.post_later(left, self._late)
                 return
-            self._last = time.monotonic()
+            self._last = self._worker.clock.now()
         self._action()
 
     def close(self) -> None:
@@ -243,7 +247,7 @@ class Throttle:
             self._waiting = False
             if self._closed:
                 return
-            self._last = time.monotonic()
+            self._last = self._worker.clock.now()
         self._action()
 
 
@@ -254,6 +258,10 @@ class Clock(Protocol):
         """Return the time [s]; differences count, the start may be anything."""
         ...
 
+    def wait(self, changed: threading.Condition, until: float | None) -> None:
+        """Wait in a condition, whose lock is held, until a time [s] at the latest."""
+        ...
+
 
 class WallClock:
     """The time of the computer, which never goes back."""
@@ -261,6 +269,10 @@ class WallClock:
     def now(self) -> float:
         """Return the time since some start [s]."""
         return time.monotonic()
+
+    def wait(self, changed: threading.Condition, until: float | None) -> None:
+        """Wait in a condition, until a time [s] at the latest."""
+        changed.wait(None if until is None else until - self.now())
 
 
 def log_error(error: Exception) -> None:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
-from patience import patience
+from patience import until
 
 from sambot_viz.robot.xacro.child_result import ExpansionError
 from sambot_viz.robot.xacro.expand import Limits, expand_model
@@ -126,10 +125,7 @@ def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> 
         assert parent.stdout is not None
         child = int(parent.stdout.readline())
         parent.kill()
-    deadline = time.monotonic() + patience(10.0)
-    while is_running(child):
-        assert time.monotonic() < deadline, "the child goes on without its parent"
-        time.sleep(0.02)
+    until(lambda: not is_running(child), why="the child goes on without its parent")
 
 
 def is_running(process: int) -> bool:

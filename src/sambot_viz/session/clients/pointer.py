@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 from sambot_viz.displays.picking.selectable import Selection
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
@@ -52,7 +50,7 @@ class Pointer:
 
     def show(self, items: Selection) -> None:
         """Show what is selected from now on, for some seconds."""
-        self._items, self._until = dict(items), time.monotonic() + SHOWN_FOR
+        self._items, self._until = dict(items), self._worker.clock.now() + SHOWN_FOR
         self._draw()
         self._moving.to(*self._motion)
         if not self._waiting:
@@ -70,7 +68,7 @@ class Pointer:
             self._boxes.draw(self._picker.boxes_of(self._items))
 
     def _late(self) -> None:
-        left = self._until - time.monotonic()
+        left = self._until - self._worker.clock.now()
         self._waiting = left > 0.0
         if self._waiting:
             self._worker.post_later(left, self._late)

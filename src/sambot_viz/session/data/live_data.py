@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import threading
-import time
 from collections import deque
 from functools import partial
 
@@ -64,7 +63,7 @@ class LiveData(RobotData):
         decoding = Decoding(live.decoding.types)
         transforms = TransformTopics(history, (), (), decoding.transforms)
         states = JointStateTopics((), decoding.decode)
-        super().__init__(live.name, transforms, states, frames, robot, change)
+        super().__init__(live.name, transforms, states, frames, robot, change, worker)
         self.live = live
         self.status = Signal(change, None)
         self.topics = self._topics = LiveTopics(live, fault_of, change, worker)
@@ -73,7 +72,6 @@ class LiveData(RobotData):
         self.doubt: TopicReason | None = None
         self._doubted = ""
         self._live = live
-        self._worker = worker
         self._waiting: deque[Recorded] = deque()
         self._subscribed: dict[str, None] = {}
         # The thread of the source adds, the worker takes.
@@ -166,7 +164,7 @@ class LiveData(RobotData):
             if self._is_asked:
                 return
             self._is_asked = True
-        left = self._drawn + self.period - time.monotonic()
+        left = self._drawn + self.period - self._worker.clock.now()
         if left > 0:
             self._worker.post_later(left, self._take)
         else:
@@ -184,7 +182,7 @@ class LiveData(RobotData):
                 self.transforms.take(message)
             else:
                 self._joint_states.take(message)
-        self._drawn = time.monotonic()
+        self._drawn = self._worker.clock.now()
         self._draw(False)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import threading
-import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -204,7 +203,8 @@ class LiveTopics:
         for name in sorted(wanted - self._heard.keys()):
             topic = known[name]
             self._heard[name] = _Heard(
-                Topic(name, topic.schema, topic.message_encoding)
+                Topic(name, topic.schema, topic.message_encoding),
+                self._worker.clock.now(),
             )
             source.subscribe(name, self._receive, self._receive_kept)
 
@@ -219,7 +219,7 @@ class LiveTopics:
             return not_listened() if _LARGE.search(topic.schema.name) else None
         last = heard.topic.last
         if last is None:
-            waited = time.monotonic() - heard.since
+            waited = self._worker.clock.now() - heard.since
             return silent(topic.name) if waited > SILENT_AFTER else None
         if last is not heard.looked:
             heard.looked = last
@@ -273,15 +273,15 @@ class _Heard:
 
     Attributes:
         topic: counts the messages.
-        since: when that began, as `time.monotonic`.
+        since: when that began, by the clock of the session [s].
         looked: the message that was decoded last.
         reason: what is wrong with it.
         frame: of its header; "" without.
     """
 
-    def __init__(self, topic: Topic) -> None:
+    def __init__(self, topic: Topic, since: float) -> None:
         self.topic = topic
-        self.since = time.monotonic()
+        self.since = since
         self.looked: Recorded | None = None
         self.reason: TopicReason | None = None
         self.frame = ""

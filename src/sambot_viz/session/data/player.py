@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from sambot_viz.session.signals import Change, Signal
-from sambot_viz.session.worker import Clock, Worker
+from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.subscriber import Subscriber, jump
 
@@ -49,7 +49,6 @@ class Player:
         draw: shows what subscribers have taken; told whether the time has jumped.
         change: tells what the player does.
         worker: takes the steps.
-        clock: the time of the computer.
         at_ns: the log time to begin with; the first one by default [ns].
 
     Attributes:
@@ -68,7 +67,6 @@ class Player:
         draw: Callable[[bool], None],
         change: Change,
         worker: Worker,
-        clock: Clock,
         at_ns: int | None = None,
     ) -> None:
         self.recording = recording
@@ -83,7 +81,6 @@ class Player:
         self._draw = draw
         self._change = change
         self._worker = worker
-        self._clock = clock
         self._coming: Iterator[Recorded] | None = None
         self._next: Recorded | None = None
         self._last = 0.0
@@ -101,7 +98,7 @@ class Player:
             self._tell(playing=True)
             if not self._ticking and not self._closed:
                 self._ticking = True
-                self._last = self._clock.now()
+                self._last = self._worker.clock.now()
                 self._worker.post_later(self.period, self._step)
 
     def begin(self) -> None:
@@ -205,7 +202,7 @@ class Player:
         return tuple(dict.fromkeys(n for n in names if n in self.recording.topics))
 
     def _step(self) -> None:
-        now = self._clock.now()
+        now = self._worker.clock.now()
         passed, self._last = min(now - self._last, LONGEST_STEP), now
         self._ticking = False
         playback = self.playback.value

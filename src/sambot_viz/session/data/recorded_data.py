@@ -10,7 +10,7 @@ from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change
-from sambot_viz.session.worker import Clock, Worker
+from sambot_viz.session.worker import Worker
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
 
@@ -24,7 +24,6 @@ class RecordedData(RobotData):
         robot: is moved.
         change: tells what the player does.
         worker: takes its steps.
-        clock: the time of the computer.
     """
 
     def __init__(
@@ -35,10 +34,10 @@ class RecordedData(RobotData):
         robot: RobotState,
         change: Change,
         worker: Worker,
-        clock: Clock,
     ) -> None:
         transforms, states = recorded.transforms(history), recorded.joint_states()
-        super().__init__(recorded.name, transforms, states, frames, robot, change)
+        name = recorded.name
+        super().__init__(name, transforms, states, frames, robot, change, worker)
         self.recorded = recorded
         topics = recorded.topics
         if topics.moving or topics.joint_states:
@@ -49,7 +48,6 @@ class RecordedData(RobotData):
             self._draw,
             change,
             worker,
-            clock,
             recorded.at_ns,
         )
         self._player = self.player

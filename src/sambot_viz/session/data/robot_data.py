@@ -15,6 +15,7 @@ from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal
+from sambot_viz.session.worker import Worker
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
@@ -34,6 +35,7 @@ class RobotData:
         frames: those of the session, as they are drawn.
         robot: is moved.
         change: tells what is wrong.
+        worker: its clock says when frames have grown older.
 
     Attributes:
         name: as given.
@@ -61,9 +63,11 @@ class RobotData:
         frames: DataFrames,
         robot: RobotState,
         change: Change,
+        worker: Worker,
     ) -> None:
         self.name = name
         self._change = change
+        self._worker = worker
         self.problems = Signal[tuple[Problem, ...]](change, ())
         self._said: tuple[int, str] = (0, "")
         self._looked = float("-inf")
@@ -114,7 +118,7 @@ class RobotData:
         self._look_at_time(jumped)
 
     def _look_at_time(self, jumped: bool = False) -> None:
-        now = time.monotonic()
+        now = self._worker.clock.now()
         if jumped or now - self._looked >= AGEING_PERIOD:
             self._looked = now
             self._robot.time_passed()

@@ -15,7 +15,7 @@ from sambot_viz.joints.state import JointState
 from sambot_viz.session.robot.drive import Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal, connect
-from sambot_viz.session.worker import Clock, Worker
+from sambot_viz.session.worker import Worker
 
 HOLD = 0.3
 """A held button counts as released this long after its last message [s]; viser sends
@@ -54,8 +54,7 @@ class Motion:
         robot: its joints and frames move.
         drive: the robot on its two wheels.
         change: tells what turns.
-        worker: takes the steps.
-        clock: the time between two steps.
+        worker: takes the steps; its clock is the time between two.
 
     Attributes:
         turning: the joints that turn at the moment.
@@ -68,7 +67,6 @@ class Motion:
         drive: Drive,
         change: Change,
         worker: Worker,
-        clock: Clock,
     ) -> None:
         self.turning: Signal[tuple[str, ...]] = Signal(change, ())
         self.period = 0.0
@@ -76,7 +74,6 @@ class Motion:
         self._drive = drive
         self._change = change
         self._worker = worker
-        self._clock = clock
         self._turning: dict[str, _Turning] = {}
         self._glide: _Glide | None = None
         self._ticking = False
@@ -197,7 +194,7 @@ class Motion:
             if self._ticking or self._closed or not self.moving:
                 return
             self._ticking = True
-            self._last = self._clock.now()
+            self._last = self._worker.clock.now()
         self._wait()
 
     def close(self) -> None:
@@ -212,7 +209,7 @@ class Motion:
 
     def _step(self) -> None:
         """Take one step, in the session's worker; an error stops all motion."""
-        now = self._clock.now()
+        now = self._worker.clock.now()
         dt, self._last = min(now - self._last, LONGEST_STEP), now
         self._ticking = False
         if self._closed:

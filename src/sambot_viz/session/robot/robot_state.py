@@ -21,7 +21,7 @@ from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.undo import History, NotNow
-from sambot_viz.session.worker import Clock, Throttle, Worker
+from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
 
@@ -35,7 +35,6 @@ class RobotState:
         tree: the frames; this fills them.
         added: frames that were added by hand or by driving.
         data: frames that messages bring; they come before the robot's joints.
-        clock: the time of the recorder.
 
     Attributes:
         changed: another robot is shown, or the same after an edit.
@@ -58,7 +57,6 @@ class RobotState:
         history: History,
         change: Change,
         worker: Worker,
-        clock: Clock,
     ) -> None:
         self.changed = Signal(change, None)
         self.positions = Signal(change, None)
@@ -67,7 +65,7 @@ class RobotState:
         self.first: dict[str, float] = {}
         self.moved = False
         self.followed = Signal(change, "")
-        self.recorder = MotionRecorder(clock)
+        self.recorder = MotionRecorder(worker.clock)
         self._tree = tree
         self._added = added
         self._data = data

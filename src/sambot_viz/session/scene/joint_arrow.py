@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 
 import numpy as np
 import numpy.typing as npt
@@ -56,7 +55,7 @@ class JointArrow:
 
     def moved(self, joint: Joint) -> None:
         """Show the arrow of a joint that a user has moved."""
-        now = time.monotonic()
+        now = self._worker.clock.now()
         again = joint.name == self._joint and now - self._moved_at < SHOWN_FOR
         if joint.name != self._joint:
             self.hide()
@@ -74,7 +73,7 @@ class JointArrow:
         self._joint = ""
 
     def _late(self) -> None:
-        left = self._moved_at + SHOWN_FOR - time.monotonic()
+        left = self._moved_at + SHOWN_FOR - self._worker.clock.now()
         self._waiting = left > 0
         if self._waiting:
             self._worker.post_later(left, self._late)
