@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from xml.sax.saxutils import quoteattr
 
 from sambot_viz.frames.hierarchy import plain_name
@@ -29,6 +29,7 @@ class RobotTopics:
         static: of the transforms that hold at all times.
         joint_states: of the positions of joints.
         others: descriptions of further robots, for displays that ask for them.
+        all: every topic of which messages are taken.
     """
 
     description: str | None = None
@@ -36,12 +37,12 @@ class RobotTopics:
     static: tuple[str, ...] = ()
     joint_states: tuple[str, ...] = ()
     others: tuple[str, ...] = ()
+    all: frozenset[str] = field(init=False, repr=False, compare=False)
 
-    @property
-    def all(self) -> tuple[str, ...]:
-        """Every topic of which messages are taken."""
+    def __post_init__(self) -> None:
         own = () if self.description is None else (self.description,)
-        return (*own, *self.moving, *self.static, *self.joint_states)
+        taken = frozenset((*own, *self.moving, *self.static, *self.joint_states))
+        object.__setattr__(self, "all", taken)
 
 
 def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTopics:

@@ -105,6 +105,7 @@ class Survey:
         self.is_complete = False
         history = FrameHistory()
         own = recorded.topics
+        self._moving = frozenset(own.moving)
         self.transforms = TransformTopics(
             history, own.moving, own.static, self._transforms_of
         )
@@ -192,7 +193,7 @@ class Survey:
         looked.last_ns = message.log_ns
         if looked.first_ns is None:
             looked.first_ns = message.log_ns
-        if message.topic in self.recorded.topics.moving:
+        if message.topic in self._moving:
             before = self.transforms.undecoded[message.topic]
             self.transforms.take(message)
             failed = self.transforms.undecoded[message.topic] - before

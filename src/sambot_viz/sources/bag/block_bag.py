@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 from abc import ABC, abstractmethod
 from collections import Counter, OrderedDict, deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,6 +59,11 @@ class BlockBag(ABC):
         self._file = file
         self._blocks: list[Block] = []
         self._channels: dict[int, TopicChannel] = {}
+        # By topic, and of those that are latched: there may be 65,535 of them.
+        self._numbers_of: dict[str, set[int]] = {}
+        self._latched_channels: dict[int, TopicChannel] = {}
+        # Becomes more with what is said of topics.
+        self._changes = 0
         self._counts: Counter[int] = Counter()
         # What the file itself says, when that is used in place of counting.
         self._stated: Counter[int] | None = None
@@ -108,7 +113,18 @@ class BlockBag(ABC):
 
     def _add_channel(self, number: int, channel: TopicChannel) -> None:
         with self._lock:
-            self._channels.setdefault(number, channel)
+            if number not in self._channels:
+                self._channels[number] = channel
+                self._numbers_of.setdefault(channel.topic, set()).add(number)
+                if channel.is_latched:
+                    self._latched_channels[number] = channel
+                self._changes += 1
+
+    def _count(self, counts: Mapping[int, int]) -> None:
+        """Count messages by channel."""
+        with self._lock:
+            self._counts.update(counts)
+            self._changes += 1
 
     def _add_block(self, block: Block, entries: Entries | None) -> None:
         """Add a block that was found, with its messages if they were read."""
@@ -116,9 +132,7 @@ class BlockBag(ABC):
             self._blocks.append(block)
             if entries is not None:
                 found, counts = np.unique(entries.channels, return_counts=True)
-                self._counts.update(
-                    dict(zip(found.tolist(), counts.tolist(), strict=True))
-                )
+                self._count(dict(zip(found.tolist(), counts.tolist(), strict=True)))
         if entries is not None:
             self._collect(block, entries)
         else:
@@ -163,6 +177,7 @@ class BlockBag(ABC):
         with self._lock:
             if block.number not in self._broken:
                 self._broken.add(block.number)
+                self._changes += 1
                 self.damage.add_broken(block.start, block.end)
                 (self._counts if self._stated is None else self._stated).subtract(lost)
 
@@ -171,28 +186,24 @@ class BlockBag(ABC):
     def _find_all(self) -> Iterator[int]:
         yield from self._find()
         self._is_finding = False
-        wanted = self._wanted()
         while self._to_collect:
             block = self._to_collect.popleft()
-            if not wanted.isdisjoint(block.channels):
+            if self._wanted(block):
                 entries = self._read_or_none(block)
                 if entries is not None:
                     self._collect(block, entries)
-                    wanted = self._wanted()
                     yield entries.size // 1000 + len(entries.times)
             yield 1
 
-    def _wanted(self) -> set[int]:
-        """Return the channels of latched topics for whose messages there is room."""
-        return {
-            number
-            for number, channel in self._channels.items()
-            if channel.is_latched and self._latched.wants(channel.topic)
-        }
+    def _wanted(self, block: Block) -> list[int]:
+        """Return the channels of a block that are latched and have room."""
+        latched = self._latched_channels.keys() & block.channels
+        topics = ((one, self._latched_channels[one].topic) for one in latched)
+        return [one for one, topic in topics if self._latched.wants(topic)]
 
     def _collect(self, block: Block, entries: Entries) -> None:
         """Keep the messages of latched topics that are in a block."""
-        latched = sorted(self._wanted() & block.channels)
+        latched = self._wanted(block)
         if latched:
             for number in np.flatnonzero(np.isin(entries.channels, latched)).tolist():
                 message = self._taken(entries, number)
@@ -236,8 +247,7 @@ class BlockBag(ABC):
     def topics(self) -> Mapping[str, RecordedTopic]:
         """The topics by name, in the order of the file."""
         with self._lock:
-            state = (len(self._channels), self._counts.total(), len(self._broken))
-            known = (*state, self._is_complete)
+            known = (self._changes, self._is_complete)
             if self._topics is None or self._topics[0] != known:
                 self._topics = (known, self._make_topics())
             return self._topics[1]
@@ -299,7 +309,7 @@ class BlockBag(ABC):
         """Yield messages in the order of their log times; see `Bag.messages`."""
         first = 0 if start_ns is None else max(0, start_ns)
         last = LAST_TIME if end_ns is None else min(LAST_TIME, end_ns)
-        channels = self._numbers(None if topics is None else set(topics))
+        channels = self._numbers(topics)
         blocks = self._blocks_by_time().overlapping(first, last, channels)
         for entries, numbers in merged(
             blocks, self._read_or_none, first, last, channels
@@ -311,7 +321,7 @@ class BlockBag(ABC):
 
     def last(self, topic: str, at_ns: int) -> Recorded | None:
         """Return the newest message of a topic at a log time or before it."""
-        channels = self._numbers({topic})
+        channels = self._numbers((topic,))
         best: tuple[int, int] | None = None
         found: tuple[Entries, int] | None = None
         for block, latest in self._blocks_by_time().backwards(at_ns, channels):
@@ -331,7 +341,7 @@ class BlockBag(ABC):
 
     def next(self, topic: str, after_ns: int) -> Recorded | None:
         """Return the first message of a topic after a log time."""
-        channels = self._numbers({topic})
+        channels = self._numbers((topic,))
         best: tuple[int, int] | None = None
         found: tuple[Entries, int] | None = None
         for block in self._blocks_by_time().forwards(after_ns + 1, channels):
@@ -353,14 +363,13 @@ class BlockBag(ABC):
         """Return the newest message of a topic before a log time."""
         return self.last(topic, before_ns - 1)
 
-    def _numbers(self, topics: set[str] | None) -> frozenset[int]:
+    def _numbers(self, topics: Iterable[str] | None) -> Set[int]:
         """Return the channels of some topics, or of all."""
         with self._lock:
-            return frozenset(
-                number
-                for number, channel in self._channels.items()
-                if topics is None or channel.topic in topics
-            )
+            if topics is None:
+                return frozenset(self._channels)
+            found = (self._numbers_of.get(topic, ()) for topic in topics)
+            return frozenset(number for some in found for number in some)
 
     def _blocks_by_time(self) -> TimeIndex:
         with self._lock:

@@ -294,8 +294,7 @@ class McapBag(BlockBag):
         must_read = self._is_small or not known
         if not must_read:
             block.is_counted = True
-            with self._lock:
-                self._counts.update(chunk.counts)
+            self._count(chunk.counts)
         return self._add_chunk_block(block, must_read)
 
     def _add_chunk_block(self, block: ChunkBlock, must_read: bool) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from heapq import heapify, heappop, heappush
 
 import numpy as np
@@ -14,7 +14,7 @@ class _Cursor:
     """The messages of one block that are wanted and not yet handed on."""
 
     def __init__(
-        self, entries: Entries, first: int, last: int, channels: frozenset[int]
+        self, entries: Entries, first: int, last: int, channels: Set[int]
     ) -> None:
         self.entries = entries
         begin = position(entries.times, first, right=False)
@@ -50,7 +50,7 @@ def merged(
     read: Callable[[Block], Entries | None],
     first: int,
     last: int,
-    channels: frozenset[int],
+    channels: Set[int],
 ) -> Iterator[tuple[Entries, list[int]]]:
     """Yield runs of messages, each in one block, in the order of their log times.
 

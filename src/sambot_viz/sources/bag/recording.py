@@ -30,6 +30,7 @@ class Recording:
         # At one time the file that begins first is first, as at the seam of a split.
         self._bags = sorted(bags, key=lambda bag: (bag.start_ns is None, bag.start_ns))
         self._problems = tuple(problems)
+        self._topics: tuple[Sequence[object], Mapping[str, RecordedTopic]] = (), {}
 
     @property
     def paths(self) -> Sequence[Path]:
@@ -44,11 +45,15 @@ class Recording:
     @property
     def topics(self) -> Mapping[str, RecordedTopic]:
         """The topics by name, in the order of the files."""
-        found: dict[str, RecordedTopic] = {}
-        for bag in self._bags:
-            for name, topic in bag.topics.items():
-                found[name] = _joined(found[name], topic) if name in found else topic
-        return found
+        parts = [bag.topics for bag in self._bags]
+        known, joined = self._topics
+        # Who asks for each topic of many joins them once.
+        if len(known) != len(parts) or any(
+            one is not other for one, other in zip(known, parts, strict=True)
+        ):
+            joined = _joined_topics(parts)
+            self._topics = parts, joined
+        return joined
 
     @property
     def start_ns(self) -> int | None:
@@ -152,6 +157,16 @@ class Recording:
 
     def __exit__(self, *raised: object) -> None:
         self.close()
+
+
+def _joined_topics(
+    parts: Iterable[Mapping[str, RecordedTopic]],
+) -> dict[str, RecordedTopic]:
+    found: dict[str, RecordedTopic] = {}
+    for topics in parts:
+        for name, topic in topics.items():
+            found[name] = _joined(found[name], topic) if name in found else topic
+    return found
 
 
 def _joined(one: RecordedTopic, other: RecordedTopic) -> RecordedTopic:

@@ -164,8 +164,7 @@ class Ros1Bag(BlockBag):
     def _add(self, block: Ros1Block, *, must_read: bool = False) -> int:
         """Add a chunk, and return how much work it was."""
         if not must_read and not self._is_small:
-            with self._lock:
-                self._counts.update(block.counts)
+            self._count(block.counts)
             self._add_block(block, None)
             return 1
         block.counts.clear()
