@@ -27,7 +27,7 @@ _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before viser's own script."""
 _EARLY = ("view/font.js", "view/still.js")
-"""Run before viser's own script too; the first finds the font in an element before it."""
+"""Run before it too; the first finds the font in an element before it."""
 _FONT = "vendor/names.woff2"
 _WINDOW_STYLES = (
     "window/window.css",
