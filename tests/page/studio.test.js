@@ -6,7 +6,7 @@ import { drawShadow, dropShadow } from "../../src/sambot_viz/page/view/studio_sh
 /** An attribute of a geometry, as three.js has them. */
 class Values {
   constructor(array, size) {
-    Object.assign(this, { array, size, count: array.length / size });
+    Object.assign(this, { array, size, itemSize: size, count: array.length / size });
   }
   getX = (i) => this.array[i * this.size];
   getY = (i) => this.array[i * this.size + 1];
@@ -104,6 +104,63 @@ test("a shape that is made once is used for all that are the same", () => {
   roundOff(one);
   roundOff(other);
   assert.equal(one.geometry, other.geometry);
+});
+
+/** What the corners of a mesh can have besides their places. */
+const EXTRAS = {
+  uv: () =>
+    new Values(
+      Float32Array.from({ length: 8 }, (_, i) => i / 8),
+      2,
+    ),
+  color: () =>
+    new Values(
+      Uint8Array.from({ length: 16 }, (_, i) => 10 * i),
+      4,
+    ),
+};
+/** The numbers of the corners of a geometry, face by face. */
+function byCorner({ attributes, index }, name) {
+  const { array, size, count } = attributes[name];
+  const corners = index ? [...index.array] : Array.from({ length: count }, (_, i) => i);
+  return corners.map((corner) => [...array.slice(size * corner, size * corner + size)]);
+}
+
+test("a mesh that becomes smooth keeps what its corners have, in its own kind of numbers", () => {
+  for (const extras of [[], ["uv"], ["color"], ["uv", "color"]]) {
+    for (const faces of [null, [0, 1, 2, 0, 2, 3]]) {
+      beginShapes();
+      const flat = shape(Geometry, [...cube.slice(0, 3), cube[5]]);
+      const { geometry } = flat;
+      geometry.index = faces && new Values(Uint16Array.from(faces), 1);
+      geometry.groups = [{ start: 0, count: 3, materialIndex: 1 }];
+      for (const name of extras) geometry.attributes[name] = EXTRAS[name]();
+      if (!faces) {
+        // Without an index, a mesh of four corners has one face.
+        for (const values of Object.values(geometry.attributes)) values.count = 3;
+      }
+      roundOff(flat);
+      const smooth = flat.geometry;
+      assert.notEqual(smooth, geometry);
+      for (const name of ["position", ...extras]) {
+        assert.deepEqual(byCorner(smooth, name), byCorner(geometry, name), name);
+        const [now, before] = [smooth, geometry].map((one) => one.attributes[name].array);
+        assert.equal(now.constructor, before.constructor);
+      }
+      assert.deepEqual(smooth.groups, geometry.groups);
+    }
+  }
+});
+
+test("a textured or coloured mesh with the corners of a sphere stays a mesh", () => {
+  for (const name of ["uv", "color"]) {
+    beginShapes();
+    const mesh = shape(Geometry, ball);
+    mesh.geometry.attributes[name] = new Values(new Float32Array(114 * 3), 3);
+    roundOff(mesh);
+    assert.equal(mesh.geometry.attributes.position.count, 3);
+    assert.equal(mesh.geometry.attributes[name].count, 3);
+  }
 });
 
 /** A scene, and the object that the background is drawn on; what is painted is counted. */

@@ -60,6 +60,28 @@ function filled(geometry, positions, normals) {
   return made;
 }
 
+/** Made anew, or by the mesh's file for one purpose. */
+const NOT_KEPT = new Set(["position", "normal", "_normal"]);
+
+/** Give a geometry what the corners of another one have besides: texture coordinates, colours.
+ * @param {any} made @param {any} geometry @param {(i: number) => number} corner
+ * @param {number} count of corners */
+function keepRest(made, geometry, corner, count) {
+  for (const [name, from] of Object.entries(geometry.attributes)) {
+    if (NOT_KEPT.has(name)) continue;
+    const { data, itemSize: size } = from;
+    const source = data ? data.array : from.array;
+    const [step, first] = data ? [data.stride, from.offset] : [size, 0];
+    const values = new source.constructor(size * count);
+    for (let i = 0; i < count; i += 1)
+      for (let k = 0; k < size; k += 1) values[size * i + k] = source[step * corner(i) + first + k];
+    const kind = data ? geometry.attributes.position.constructor : from.constructor;
+    made.setAttribute(name, new kind(values, size, from.normalized));
+  }
+  made.groups = geometry.groups;
+  return made;
+}
+
 /** @param {any} geometry @param {Row[]} rows @param {number} sides @param {boolean} alongY */
 function turned(geometry, rows, sides, alongY) {
   /** @type {number[]} */
@@ -110,7 +132,9 @@ function rounded(geometry, sides) {
     made.scale(2 * radiusTop, height, 2 * radiusTop);
     return made;
   }
-  if (!geometry.index) return null;
+  // What has a texture or colours is a mesh, whatever its form.
+  const { uv, color } = geometry.attributes;
+  if (!geometry.index || uv || color) return null;
   if (count === 114 && all(geometry, (x, y, z) => near(Math.hypot(x, y, z), 0.5)))
     return turned(geometry, SPHERE, sides, false);
   if (count === 32 && all(geometry, (x, y, z) => near(Math.hypot(x, y), 0.5) && near(z * z, 0.25)))
@@ -196,7 +220,7 @@ function smoothed(geometry) {
     const long = Math.hypot(x, y, z) || 1;
     normals.set([x / long, y / long, z / long], 3 * i);
   }
-  return filled(geometry, positions, normals);
+  return keepRest(filled(geometry, positions, normals), geometry, corner, count);
 }
 
 let until = 0;
