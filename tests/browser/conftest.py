@@ -45,14 +45,22 @@ def _home(item: pytest.Item) -> Path:
 
 
 @pytest.fixture
-def open_viewer(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
+def view(request: pytest.FixtureRequest) -> bool:
+    """Whether the pages of a test have a 3D view: they cost four times as much."""
+    return request.node.get_closest_marker("view") is not None
+
+
+@pytest.fixture
+def open_viewer(chromium: Chromium, view: bool) -> Iterator[Callable[..., ViewerPage]]:
     """Open a viewer in a page of its own: ``open_viewer(url_or_port)``.
 
     The pages are closed at the end of the test. The test fails there when a page had
     an error or asked another server for anything, unless it set `expects_errors`. What
-    depends on the pixels that the view has before they are read asks for resolution=1.
+    looks at the scene, or reaches into it, has the mark `view`, or asks for view=True;
+    what depends on the pixels that the view has before they are read asks for
+    resolution=1.
     """
-    yield from _viewers(chromium)
+    yield from _viewers(chromium, view)
 
 
 @pytest.fixture
@@ -76,7 +84,9 @@ def open_for_all(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
     yield from _viewers(chromium)
 
 
-def _viewers(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
+def _viewers(
+    chromium: Chromium, in_test: bool = False
+) -> Iterator[Callable[..., ViewerPage]]:
     from recorded_page import open_page
     from viewer_page import COARSE, ViewerPage, viewer_url
 
@@ -90,12 +100,13 @@ def _viewers(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
         touch: bool = False,
         dark: bool = False,
         resolution: float = COARSE,
+        view: bool = in_test,
     ) -> ViewerPage:
         page = open_page(chromium, width, height, touch=touch)
         page.set_dark(dark)
-        url = viewer_url(address, resolution)
+        url = viewer_url(address, resolution, view)
         page.goto(url)
-        viewers.append(ViewerPage(page, url, touch))
+        viewers.append(ViewerPage(page, url, touch, view))
         return viewers[-1]
 
     yield open_one
@@ -108,34 +119,38 @@ def _viewers(chromium: Chromium) -> Iterator[Callable[..., ViewerPage]]:
 
 
 class Desks:
-    """The desks that are open, by the letter of their robot and what they are for."""
+    """The desks that are open, by the letter of their robot and what they are for.
+
+    Those with a view and those without are two.
+    """
 
     def __init__(self, chromium: Chromium, folders: pytest.TempPathFactory) -> None:
         self._chromium = chromium
         self._folders = folders
-        self._open: dict[str, Desk] = {}
+        self._open: dict[tuple[str, bool], Desk] = {}
 
-    def take(self, letter: str, config: str | None, resolution: float) -> Desk:
+    def take(
+        self, letter: str, config: str | None, resolution: float, view: bool
+    ) -> Desk:
         """The desk with a robot, as it was at the start."""
         from desk import Desk
 
-        if letter not in self._open:
+        if (letter, view) not in self._open:
             folder = self._folders.mktemp("desk")
-            self._open[letter] = Desk(
-                letter, self._chromium, folder, config, resolution
+            self._open[letter, view] = Desk(
+                letter, self._chromium, folder, config, resolution, view
             )
-        return self._open[letter]
+        return self._open[letter, view]
 
-    def drop(self, letter: str) -> None:
+    def drop(self, desk: Desk) -> None:
         """End a desk."""
-        desk = self._open.pop(letter, None)
-        if desk is not None:
-            desk.close()
+        self._open = {key: one for key, one in self._open.items() if one is not desk}
+        desk.close()
 
     def close(self) -> None:
         """End all."""
-        for letter in list(self._open):
-            self.drop(letter)
+        for desk in list(self._open.values()):
+            self.drop(desk)
 
 
 _DESKS = pytest.StashKey[Desks]()
@@ -160,8 +175,13 @@ def _keep_picture(desk: Desk, name: str) -> None:
 
 
 @pytest.fixture
-def sit(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Callable[..., Desk]]:
-    """Use a desk that other tests use too: ``sit("S")``, ``sit("S near", config)``."""
+def sit(
+    desks: Desks, request: pytest.FixtureRequest, view: bool
+) -> Iterator[Callable[..., Desk]]:
+    """Use a desk that other tests use too: ``sit("S")``, ``sit("S near", config)``.
+
+    What looks at the scene, or reaches into it, has the mark `view`.
+    """
     from viewer_page import COARSE
 
     with ExitStack() as leaving:
@@ -169,20 +189,19 @@ def sit(desks: Desks, request: pytest.FixtureRequest) -> Iterator[Callable[..., 
         def at(
             letter: str, config: str | None = None, resolution: float = COARSE
         ) -> Desk:
-            leaving.callback(_leave, desks, letter, request)
-            desk = desks.take(letter, config, resolution)
+            desk = desks.take(letter, config, resolution, view)
+            leaving.callback(_leave, desks, desk, request)
             desk.viewer.sleep(False)
             return desk
 
         yield at
 
 
-def _leave(desks: Desks, letter: str, request: pytest.FixtureRequest) -> None:
+def _leave(desks: Desks, desk: Desk, request: pytest.FixtureRequest) -> None:
     """Tidy a desk for the next test, or end it when that would not be enough."""
-    desk = desks.take(letter, None, 1.0)
     if request.node.stash.get(_FAILED, False):
         _keep_picture(desk, request.node.name)
-        desks.drop(letter)
+        desks.drop(desk)
         return
     try:
         desk.tidy()
@@ -190,5 +209,5 @@ def _leave(desks: Desks, letter: str, request: pytest.FixtureRequest) -> None:
         assert desk.viewer.foreign_requests() == []
         desk.viewer.sleep()
     except BaseException:
-        desks.drop(letter)
+        desks.drop(desk)
         raise

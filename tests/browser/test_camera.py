@@ -19,7 +19,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 WIDTH, HEIGHT = 320, 240
 FX, FY, CX, CY = 200.0, 210.0, 150.0, 110.0

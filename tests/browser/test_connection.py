@@ -27,6 +27,7 @@ def has_camera(viewer: ViewerPage, camera: list[float]) -> None:
     viewer.user.until(lambda: viewer.page.evaluate(CAMERA) == pytest.approx(camera))
 
 
+@pytest.mark.view
 def test_the_page_comes_back_to_a_program_that_was_started_again(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
@@ -168,6 +169,7 @@ WITHOUT_FOCUS = """(() => {
 })()"""
 
 
+@pytest.mark.view
 def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
@@ -192,6 +194,7 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
             has_camera(page, camera)
 
 
+@pytest.mark.view
 def test_a_view_comes_back_to_the_frame_that_it_follows_wherever_that_is_then(
     open_viewer: Callable[..., ViewerPage], tmp_path: Path
 ) -> None:
@@ -233,6 +236,7 @@ def values_of(viz: Visualizer) -> dict[str, Any]:
     return dict(client.view.values)
 
 
+@pytest.mark.view
 def test_a_page_that_slept_shows_how_things_are_now(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:

@@ -25,7 +25,7 @@ def viewer(
     model = tmp_path_factory.mktemp("cost") / "chain.urdf"
     model.write_text(robots.chain(COUNT), "utf-8")
     with Visualizer(model, port=0, look="rviz") as viz:
-        viewer = open_for_all(viz.url)
+        viewer = open_for_all(viz.url, view=True)
         yield viewer
         # The server is closed before the page is.
         assert viewer.errors() == []

@@ -15,6 +15,7 @@ from sambot_viz import Visualizer
 pytestmark = pytest.mark.browser
 
 
+@pytest.mark.view
 def test_the_sam_bot_drives_a_square_and_returns(
     viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:

@@ -17,7 +17,7 @@ from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.page_file import ViewState, page_file
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 LEFT_LINK = "drivewhl_l_link"
 BAR = 40
 CAMERA = "__viserMutable.camera.position.toArray()"

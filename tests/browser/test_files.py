@@ -148,6 +148,7 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     assert session_of(viz).document.config.global_options.get("Frame Rate") == 12
 
 
+@pytest.mark.view
 def test_the_config_and_a_picture_are_downloaded_at_once(
     user: User, viewer: ViewerPage, tmp_path: Path
 ) -> None:
@@ -207,6 +208,7 @@ def test_panels_are_hidden_and_shown_again_from_the_menu(desk: Desk) -> None:
     user.row("Displays", "Grid")
 
 
+@pytest.mark.view
 def test_widgets_of_a_script_have_a_panel_only_while_there_are_any(desk: Desk) -> None:
     user, viz = desk.user, desk.viz
     assert not user.there("button", "Blink")

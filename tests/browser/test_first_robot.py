@@ -14,7 +14,7 @@ from viewer_page import Pixels, ViewerPage
 
 from sambot_viz import Visualizer, bundled
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 Open = Callable[..., ViewerPage]
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

@@ -32,7 +32,7 @@ def server() -> Iterator[viser.ViserServer]:
 
 @pytest.fixture(scope="module")
 def viewer(server: viser.ViserServer, open_for_all: Open) -> ViewerPage:
-    viewer = open_for_all(server.get_port(), width=800, height=600)
+    viewer = open_for_all(server.get_port(), width=800, height=600, view=True)
     viewer.wait_for_nodes("/group/box")
     return viewer
 

@@ -16,6 +16,7 @@ from sambot_viz import Visualizer
 pytestmark = pytest.mark.browser
 
 
+@pytest.mark.view
 def test_the_page_answers_after_hostile_messages(
     make_viz: Callable[..., Visualizer],
     open_viewer: Callable[..., ViewerPage],

@@ -87,6 +87,7 @@ def test_letters_in_a_text_field_stay_there(
     assert user.there("toolbar", "Tools")
 
 
+@pytest.mark.view
 def test_a_click_into_the_view_takes_the_keys_from_a_field(
     user: User, viewer: ViewerPage
 ) -> None:
@@ -100,6 +101,7 @@ def test_a_click_into_the_view_takes_the_keys_from_a_field(
     pressed(user, "Measure")
 
 
+@pytest.mark.view
 def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
     user: User, viewer: ViewerPage, desk: Desk
 ) -> None:
@@ -125,6 +127,7 @@ def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
     user.until(lambda: desk.fixed_frame == "base_link")
 
 
+@pytest.mark.view
 def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
     user: User, viewer: ViewerPage
 ) -> None:
@@ -137,6 +140,7 @@ def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
         user.find("toolbar", "Tools")
 
 
+@pytest.mark.view
 def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants_it(
     user: User, viewer: ViewerPage, browser: Client
 ) -> None:
@@ -191,6 +195,7 @@ def test_undo_and_escape_act_in_the_list_of_poses_after_one_is_removed(
         user.gone("button", "Remove pose far")
 
 
+@pytest.mark.view
 def test_keys_are_for_tools_when_the_mouse_comes_into_the_view(desk: Desk) -> None:
     user, mouse = desk.user, desk.page.mouse
     field = user.row("Joints", "drivewhl_l_joint").one("textbox")

@@ -30,6 +30,7 @@ def is_ready(viewer: ViewerPage) -> None:
     viewer.user.row("Joints", LEFT)
 
 
+@pytest.mark.view
 def test_a_link_shows_the_same_in_another_browser_and_in_another_program(
     open_viewer: Open,
 ) -> None:

@@ -14,7 +14,7 @@ from viewer_page import ViewerPage
 from sambot_viz import Visualizer, bundled, load_config, load_robot
 from sambot_viz.export.chromium import Chromium
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 Open = Callable[..., ViewerPage]
 BACKGROUND, TOP, SIDE = (48, 48, 48), (19, 127, 127), (19, 96, 96)

@@ -19,7 +19,7 @@ from viewer_page import ViewerPage
 from sambot_viz import Visualizer, bundled
 from sambot_viz.views.camera import angles_of
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 Open = Callable[..., ViewerPage]
 SKY = (640.0, 120.0)

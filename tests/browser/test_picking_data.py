@@ -14,7 +14,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 CONFIG = """
 Visualization Manager:

@@ -33,7 +33,7 @@ LEFT = "drivewhl_l_joint"
 def viewer(
     viz_for_all: Visualizer, open_for_all: Callable[..., ViewerPage]
 ) -> ViewerPage:
-    viewer = open_for_all(viz_for_all.url)
+    viewer = open_for_all(viz_for_all.url, view=True)
     viewer.user.find("slider", LEFT)
     viewer.settle(viz_for_all)
     return viewer

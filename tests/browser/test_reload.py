@@ -49,6 +49,7 @@ def settled_picture(viewer: ViewerPage) -> Pixels:
     return after
 
 
+@pytest.mark.view
 def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
 ) -> None:
@@ -82,7 +83,6 @@ def test_what_was_refused_goes_away_with_its_joint_and_comes_back_from_a_fold(
 ) -> None:
     # An error of the page fails the test: `open_viewer` sees to that.
     viewer = open_viewer(viz.url)
-    viewer.wait_for_nodes(node_of(viz, LINK))
     user, content = viewer.user, model.read_text("utf-8")
     assert "${name}_joint" in content
     for end in ("axle", "joint"):

@@ -80,6 +80,7 @@ def test_a_viewer_requests_control_gets_it_and_loses_it(
     driving.until(lambda: not driving.see().all("dialog", "People"))
 
 
+@pytest.mark.view
 def test_a_viewer_turns_the_view_and_is_told_what_needs_control(
     guest: ViewerPage, teacher: ViewerPage
 ) -> None:

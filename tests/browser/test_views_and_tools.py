@@ -22,7 +22,7 @@ from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.signals import connect
 from sambot_viz.views.view import STEEPEST
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.view]
 
 Open = Callable[..., ViewerPage]
 SKY = (640.0, 80.0)

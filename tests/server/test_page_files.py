@@ -79,6 +79,22 @@ def test_a_page_without_panels_has_only_what_the_view_needs() -> None:
     assert 'import "sambot/view_only.js"' in html
 
 
+def test_a_page_without_a_view_has_the_window_and_nothing_of_viser(port: int) -> None:
+    whole = ask(port, "/")[1].decode()
+    html = ask(port, "/?view=none")[1].decode()
+    assert 'import "sambot/no_view.js"' in html
+    scripts, all_scripts = scripts_in(html), scripts_in(whole)
+    # The same scripts draw the window.
+    assert {"sambot/start.js", "sambot/window/window.js"} <= set(scripts)
+    same = set(scripts) & set(all_scripts)
+    assert {name: scripts[name] for name in same} == {n: all_scripts[n] for n in same}
+    # What draws and moves the scene is not there, nor is viser's own script.
+    assert not {"sambot/view/rviz_look.js", "sambot/view/rviz_mouse.js"} & set(scripts)
+    assert len(html) < 0.5 * len(whole) and "WebGL" not in html
+    tags = {ask(port, path)[0].headers["ETag"] for path in ("/", "/?view=none")}
+    assert len(tags) == 2
+
+
 def test_the_page_is_sent_packed_to_who_takes_that(port: int) -> None:
     plain, content = ask(port, "/")
     packed, smaller = ask(port, "/", Accept_Encoding="gzip, deflate")

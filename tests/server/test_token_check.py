@@ -76,6 +76,9 @@ def test_the_printed_link_lets_in_and_leaves_the_address_bar(
     assert listener.url() == f"http://127.0.0.1:{port}/?token={TOKEN}"
     first = ask(port, f"/?fixedDpr=1&token={TOKEN}")
     assert (first.status, first.headers["Location"]) == (303, "./?fixedDpr=1")
+    # This is no secret: it asks for a page without a view.
+    windowed = ask(port, f"/?view=none&token={TOKEN}")
+    assert (windowed.status, windowed.headers["Location"]) == (303, "./?view=none")
     cookie = first.headers["Set-Cookie"]
     assert "; HttpOnly" in cookie and "; SameSite=Lax" in cookie
     assert "Secure" not in cookie

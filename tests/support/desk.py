@@ -38,6 +38,8 @@ class Desk:
         folder: an empty folder for the model and what is saved.
         config: the text of its config; None for the one of the program.
         resolution: of the 3D view while its pixels are not read.
+        view: whether its pages have a 3D view; what reads no pixel, asks nothing of
+            the scene and moves no camera by the mouse needs none.
 
     Attributes:
         viz: the program.
@@ -54,7 +56,9 @@ class Desk:
         folder: Path,
         config: str | None = None,
         resolution: float = COARSE,
+        view: bool = False,
     ) -> None:
+        self.has_view = view
         self.folder = folder
         self._config = None if config is None else folder / "desk.rviz"
         self._resolution = resolution
@@ -84,10 +88,11 @@ class Desk:
     ) -> ViewerPage:
         """Open one more page of it, perhaps by a permalink; `close` closes it too."""
         page = open_page(self._chromium, width, height, touch=touch)
-        page.goto(viewer_url(address or self.viz.url, self._resolution))
+        url = address or self.viz.url
+        page.goto(viewer_url(url, self._resolution, self.has_view))
         page.take_downloads(self.downloads)
         page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
-        return ViewerPage(page, viewer_url(self.viz.url), touch)
+        return ViewerPage(page, viewer_url(self.viz.url), touch, self.has_view)
 
     @property
     def user(self) -> User:

@@ -49,6 +49,7 @@ _HAS_READ = """(() => {
 _ROWS = """import("sambot/wire/channel.js").then(({ rows }) => {
   window.fenceRows = rows;
 })"""
+_HAS_ROWS = """((rows, number) => rows.every(id => fenceRows.data(id) >= number))"""
 _GOT = """((nodes, rows, number) => {
   const { nodePoseData, messageQueue } = __viserMutable;
   return nodes.every(name => nodePoseData[name]?.position[0] >= number)
@@ -85,6 +86,16 @@ def settle(page: RecordedPage, viz: Visualizer) -> None:
         if np.allclose(before, _numbers(page, viz, client)[:-1], atol=1e-6):
             return
     raise AssertionError("the camera does not come to rest")
+
+
+def settle_rows(page: RecordedPage, viz: Visualizer) -> None:
+    """The same for a page without a view: what was done is in its rows."""
+    (client,) = until(lambda: _clients_of(page, viz), _TIME, "the page is not there")
+    page.evaluate(_HAS_READ, patience(_TIME))
+    wait_for_workers(put_off=READ_PERIOD)
+    number = next(_NUMBERS)
+    ids = _tell_rows(page, viz, client, number)
+    page.wait_for(f"{_HAS_ROWS}({json.dumps(ids)}, {number})", patience(_TIME))
 
 
 def _clients_of(page: RecordedPage, viz: Visualizer) -> list[int]:
@@ -147,6 +158,15 @@ def _pass_fence(page: RecordedPage, viz: Visualizer, client: int) -> None:
             _nodes[to.scene] = to.scene.add_frame(name, show_axes=False, visible=False)
         _nodes[to.scene].position = (float(number), 0.0, 0.0)
         to.flush()
+    ids = _tell_rows(page, viz, client, number)
+    names = json.dumps([name for name, _ in ways])
+    page.wait_for(f"{_GOT}({names}, {json.dumps(ids)}, {number})", patience(_TIME))
+
+
+def _tell_rows(
+    page: RecordedPage, viz: Visualizer, client: int, number: int
+) -> list[str]:
+    """Send a number behind all rows that a page is told; returns the rows it is in."""
     rows = viz.server.clients.rows_of(client)
     ids: list[str] = []
     for store in rows.stores if rows else ():
@@ -156,5 +176,4 @@ def _pass_fence(page: RecordedPage, viz: Visualizer, client: int) -> None:
         ids.append(row)
     if ids:
         page.evaluate(_ROWS)
-    names = json.dumps([name for name, _ in ways])
-    page.wait_for(f"{_GOT}({names}, {json.dumps(ids)}, {number})", patience(_TIME))
+    return ids

@@ -16,27 +16,26 @@ tests.
 from __future__ import annotations
 
 import base64
-import io
 import json
 from collections.abc import Sequence
 from typing import Any, cast
-from urllib.parse import urlsplit
 
 import numpy as np
 import numpy.typing as npt
-from page_fence import settle
-from patience import patience
-from PIL import Image
+from page_fence import settle, settle_rows
 from recorded_page import RecordedPage
-from user import User
+from window_page import COARSE, Pixels, WindowPage, decoded, viewer_url
 
 from sambot_viz import Visualizer
 
-COARSE = 0.1
-"""Pixels per CSS pixel where nobody looks: software takes a small part of the time."""
-Pixels = npt.NDArray[np.uint8]
-Matrix = npt.NDArray[np.float64]
+__all__ = ["COARSE", "Pixels", "ViewerPage", "viewer_url"]
 
+_NO_VIEW = "this page has no view: open it with view=True"
+Matrix = npt.NDArray[np.float64]
+_HAS_ROWS = "document.querySelector('#sambot [role=row]')"
+_HAS_SCENE = (
+    "__viserMutable.canvas && __viserMutable.scene && !__viserMutable.firstMessageBatch"
+)
 # viser draws for a quarter of a second after each message. Where nobody looks, most of
 # these pictures are left out, as on a slow machine; the last one never is.
 _DRAW_SELDOM = f"""(() => {{
@@ -80,7 +79,6 @@ _SLEEP = """(() => {
   gl.asleep = ASLEEP;
   invalidate();
 })()"""
-_REFUSED = "net::ERR_CONNECTION_REFUSED"
 _SET_RESOLUTION = """(() => {
   const { viewport, setDpr } = __viserMutable.scene.__r3f.root.getState();
   const before = viewport.dpr;
@@ -113,61 +111,32 @@ _POSE = """(() => {
 })()"""
 
 
-def viewer_url(address: str | int, resolution: float = COARSE) -> str:
-    """The address to open: a port or URL, with viser's resolution held still.
+class ViewerPage(WindowPage):
+    """One page with a viser viewer in it, or with an empty place for it."""
 
-    Without ``fixedDpr`` viser lowers its resolution when the machine is busy.
-
-    Args:
-        address: of the server.
-        resolution: of the 3D view [pixels per CSS pixel].
-    """
-    url = f"http://127.0.0.1:{address}" if isinstance(address, int) else address
-    url, mark, link = url.partition("#")
-    url = f"{url.rstrip('/')}/{'&' if '?' in url else '?'}fixedDpr={resolution:g}"
-    return f"{url.replace('/&', '&')}{mark}{link}"
-
-
-class ViewerPage:
-    """One page with a viser viewer in it.
-
-    Attributes:
-        page: the browser's page.
-        user: who uses it.
-        url: where it is.
-        expects_errors: set this in a test that provokes errors, or else the fixture
-            fails at the end when there were any.
-    """
-
-    def __init__(self, page: RecordedPage, url: str, finger: bool = False) -> None:
+    def __init__(
+        self, page: RecordedPage, url: str, finger: bool = False, view: bool = True
+    ) -> None:
         """Wait until `page`, which is at `url`, is connected and has drawn."""
-        self.page = page
-        self.user = User(page, finger)
-        self.url = url
-        self.expects_errors = False
-        self.wait_for(
-            "__viserMutable.canvas && __viserMutable.scene && "
-            "!__viserMutable.firstMessageBatch",
-            timeout=30.0,
-        )
-        self.page.evaluate(_DRAW_SELDOM)
-        self.wait_for_frames()
-
-    def reload(self) -> None:
-        """Load the page again; returns when the old one is gone."""
-        # A page that is going away answers nothing.
-        self.page.evaluate("window.isOld = true; setTimeout(() => location.reload())")
-        self.user.until(lambda: not self.page.evaluate("window.isOld === true"))
+        super().__init__(page, url, finger)
+        self.has_view = view
+        self.wait_for(_HAS_SCENE if view else _HAS_ROWS, timeout=30.0)
+        if view:
+            self._ask(_DRAW_SELDOM)
+            self.wait_for_frames()
 
     # Waiting.
 
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
         """Wait until a JavaScript expression is true."""
-        self.page.wait_for(condition, patience(timeout))
+        assert self.has_view or "__viser" not in condition, _NO_VIEW
+        super().wait_for(condition, timeout)
 
     def sleep(self, asleep: bool = True) -> None:
         """Draw nothing while no test uses the page."""
-        self.page.evaluate(_SLEEP.replace("ASLEEP", "true" if asleep else "false"))
+        if not self.has_view:
+            return
+        self._ask(_SLEEP.replace("ASLEEP", "true" if asleep else "false"))
 
     def minimize(self, minimized: bool = True) -> None:
         """Hide the page as a desktop does, or show it again."""
@@ -183,7 +152,9 @@ class ViewerPage:
 
     def wait_for_frames(self) -> None:
         """Ask for a picture and wait until two frames have been drawn."""
-        self.page.evaluate(_TWO_FRAMES)
+        if not self.has_view:
+            return self.wait_for("new Promise(requestAnimationFrame)")
+        self._ask(_TWO_FRAMES)
 
     def wait_for_nodes(self, *names: str, timeout: float = 20.0) -> None:
         """Wait until scene nodes exist in three.js and have been drawn."""
@@ -196,7 +167,9 @@ class ViewerPage:
         self.wait_until_drawn(timeout)
 
     def settle(self, viz: Visualizer) -> None:
-        """Wait until all that was done, here or in Python, is in the picture."""
+        """Wait until all that was done, here or in Python, is in the page."""
+        if not self.has_view:
+            return settle_rows(self.page, viz)
         settle(self.page, viz)
         self.wait_until_drawn()
 
@@ -235,7 +208,7 @@ class ViewerPage:
         """The names of the scene nodes that three.js has."""
         return cast(
             list[str],
-            self.page.evaluate(
+            self._ask(
                 "Object.entries(__viserMutable.nodeRefFromName)"
                 ".filter(([_, node]) => node).map(([name]) => name)"
             ),
@@ -247,7 +220,7 @@ class ViewerPage:
         A node that is not there yet is waited for.
         """
         self._wait_for_objects(name, parent)
-        elements: Any = self.page.evaluate(self._pose_script(name, parent))
+        elements: Any = self._ask(self._pose_script(name, parent))
         columns = [elements[start : start + 4] for start in range(0, 16, 4)]
         return np.array(list(zip(*columns, strict=True)), np.float64)
 
@@ -257,6 +230,8 @@ class ViewerPage:
         Returns:
             How many it were before.
         """
+        if not self.has_view:
+            return resolution
         before = self._change_resolution(resolution)
         if before != resolution:
             # The size of letters on the screen follows that of the picture.
@@ -273,13 +248,9 @@ class ViewerPage:
         # A view that changes its size meanwhile is coarse again.
         while self.set_resolution(1.0) != 1.0:
             self.wait_for_frames()
-        png = base64.b64decode(str(self.page.evaluate(_PICTURE)))
+        png = base64.b64decode(str(self._ask(_PICTURE)))
         self._change_resolution(before)
-        return _decode(png)
-
-    def screenshot(self) -> Pixels:
-        """The whole page as it is seen: (height, width, 4), RGBA, 0 to 255."""
-        return _decode(self.page.screenshot())
+        return decoded(png)
 
     def project(
         self, name: str = "", point: Sequence[float] = (0.0, 0.0, 0.0)
@@ -293,7 +264,7 @@ class ViewerPage:
         self._wait_for_objects(name)
         script = _PROJECT.replace("NAME", json.dumps(name))
         script = script.replace("POINT", json.dumps([float(v) for v in point]))
-        x, y = cast(tuple[float, float], self.page.evaluate(script))
+        x, y = cast(tuple[float, float], self._ask(script))
         return round(x), round(y)
 
     def is_covered(self, column: int, row: int) -> bool:
@@ -303,38 +274,16 @@ class ViewerPage:
             f" return document.elementFromPoint(r.x + {column}, r.y + {row})"
             " === __viserMutable.canvas; })()"
         )
-        return not self.page.evaluate(seen)
+        return not self._ask(seen)
 
-    @property
-    def text(self) -> str:
-        """All text that the page shows."""
-        return str(self.page.evaluate("document.body.innerText"))
-
-    # Judging.
-
-    def errors(self) -> list[str]:
-        """What went wrong in the page: exceptions, console errors, failed requests.
-
-        Its own server refuses connections only when a test has stopped it already;
-        whether the page still asks it for something then is chance.
-        """
-        lines = [m for m in self.page.console if m.level in ("error", "assert")]
-        errors = [
-            *self.page.exceptions,
-            *(f"{line.text} {line.url}".strip() for line in lines),
-            *(f"{url}: {reason}" for url, reason in self.page.failures),
-        ]
-        own = urlsplit(self.url).netloc
-        return [e for e in errors if not (_REFUSED in e and f"//{own}/" in e)]
-
-    def foreign_requests(self) -> list[str]:
-        """The addresses asked for that are not on the viewer's own server."""
-        own = urlsplit(self.url).netloc
-        return [url for url in self.page.requests if urlsplit(url).netloc != own]
+    def _ask(self, script: str) -> Any:
+        """Ask the scene for something."""
+        assert self.has_view, _NO_VIEW
+        return self.page.evaluate(script)
 
     def _change_resolution(self, resolution: float) -> float:
         script = _SET_RESOLUTION.replace("WANTED", str(resolution))
-        return float(cast("float", self.page.evaluate(script)))
+        return float(cast("float", self._ask(script)))
 
     def _wait_for_objects(self, *names: str) -> None:
         """Wait until three.js has an object for each of these nodes."""
@@ -344,7 +293,3 @@ class ViewerPage:
     def _pose_script(self, name: str, parent: str) -> str:
         script = _POSE.replace("PARENT", json.dumps(parent))
         return script.replace("NAME", json.dumps(name))
-
-
-def _decode(png: bytes) -> Pixels:
-    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"), np.uint8)

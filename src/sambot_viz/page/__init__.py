@@ -25,7 +25,11 @@ _COMMENT = re.compile(
 """Lines that are nothing but a comment."""
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
+"""Runs before all other scripts."""
+_FOR_VISER = "viser_address.js"
 """Runs before viser's own script."""
+_NO_VIEW = "no_view.js"
+"""The script of a page without a view."""
 _EARLY = ("view/font.js", "view/still.js")
 """Run before it too; the first finds the font in an element before it."""
 _FONT = "vendor/names.woff2"
@@ -55,10 +59,26 @@ def with_scripts(html: bytes, panels: bool, look: str = "rviz") -> bytes:
         panels: whether there are panels round the view, or the view fills the page.
         look: how the view is drawn in a browser that has chosen nothing.
     """
-    own = _FOLDER.joinpath(_FIRST).read_text("utf-8")
     head = _head("main.js" if panels else "view_only.js", _STYLES, look)
-    head = f"<script>{own}</script>{head}"
+    head = f"{_plain(_FIRST)}{_plain(_FOR_VISER)}{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
+
+
+def without_view(viser_protocol: str, look: str = "rviz") -> bytes:
+    """The window round an empty place: a page without viser's script and without WebGL.
+
+    Args:
+        viser_protocol: what a client of viser asks for, with its version.
+        look: as for `with_scripts`; what an exported page begins with.
+    """
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        f'<meta name="sambot-viser" content="{escape(viser_protocol)}">'
+        '<link rel="icon" href="data:,"><title>sambot-viz</title>'
+        f"{_plain(_FIRST)}{_head(_NO_VIEW, _STYLES, look)}"
+        '</head><body><div id="root"><div id="no-view"></div></div></body></html>'
+    ).encode()
 
 
 def standing_alone(
@@ -114,19 +134,25 @@ def _head(first: str, styles: Iterable[str], look: str) -> str:
     """
     modules = {_PREFIX + name: _address(name) for name in sorted(_needed(first))}
     css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
-    early = "".join(
-        f"<script>{_FOLDER.joinpath(name).read_text('utf-8')}</script>"
-        for name in _EARLY
-    )
-    font = base64.b64encode(_FOLDER.joinpath(_FONT).read_bytes()).decode()
     return (
-        f'<script type="text/plain" id="sambot-font">{font}</script>'
-        f"{early}"
+        f"{_early() if first != _NO_VIEW else ''}"
         f'<meta name="sambot-look" content="{escape(look)}">'
         f'<script type="importmap">{json.dumps({"imports": modules})}</script>'
         f'<script type="module" async>import "{_PREFIX}{first}";</script>'
         f"<style>{css}</style>"
     )
+
+
+def _early() -> str:
+    """What runs before viser's own script, and the font of the names in the view."""
+    font = base64.b64encode(_FOLDER.joinpath(_FONT).read_bytes()).decode()
+    scripts = "".join(map(_plain, _EARLY))
+    return f'<script type="text/plain" id="sambot-font">{font}</script>{scripts}'
+
+
+def _plain(name: str) -> str:
+    """A script that is no module: it runs before what comes after it."""
+    return f"<script>{_FOLDER.joinpath(name).read_text('utf-8')}</script>"
 
 
 def _needed(first: str) -> set[str]:

@@ -23,7 +23,7 @@ interface Window {
   sambotPermalink?: string;
   /** The address of the page's own websocket. */
   sambotSocket?: string;
-  /** viser's connection: opened when `open` is called, and at first. */
+  /** viser's connection: opened when `open` is called, and at first (viser_address.js). */
   sambotViser?: {
     state: "opening" | "open" | "closed";
     open(): void;

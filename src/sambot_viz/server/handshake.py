@@ -15,7 +15,6 @@ from functools import partial
 from typing import Any, cast
 from urllib.parse import parse_qs
 
-import viser
 import websockets.asyncio.server
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
@@ -30,7 +29,6 @@ from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import Knows, TokenCheck
 from sambot_viz.server.tickets import Channels
 
-_PROTOCOL = f"viser-v{viser.__version__}"
 _VERSION_MISMATCH = 1002
 COPY = "/copy"
 """Below this path, a page shows a private copy of the shared robot."""
@@ -112,8 +110,7 @@ def checked(
             if is_page and not presenter and limiter.is_full(_pages(connection)):
                 return limiter.refusal()
             try:
-                panels = _panels(request, options)
-                response = page_files.answer(request, panels, options.look)
+                response = page_files.answer(request, options.panels, options.look)
                 if response is None and answer:
                     response = answer(connection, request)
             except (OSError, ValueError):
@@ -131,7 +128,7 @@ def checked(
         async def handle(connection: ServerConnection) -> None:
             if connection.subprotocol == SUBPROTOCOL:
                 await channels.serve(cast(Connection, connection))
-            elif connection.subprotocol == _PROTOCOL:
+            elif connection.subprotocol == page_files.VISER_PROTOCOL:
                 await ready.wait()
                 # One that has left meanwhile has nothing that could be prepared.
                 if connection.state is State.OPEN:
@@ -177,12 +174,6 @@ def _context(
     # Of two, one may be the client's own.
     login = logins[0].strip() if len(logins) == 1 else ""
     return ClientContext(presenter, copy, known, channel, login)
-
-
-def _panels(request: Request, options: Options) -> bool:
-    """Return whether the page that a request asks for has panels."""
-    query = parse_qs(request.path.partition("?")[2])
-    return options.panels and query.get("panels") != ["0"]
 
 
 def _pages(connection: Connection) -> int:

@@ -59,14 +59,17 @@ def files(sit: Callable[..., Desk]) -> Desk:
 
 
 @pytest.fixture
-def make_desk(chromium: Chromium, tmp_path: Path) -> Iterator[Callable[[str], Desk]]:
+def make_desk(
+    chromium: Chromium, tmp_path: Path, view: bool
+) -> Iterator[Callable[[str], Desk]]:
     """A desk for one task alone: ``make_desk("S")``, or with the text of a model."""
     from desk import Desk
 
     made: list[Desk] = []
 
     def make(letter: str) -> Desk:
-        made.append(Desk(letter, chromium, tmp_path / f"desk{len(made)}"))
+        folder = tmp_path / f"desk{len(made)}"
+        made.append(Desk(letter, chromium, folder, view=view))
         return made[-1]
 
     yield make

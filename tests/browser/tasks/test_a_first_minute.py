@@ -39,7 +39,7 @@ def started(chromium: Chromium, tmp_path: Path) -> Iterator[Callable[[Path], Use
         left.append(lambda: program.__exit__(None, None, None) and None)
         page = open_page(chromium)
         left.append(page.close)
-        page.goto(viewer_url(address(process)))
+        page.goto(viewer_url(address(process), view=False))
         return User(page)
 
     yield start
@@ -55,6 +55,7 @@ def model_with(folder: Path, change: Callable[[str], str]) -> Path:
     return model
 
 
+@pytest.mark.view
 def test_task_01_the_whole_robot_at_first_sight(own: Desk) -> None:
     own.settle()
     pixels = own.viewer.pixels()[..., :3].astype(int)

@@ -76,6 +76,7 @@ def test_task_08_type_what_is_no_value(s: Desk) -> None:
     shows(s, LEFT, 9 - 2 * math.pi)
 
 
+@pytest.mark.view
 def test_task_09_drag_a_slider_to_and_fro(s: Desk) -> None:
     look_near(s)
     before = drawn_around(s, "drivewhl_l_link")

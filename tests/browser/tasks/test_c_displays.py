@@ -61,6 +61,7 @@ def add_axes(desk: Desk) -> None:
     desk.user.until(lambda: row(desk, "Axes").state("focused"))
 
 
+@pytest.mark.view
 def test_task_21_make_the_robot_half_transparent(s: Desk) -> None:
     look_near(s)
     before = drawn_around(s, "base_link")
@@ -80,6 +81,7 @@ TWO_LINKS = """<robot name="r">
 </robot>"""
 
 
+@pytest.mark.view
 def test_task_22_show_collision_shapes_and_back(
     make_desk: Callable[[str], Desk],
 ) -> None:
@@ -98,6 +100,7 @@ def test_task_22_show_collision_shapes_and_back(
     desk.user.until(lambda: drawn(desk) == pytest.approx(visuals, rel=0.01), AT_ONCE)
 
 
+@pytest.mark.view
 def test_task_23_hide_one_link(s: Desk) -> None:
     look_near(s)
     before, beside = drawn_around(s, WHEEL, 15), drawn_around(s, "base_link", 10)
@@ -112,6 +115,7 @@ def test_task_23_hide_one_link(s: Desk) -> None:
     s.user.until(lambda: changed(before, drawn_around(s, WHEEL, 15)) == 0, AT_ONCE)
 
 
+@pytest.mark.view
 def test_task_24_hide_one_frame_and_all_arrows(s: Desk) -> None:
     def white(frame: str) -> int:
         """Pixels of the name of a frame."""
@@ -157,6 +161,7 @@ def test_task_25_add_axes_at_the_left_wheel(s: Desk) -> None:
         s.user.until(lambda name=name: row(s, name).state("expanded"))
 
 
+@pytest.mark.view
 @pytest.mark.parametrize("pause", [False, True])
 def test_task_26_rename_at_any_speed(s: Desk, pause: bool) -> None:
     add_axes(s)
@@ -216,6 +221,7 @@ def test_task_28_duplicate_delete_undo_redo(s: Desk) -> None:
         s.user.until(lambda w=wanted: listed(s) == w)
 
 
+@pytest.mark.view
 def test_task_29_the_background(s: Desk) -> None:
     def enter(text: str) -> None:
         s.user.enter(row(s, "Background Color").one("textbox"), text)

@@ -112,6 +112,7 @@ def test_task_33_open_that_config_again(desk: Desk) -> None:
     user.until(lambda: user.row("Views", "Distance").one("textbox").value == "2.5")
 
 
+@pytest.mark.view
 def test_task_34_get_the_config_onto_ones_own_computer(desk: Desk) -> None:
     save_as(desk, "to take away")
     desk.user.gone(*DIALOG)
@@ -135,6 +136,7 @@ def test_task_35_save_with_ctrl_s(desk: Desk) -> None:
     desk.user.until(lambda: "*" not in name_of_config(desk))
 
 
+@pytest.mark.view
 def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     user, joint = desk.user, "drivewhl_l_joint"
     user.enter(user.row("Joints", joint).one("textbox"), "0.5")
@@ -183,6 +185,7 @@ def navigation() -> str:
     return yaml.safe_dump({"Panels": [], "Visualization Manager": manager})
 
 
+@pytest.mark.view
 def test_task_37_open_a_config_of_a_navigation_robot(desk: Desk) -> None:
     desk.folder.joinpath("navigation.rviz").write_text(navigation(), "utf-8")
     save_as(desk, "before")

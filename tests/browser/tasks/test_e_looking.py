@@ -35,6 +35,7 @@ def is_near(desk: Desk, name: str, value: float, within: float = 0.01) -> bool:
     return abs(number(desk, name) - value) < within
 
 
+@pytest.mark.view
 def test_task_39_look_exactly_from_above(s: Desk) -> None:
     # The scale of an orthographic view is in pixels of the drawn picture.
     s.viewer.set_resolution(1.0)
@@ -65,6 +66,7 @@ def test_task_39_look_exactly_from_above(s: Desk) -> None:
     s.user.row("Views", "Current View", "Distance")
 
 
+@pytest.mark.view
 def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
     set_number(s, "Distance", "3")
     set_number(s, "Yaw", "1")
@@ -95,6 +97,7 @@ def test_task_40_the_mouse_as_in_rviz(s: Desk) -> None:
     assert is_near(s, "Yaw", 1.2)
 
 
+@pytest.mark.view
 def test_task_41_bring_a_lost_robot_back(s: Desk) -> None:
     look_near(s)
     near = drawn(s)
@@ -133,6 +136,7 @@ def test_task_42_keep_a_view_and_return_to_it(s: Desk) -> None:
     s.user.until(lambda: saved not in s.user.rows("Views"))
 
 
+@pytest.mark.view
 def test_task_43_make_a_picture_for_the_report(s: Desk) -> None:
     s.user.menu("File", re.compile("^Save Image"))
     for side, size in (("Width", "1280"), ("Height", "720")):
@@ -146,6 +150,7 @@ def test_task_43_make_a_picture_for_the_report(s: Desk) -> None:
     file.unlink()
 
 
+@pytest.mark.view
 def test_task_44_see_more_of_the_scene(s: Desk) -> None:
     before = s.viewer.pixels().shape
     s.user.click("button", "Hide panels")

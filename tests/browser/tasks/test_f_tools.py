@@ -41,6 +41,7 @@ def selected(desk: Desk) -> list[str]:
     return [r.removeprefix("Link ") for r in rows if r.startswith("Link ")]
 
 
+@pytest.mark.view
 def test_task_45_measure_the_height_of_the_body(s: Desk) -> None:
     look(s, "0", "0.2")
     for grid in (True, False):
@@ -67,6 +68,7 @@ def test_task_46_measure_the_wheel_base(s: Desk) -> None:
     s.user.until(lambda: "0 -0.36 0" in s.user.row("Frames", "Position x y z [m]").text)
 
 
+@pytest.mark.view
 def test_task_47_click_on_the_lower_half_of_a_wheel(s: Desk) -> None:
     look(s, "1.57", "0.1")
     s.user.tab("Selection")
@@ -80,6 +82,7 @@ def test_task_47_click_on_the_lower_half_of_a_wheel(s: Desk) -> None:
     s.user.click_on(s.user.find("button", "Interact", TOOLS))
 
 
+@pytest.mark.view
 def test_task_48_select_by_rectangle_add_and_take_away(s: Desk) -> None:
     look(s, "0.9", "0.6", "1.5")
     s.user.click_on(s.user.row("Displays", "TF").one("checkbox"))

@@ -36,6 +36,7 @@ def test_task_51_where_the_left_wheel_is(s: Desk) -> None:
     assert f'"--child-frame-id", "{WHEEL}"' in user.clipboard
 
 
+@pytest.mark.view
 def test_task_52_hang_a_laser_on_the_body(s: Desk) -> None:
     user, form = s.user, ("form", "Static transform")
 
@@ -71,6 +72,7 @@ def place(desk: Desk) -> tuple[float, ...]:
     return tuple(float(v) for v in found.translation)
 
 
+@pytest.mark.view
 def test_task_53_drive_a_square_stop_and_reset(s: Desk) -> None:
     user = s.user
 

@@ -43,6 +43,7 @@ def test_task_54_one_types_while_another_drags(
         viewer.user.until(lambda v=viewer: field(v) == "2.5")
 
 
+@pytest.mark.view
 def test_task_55_one_measures_while_another_turns(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:
@@ -69,6 +70,7 @@ def test_task_55_one_measures_while_another_turns(
     s.user.reads("Length:")
 
 
+@pytest.mark.view
 @pytest.mark.parametrize("size", [(390, 844), (844, 390)])
 def test_task_56_a_joint_on_a_phone(
     s: Desk, open_more: Callable[..., ViewerPage], size: tuple[int, int]
@@ -115,6 +117,7 @@ def font(viewer: ViewerPage) -> float:
     )
 
 
+@pytest.mark.view
 def test_task_57_a_tablet_by_touch_alone(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:
@@ -254,6 +257,7 @@ def test_task_58_the_keyboard_alone(s: Desk) -> None:
     user.until(lambda: user.find("button", "Select", ("toolbar", "Tools")).is_on)
 
 
+@pytest.mark.view
 @pytest.mark.parametrize(
     ("size", "scale"), [((853, 480), 1.5), ((600, 800), 1.0), ((1440, 900), 1.0)]
 )
@@ -297,6 +301,7 @@ def test_task_59_a_high_window_has_no_empty_rows_beside_ones_to_scroll(
     user.until(lambda: len(user.see().all("button", "Forwards")) == 1)
 
 
+@pytest.mark.view
 def test_task_59_one_panel_folded_one_widened(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:
@@ -327,6 +332,7 @@ def test_task_59_one_panel_folded_one_widened(
     user.until(lambda: share() < 0.35)
 
 
+@pytest.mark.view
 def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
     user, port = own.user, own.viz.viser.get_port()
     own.viewer.expects_errors = True

@@ -41,6 +41,7 @@ def take_pose(desk: Desk, name: str) -> None:
     desk.user.click("button", name)
 
 
+@pytest.mark.view
 def test_task_61_two_poses_of_an_arm_while_another_watches(
     make_desk: Callable[[str], Desk],
 ) -> None:
@@ -68,6 +69,7 @@ def test_task_61_two_poses_of_an_arm_while_another_watches(
     a.user.until(lambda: set(a.viz.joint_positions.values()) == {0.0})
 
 
+@pytest.mark.view
 def test_task_61_the_way_to_a_pose_and_its_ghost(
     make_desk: Callable[[str], Desk],
 ) -> None:
@@ -113,6 +115,7 @@ _GHOSTS = """(() => {
 })()"""
 
 
+@pytest.mark.view
 def test_task_62_the_distances_of_all_that_is_selected(a: Desk) -> None:
     a.user.click_on(a.user.row("Displays", "Grid").one("checkbox"))
     a.user.until(lambda: not a.user.row("Displays", "Grid").one("checkbox").is_on)
@@ -149,6 +152,7 @@ def look_along_y(desk: Desk) -> None:
     desk.settle()
 
 
+@pytest.mark.view
 def test_task_63_measure_between_two_meshes(a: Desk) -> None:
     look_along_y(a)
     a.choose_tool("Measure")
@@ -160,6 +164,7 @@ def test_task_63_measure_between_two_meshes(a: Desk) -> None:
     assert float(length[1]) == pytest.approx(0.6, abs=0.015)
 
 
+@pytest.mark.view
 def test_task_64_hide_all_links_but_one(a: Desk) -> None:
     def is_on(link: str) -> bool:
         return row(link).one("checkbox").is_on
@@ -235,6 +240,7 @@ def place(desk: Desk) -> tuple[float, ...]:
     return tuple(float(v) for v in found.translation)
 
 
+@pytest.mark.view
 def test_task_74_a_picture_of_a_robot_with_meshes(a: Desk) -> None:
     a.viewer.set_resolution(1.0)
     a.user.click_on(a.user.row("Displays", "TF").one("checkbox"))

@@ -69,6 +69,7 @@ def choose_view(desk: Desk, kind: str) -> None:
     desk.settle()
 
 
+@pytest.mark.view
 @pytest.mark.parametrize("kind", ["XYOrbit", "ThirdPersonFollower", "FPS"])
 def test_task_67_look_at_a_robot_that_drives(s: Desk, kind: str) -> None:
     user, drive = s.user, s.session.drive

@@ -26,6 +26,7 @@ def number(viewer: ViewerPage) -> str:
     return str(viewer.user.row("Joints", LEFT).one("textbox").value)
 
 
+@pytest.mark.view
 def test_task_72_a_link_for_another_browser(
     s: Desk, open_more: Callable[..., ViewerPage]
 ) -> None:
@@ -49,6 +50,7 @@ def test_task_72_a_link_for_another_browser(
     )
 
 
+@pytest.mark.view
 def test_task_73_a_page_that_needs_no_program(s: Desk, chromium: Chromium) -> None:
     user = s.user
     user.menu("File", "Export Page…")
@@ -73,6 +75,7 @@ def test_task_73_a_page_that_needs_no_program(s: Desk, chromium: Chromium) -> No
         file.unlink()
 
 
+@pytest.mark.view
 @pytest.mark.parametrize(
     ("size", "scale"), [((1920, 1080), 2.0), ((1910, 1075), 0.67), ((1024, 600), 1.0)]
 )

@@ -49,7 +49,10 @@ function expect(id, args) {
 /** Whether the new tool has all that it needs. */
 function look() {
   const tool = tools().find((one) => one.name === newTool.value);
-  if (tool?.current && used.click === tool.clicks && used["rect-select"] === tool.rectangles)
+  if (!tool?.current) return;
+  const { clicks, rectangles } = tool;
+  // In a page without a view nothing more is to come.
+  if (!window.__viserMutable || (used.click === clicks && used["rect-select"] === rectangles))
     arrive();
 }
 

@@ -4,7 +4,9 @@
 /** At most so many places of the mouse are sent in a second. */
 const HOVERS = 20;
 
-const canvas = () => window.__viserMutable?.canvas;
+/** What has the mouse and the focus of the view; of a page without one, its empty place.
+ * @returns {HTMLElement | null} */
+const canvas = () => window.__viserMutable?.canvas || document.getElementById("no-view");
 
 /**
  * @typedef {[number | null, number | null]} Place from left and top, 0 to 1; null outside the view

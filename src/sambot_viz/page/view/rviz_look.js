@@ -265,7 +265,7 @@ const tidy = () => {
     if (/^(Software WebGL|Receiv)/.test(note.textContent || "")) note.style.display = "none";
   }
   // Below a path of a proxy, the address of the server stands behind the page's, from
-  // address.js and from viser. It goes when viser, which unpacks itself first, has read it.
+  // viser_address.js and from viser. It goes when viser, which unpacks itself first, has read it.
   const query = new URLSearchParams(location.search);
   if (!window.__viserMutable || !query.has("websocket")) return;
   query.delete("websocket");

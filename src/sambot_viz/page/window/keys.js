@@ -80,7 +80,7 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
 const DRIVE = ".drive, [data-tab=drive]";
 
 /** Where arrow keys have no other use: nothing there is moved or scrolled by them. */
-const NO_ARROWS = "body, canvas, .player-bar button";
+const NO_ARROWS = "body, canvas, #no-view, .player-bar button";
 
 /** Where a mouse clicks without meaning to leave the keyboard there. */
 const PASSING = ".top button, .player-bar button, .statusbar button";

@@ -5,7 +5,7 @@
  * needs: viser's, and its own (socket.js). So a server that has gone costs a network little,
  * and its proxy few lines of a log; after some minutes the page asks only when its user, or
  * the network, gives a reason to. viser itself would ask once a second for ever, as long as
- * its page has the focus; address.js keeps it from that. */
+ * its page has the focus; viser_address.js keeps it from that. */
 
 /** How long the page waits before each try, the last one again and again [ms]. */
 export const WAITS = [100, 1000, 2000, 5000, 15_000, 30_000];
@@ -110,7 +110,7 @@ const askForPage = () =>
 
 export const retries = new Retries(askForPage);
 
-/** viser's connection, which address.js watches. @returns {Part} */
+/** viser's connection, which viser_address.js watches, or viser_socket.js opens. @returns {Part} */
 function viserPart() {
   const viser = /** @type {NonNullable<typeof window.sambotViser>} */ (window.sambotViser);
   viser.changed = (state) => (state === "open" ? retries.back() : retries.lost());

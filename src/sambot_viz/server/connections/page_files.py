@@ -7,6 +7,8 @@ import hashlib
 import http
 from functools import cache
 from pathlib import Path
+from typing import Literal
+from urllib.parse import parse_qsl
 
 import viser
 from websockets.datastructures import Headers
@@ -14,6 +16,12 @@ from websockets.http11 import Request, Response
 
 from sambot_viz import page
 
+VISER_PROTOCOL = f"viser-v{viser.__version__}"
+"""What a client of viser asks for when it opens its connection."""
+NO_VIEW = ("view", "none")
+"""In the query of an address: a page without a view."""
+Parts = Literal["all", "view", "window"]
+"""What a page has: the view in a window, the view alone, or a window without it."""
 LICENSES = "/sambot/licenses.txt"
 """Where the licences of the libraries in the page are."""
 _PLAIN_PAGE = """\
@@ -31,7 +39,7 @@ def prepare(panels: bool = True, look: str | None = None) -> None:
         panels: as for `answer`.
         look: as for `answer`.
     """
-    _tag(panels, look)
+    _tag("all" if panels else "view", look)
 
 
 def answer(
@@ -41,7 +49,7 @@ def answer(
 
     Args:
         request: the request.
-        panels: whether the page has panels round its view.
+        panels: whether the program has panels round its view.
         look: how a page draws that has chosen nothing; None is RViz's.
     """
     if is_websocket(request):
@@ -50,17 +58,18 @@ def answer(
         return _text(page.licenses())
     if not is_page(request):
         return None
+    parts = _parts(request, panels)
     headers = Headers(
-        {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(panels, look)}
+        {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(parts, look)}
     )
     headers["Cache-Control"] = "no-cache"
     headers["Vary"] = "Accept-Encoding"
-    if request.headers.get("If-None-Match") == _tag(panels, look):
+    if request.headers.get("If-None-Match") == _tag(parts, look):
         return Response(http.HTTPStatus.NOT_MODIFIED, "Not Modified", headers)
-    content = _page(panels, look)
+    content = _page(parts, look)
     if "gzip" in request.headers.get("Accept-Encoding", ""):
         headers["Content-Encoding"] = "gzip"
-        content = _packed(panels, look)
+        content = _packed(parts, look)
     headers["Content-Length"] = str(len(content))
     return Response(http.HTTPStatus.OK, "OK", headers, content)
 
@@ -82,9 +91,19 @@ def _text(content: bytes) -> Response:
     return Response(http.HTTPStatus.OK, "OK", headers, content)
 
 
+def _parts(request: Request, panels: bool) -> Parts:
+    """What is in the page that a request asks for."""
+    query = parse_qsl(request.path.partition("?")[2])
+    if not panels or ("panels", "0") in query:
+        return "view"
+    return "window" if NO_VIEW in query else "all"
+
+
 @cache
-def _page(panels: bool, look: str | None) -> bytes:
-    return page.with_scripts(page_of_viser(), panels, look or "rviz")
+def _page(parts: Parts, look: str | None) -> bytes:
+    if parts == "window":
+        return page.without_view(VISER_PROTOCOL, look or "rviz")
+    return page.with_scripts(page_of_viser(), parts == "all", look or "rviz")
 
 
 def page_of_viser() -> bytes:
@@ -94,13 +113,13 @@ def page_of_viser() -> bytes:
 
 
 @cache
-def _packed(panels: bool, look: str | None) -> bytes:
-    return gzip.compress(_page(panels, look), 6, mtime=0)
+def _packed(parts: Parts, look: str | None) -> bytes:
+    return gzip.compress(_page(parts, look), 6, mtime=0)
 
 
 @cache
-def _tag(panels: bool, look: str | None) -> str:
-    return f'"{hashlib.sha256(_page(panels, look)).hexdigest()[:20]}"'
+def _tag(parts: Parts, look: str | None) -> str:
+    return f'"{hashlib.sha256(_page(parts, look)).hexdigest()[:20]}"'
 
 
 def plain_page(

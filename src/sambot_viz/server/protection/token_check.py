@@ -22,7 +22,11 @@ from urllib.parse import parse_qsl, quote, urlencode
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from sambot_viz.server.connections.page_files import is_websocket, plain_page
+from sambot_viz.server.connections.page_files import (
+    NO_VIEW,
+    is_websocket,
+    plain_page,
+)
 
 WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""
@@ -205,8 +209,8 @@ def _split(path: str) -> tuple[str, list[bytes]]:
     # Not urlsplit, which raises for some paths that a client can send.
     where, _, text = path.partition("?")
     query = parse_qsl(text, keep_blank_values=True)
-    given = [_bytes(value) for name, value in query if name in SECRET_NAMES]
-    others = [pair for pair in query if pair[0] not in SECRET_NAMES]
+    others = [pair for pair in query if pair[0] not in SECRET_NAMES or pair == NO_VIEW]
+    given = [_bytes(pair[1]) for pair in query if pair not in others]
     rest = urlencode(others, errors="replace")
     # Relative: a proxy may show the page below another path, and on another host.
     where = f"./{quote(where.rpartition('/')[2], safe=_KEPT, errors='replace')}"
