@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 NEEDS_SHARED = "needs the collection ../shared, which is not beside this checkout"
 PAGES = ("tests/browser/", "tests/golden/", "tests/jupyter/")
 """What the names of tests begin with that open pages: they compute, and they wait."""
-TOGETHER = ("tests/browser/tasks/", "tests/jupyter/")
+TOGETHER = ("tests/browser/tasks/", "tests/golden/", "tests/jupyter/")
 """Folders whose tests share servers and pages."""
 TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
 """The environment variable with the order of the browser tasks."""

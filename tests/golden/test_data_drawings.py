@@ -12,8 +12,7 @@ from pictures import SAME, Image, drawn
 
 if TYPE_CHECKING:
     import viser
-
-    from sambot_viz.export.chromium import Chromium
+    from shared_page import SharedPage
 
 pytestmark = pytest.mark.browser
 
@@ -51,34 +50,25 @@ Visualization Manager:
 
 
 def picture_of(
-    chromium: Chromium, text: str, shape: tuple[int, ...], draw: Draw
+    shared_page: SharedPage, text: str, shape: tuple[int, ...], draw: Draw
 ) -> Image:
-    """What a server shows with the text of a config, and with more to draw."""
-    from sambot_viz.export.view_picture import snapshot
+    """What is shown with the text of a config, and with more to draw."""
     from sambot_viz.inputs import declarations
-    from sambot_viz.options import Options
     from sambot_viz.rviz import RvizConfig
-    from sambot_viz.server.server import Server
 
     config = RvizConfig.parse(text, declarations())
-    server = Server(Options(port=0, gui=False, panels=False), lambda: config)
-    try:
-        session = server.sessions.all()[0]
+    with shared_page.shows(config=config) as session:
         draw(session.audience.scene)
-        view = session.document_view.camera
-        found = snapshot(server, chromium, shape[1], shape[0], view)
-        return found.astype(np.int16)
-    finally:
-        server.stop()
+        return shared_page.picture(session, shape)
 
 
-def test_wide_lines_of_a_grid_end_where_the_lines_end(chromium: Chromium) -> None:
+def test_wide_lines_of_a_grid_end_where_the_lines_end(shared_page: SharedPage) -> None:
     """The grid of RViz 2's own visual test, which is seen edge-on.
 
     Lines 4 m wide, the nearest 5 m away, cover its picture but for 15 pixels at the
     left and at the right: they have no caps.
     """
-    found = picture_of(chromium, EDGE_ON, (751, 756), lambda scene: None)
+    found = picture_of(shared_page, EDGE_ON, (751, 756), lambda scene: None)
     covered = drawn(found, BACKGROUND)
     columns = np.nonzero(covered.any(axis=0))[0]
     assert abs(columns[0] - 15) <= 1
@@ -87,7 +77,7 @@ def test_wide_lines_of_a_grid_end_where_the_lines_end(chromium: Chromium) -> Non
 
 
 def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
-    chromium: Chromium,
+    shared_page: SharedPage,
 ) -> None:
     """Evenly in the numbers of the screen: half red and half blue are (128, 0, 128)."""
     from sambot_viz.displays.scene.lines import LineNode
@@ -98,7 +88,7 @@ def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
         LineNode(scene, "/~l").draw(across, np.array(60 * [[red, blue]]), alpha=0.5)
 
     text = EDGE_ON.replace("Enabled: true", "Enabled: false")
-    found = picture_of(chromium, text, (400, 600), draw)
+    found = picture_of(shared_page, text, (400, 600), draw)
     # Each of many lines over the background and over those behind it: only the ratio
     # of red and blue is known.
     red, green, blue = found[200, 300].tolist()
@@ -109,7 +99,7 @@ def test_colours_between_the_ends_of_a_line_change_as_those_of_rviz(
     assert right[2] > right[0] + 60
 
 
-def test_a_mesh_is_shaded_by_the_normals_of_its_file(chromium: Chromium) -> None:
+def test_a_mesh_is_shaded_by_the_normals_of_its_file(shared_page: SharedPage) -> None:
     """Tilted by 60° they make a square seen from above half as bright."""
     from sambot_viz.meshes.glb import to_glb
     from sambot_viz.meshes.mesh import MeshPart
@@ -124,14 +114,14 @@ def test_a_mesh_is_shaded_by_the_normals_of_its_file(chromium: Chromium) -> None
             data = to_glb(part)
             scene.add_glb(f"/~{place}", data, scale=0.8, position=(place, 0, 0))
 
-    seen = picture_of(chromium, FROM_ABOVE, (240, 320), draw)
+    seen = picture_of(shared_page, FROM_ABOVE, (240, 320), draw)
     shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
     for color in ((255, 204, 102), (128, 102, 51)):
         assert any(np.abs(np.subtract(one, color)).max() <= 2 for one in shown)
 
 
 def test_triangles_are_lit_on_the_side_from_which_they_turn_left(
-    chromium: Chromium,
+    shared_page: SharedPage,
 ) -> None:
     """The other side is black, as in RViz, also when a scale mirrors them."""
     from sambot_viz.displays.data.markers.triangles import TrianglesNode
@@ -153,13 +143,13 @@ def test_triangles_are_lit_on_the_side_from_which_they_turn_left(
             node = TrianglesNode(scene, f"/~t{number}")
             node.draw(marker, (1.0, 0.0, 0.0, 0.0), place)
 
-    seen = picture_of(chromium, FROM_ABOVE, (480, 640, 3), draw)
+    seen = picture_of(shared_page, FROM_ABOVE, (480, 640, 3), draw)
     shown = {tuple(color) for color in seen.reshape(-1, 3).tolist()}
     assert {(255, 0, 0), (255, 0, 85), (0, 0, 0)} <= shown
     assert not {(255, 0, 170), (255, 0, 255)} & shown
 
 
-def test_points_of_a_depth_image_grow_with_their_depth(chromium: Chromium) -> None:
+def test_points_of_a_depth_image_grow_with_their_depth(shared_page: SharedPage) -> None:
     """Two squares, 0.2 m for each metre along z, at 112 pixels a metre."""
     from sambot_viz.displays.scene.points import PointNode, PointStyle
 
@@ -169,7 +159,7 @@ def test_points_of_a_depth_image_grow_with_their_depth(chromium: Chromium) -> No
     def draw(scene: viser.SceneApi) -> None:
         PointNode(scene, "/~p").draw([(-1, 0, 1), (1, 0, 3)], colors, style)
 
-    seen = picture_of(chromium, FROM_ABOVE, (240, 320), draw)
+    seen = picture_of(shared_page, FROM_ABOVE, (240, 320), draw)
     for channel, metres in ((0, 0.2), (1, 0.6)):
         pixels = (seen[..., channel] == 255).sum()
         assert np.sqrt(pixels) == pytest.approx(112 * metres, abs=1)

@@ -31,7 +31,7 @@ import yaml
 from pictures import SAME, Image, Mask, counting, drawn, flat, near_part, picture
 
 if TYPE_CHECKING:
-    from sambot_viz.export.chromium import Chromium
+    from shared_page import SharedPage
 
 pytestmark = pytest.mark.browser
 
@@ -100,30 +100,20 @@ def recorded(name: str) -> tuple[Path, dict[str, Any], Image, Mask]:
     return folder, case, golden, counting(folder, golden)
 
 
-def drawn_by_us(chromium: Chromium, folder: Path, case: dict[str, Any]) -> Image:
+def drawn_by_us(shared_page: SharedPage, folder: Path, case: dict[str, Any]) -> Image:
     """Our picture, of the size of the recording, through the config's own view."""
-    from sambot_viz import load_config, load_robot
-    from sambot_viz.export.view_picture import snapshot
-    from sambot_viz.options import Options
-    from sambot_viz.server.server import Server
-
-    config = load_config(folder / "config.rviz")
-    packages = [COLLECTION / "golden_meshes"] if COLLECTION.is_dir() else []
-    robot = load_robot(folder / "robot.urdf", package_path=packages)
-    options = Options(port=0, gui=False, panels=False)
-    server = Server(options, lambda: config)
-    try:
-        server.sessions.show_robot(robot)
-        session = server.sessions.all()[0]
+    size = case["camera"]["image_height"], case["camera"]["image_width"]
+    shown = shared_page.shows(
+        model=folder / "robot.urdf",
+        config=folder / "config.rviz",
+        package_path=[COLLECTION / "golden_meshes"] if COLLECTION.is_dir() else [],
+    )
+    with shown as session:
         assert session.robot.joints is not None
         free = session.robot.joints.free
         positions = case["joint_positions"].items()
         session.robot.set_positions({n: v for n, v in positions if n in free})
-        size = case["camera"]["image_width"], case["camera"]["image_height"]
-        view = session.document_view.camera
-        return snapshot(server, chromium, *size, view).astype(np.int16)
-    finally:
-        server.stop()
+        return shared_page.picture(session, size)
 
 
 def measures(ours: Image, golden: Image, counts: Mask, background: Image) -> Limits:
@@ -140,9 +130,9 @@ def measures(ours: Image, golden: Image, counts: Mask, background: Image) -> Lim
 
 
 @pytest.mark.parametrize("name", names())
-def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
+def test_the_picture_is_rvizs(shared_page: SharedPage, name: str) -> None:
     folder, case, golden, counts = recorded(name)
-    ours = drawn_by_us(chromium, folder, case)
+    ours = drawn_by_us(shared_page, folder, case)
     assert ours.shape == golden.shape
     background = np.array(case["background_rgb"], np.int16)
     reached = measures(ours, golden, counts, background)
@@ -159,14 +149,14 @@ def box(image: Image) -> npt.NDArray[np.float64]:
     return np.array(sides, float)
 
 
-def test_a_name_has_the_box_of_rviz_2(chromium: Chromium) -> None:
+def test_a_name_has_the_box_of_rviz_2(shared_page: SharedPage) -> None:
     """RViz 2's letters are 0.0889 of the scale high, those of the recording 0.0857.
 
     Both are centred on the frame, in the font that comes with the page; RViz 2's
     baseline is 0.0667 of the scale below it, and its tall letters are 0.0630 high.
     """
     folder, case, golden, _ = recorded("tf_label_one")
-    ours = drawn_by_us(chromium, folder, case)
+    ours = drawn_by_us(shared_page, folder, case)
     us, them = box(ours), box(golden)
     meter = 600 / 2 / np.tan(np.pi / 8) / 1.5
     assert (us[0] + us[2]) / 2 == pytest.approx((them[0] + them[2]) / 2, abs=1)

@@ -29,14 +29,13 @@ from pictures import (
     Mask,
     counting,
     drawn,
-    end_of_recording,
     flat,
     near_part,
     picture,
 )
 
 if TYPE_CHECKING:
-    from sambot_viz.export.chromium import Chromium
+    from shared_page import SharedPage
 
 pytestmark = pytest.mark.browser
 
@@ -76,11 +75,13 @@ def outline(ours: Image, golden: Image, counts: Mask) -> float:
     return near_part(*(drawn(one, BACKGROUND) & counts for one in (ours, golden)))
 
 
-def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(chromium: Chromium) -> None:
+def test_lines_in_the_plane_of_a_costmap_are_in_front_of_it(
+    shared_page: SharedPage,
+) -> None:
     """The outline of a footprint is green, and the costmap is blended over the rest."""
     folder = DATA / "nav2_scene_top"
     golden = picture(folder / "render.png")
-    ours = end_of_recording(chromium, folder, golden.shape, PACKAGES)
+    ours = shared_page.end_of_recording(folder, golden.shape, PACKAGES)
 
     def green(image: Image) -> int:
         red, green, blue = (image[..., channel] for channel in range(3))
@@ -110,13 +111,13 @@ def patches(ours: Image, golden: Image, counts: Mask) -> float:
 
 
 @pytest.mark.parametrize("name", list(CASES))
-def test_the_picture_is_rvizs(chromium: Chromium, name: str) -> None:
+def test_the_picture_is_rvizs(shared_page: SharedPage, name: str) -> None:
     limits = CASES[name]
     folder = (COLLECTION if name in IN_PLACE else DATA) / name
     if not folder.is_dir():
         pytest.skip(NEEDS_SHARED)
     golden = picture(folder / "render.png")
-    ours = end_of_recording(chromium, folder, golden.shape, PACKAGES)
+    ours = shared_page.end_of_recording(folder, golden.shape, PACKAGES)
     counts = counting(folder, golden)
     # A line along the border belongs to the picture or does not, by a rounding.
     counts[[0, -1]] = counts[:, [0, -1]] = False
@@ -155,11 +156,11 @@ TEXTS = {
 }
 
 
-def test_texts_have_the_boxes_and_colours_of_rviz(chromium: Chromium) -> None:
+def test_texts_have_the_boxes_and_colours_of_rviz(shared_page: SharedPage) -> None:
     """RViz 2's letters are 0.889 of the height of a line, the recording's 0.857."""
     folder = DATA / "marker_text"
     golden = picture(folder / "render.png")
-    found = end_of_recording(chromium, folder, golden.shape)
+    found = shared_page.end_of_recording(folder, golden.shape)
     for text, area in TEXTS.items():
         us, them = box(found, area), box(golden, area)
         assert (us[:2] + us[2:]) / 2 == pytest.approx((them[:2] + them[2:]) / 2, abs=2)

@@ -26,7 +26,6 @@ from pictures import (
     Mask,
     dilated,
     drawn,
-    end_of_recording,
     flat,
     near_part,
     outlined,
@@ -34,7 +33,7 @@ from pictures import (
 )
 
 if TYPE_CHECKING:
-    from sambot_viz.export.chromium import Chromium
+    from shared_page import SharedPage
 
 pytestmark = pytest.mark.browser
 
@@ -81,10 +80,10 @@ def predicted(folder: Path, golden: Image) -> tuple[Image, Mask]:
 
 @pytest.mark.skipif(not SCENES.is_dir(), reason=NEEDS_SHARED)
 @pytest.mark.parametrize("name", NAMES)
-def test_the_picture_is_that_of_rviz_2(chromium: Chromium, name: str) -> None:
+def test_the_picture_is_that_of_rviz_2(shared_page: SharedPage, name: str) -> None:
     folder = SCENES / name
     golden = picture(folder / "reference.png")
-    ours = end_of_recording(chromium, folder, golden.shape, PACKAGES)
+    ours = shared_page.end_of_recording(folder, golden.shape, PACKAGES)
     scene = next(one for one in LISTED if one["name"] == name)
     background = np.array(scene["background"], np.int16)
     both = [drawn(one[1:-1, 1:-1], background) for one in (ours, golden)]

@@ -16,7 +16,7 @@ import pytest
 from pictures import picture
 
 if TYPE_CHECKING:
-    from sambot_viz.export.chromium import Chromium
+    from shared_page import SharedPage
 
 pytestmark = pytest.mark.browser
 
@@ -38,23 +38,11 @@ ALLOWED = 0.004
         "view_xyorbit",
     ],
 )
-def test_the_picture_is_the_one_rviz_draws(chromium: Chromium, name: str) -> None:
-    from sambot_viz import load_config, load_robot
-    from sambot_viz.export.view_picture import snapshot
-    from sambot_viz.options import Options
-    from sambot_viz.server.server import Server
-
+def test_the_picture_is_the_one_rviz_draws(shared_page: SharedPage, name: str) -> None:
     folder = DATA / name
     golden = picture(folder / "render.png")
-    height, width, _ = golden.shape
-    options = Options(port=0, panels=False)
-    server = Server(options, lambda: load_config(folder / "config.rviz"))
-    try:
-        server.sessions.show_robot(load_robot(DATA / "view_robot.urdf"))
-        session = server.sessions.shared
-        assert session is not None
-        ours = snapshot(server, chromium, width, height, session.document_view.camera)
-    finally:
-        server.stop()
-    difference = np.abs(ours.astype(np.int16) - golden).max(axis=2)
+    model, config = DATA / "view_robot.urdf", folder / "config.rviz"
+    with shared_page.shows(model=model, config=config) as session:
+        ours = shared_page.picture(session, golden.shape)
+    difference = np.abs(ours - golden).max(axis=2)
     assert (difference > VISIBLE).mean() < ALLOWED

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
-
-if TYPE_CHECKING:
-    from sambot_viz.export.chromium import Chromium
 
 Image = npt.NDArray[np.int16]
 Mask = npt.NDArray[np.bool_]
@@ -83,34 +78,3 @@ def flat(image: Image) -> Mask:
 
     even = (of_squares(np.maximum) - of_squares(np.minimum)).max(axis=-1) <= 2
     return np.asarray(np.pad(even, PATCH // 2))
-
-
-def end_of_recording(
-    chromium: Chromium,
-    folder: Path,
-    shape: tuple[int, ...],
-    packages: Sequence[Path] = (),
-) -> Image:
-    """The messages of a case at their end, through the view of its config.
-
-    Args:
-        chromium: takes the picture.
-        folder: with messages.mcap and config.rviz.
-        shape: of the picture: height, width, ….
-        packages: folders of packages with the meshes of markers.
-    """
-    from sambot_viz import Visualizer
-    from sambot_viz.export.view_picture import snapshot
-
-    with Visualizer(
-        source=f"bag:{folder / 'messages.mcap'}",
-        config=folder / "config.rviz",
-        package_path=packages,
-        port=0,
-        panels=False,
-    ) as viz:
-        viz.player.pause()
-        viz.player.jump(viz.player.duration)
-        view = viz.server.sessions.all()[0].document_view.camera
-        found = snapshot(viz.server, chromium, shape[1], shape[0], view)
-        return found.astype(np.int16)

@@ -11,6 +11,7 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
+from sambot_viz.export.browser_page import BrowserPage
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server.server import Server
 from sambot_viz.session.clients.camera import ClientCamera
@@ -24,7 +25,7 @@ WAIT_PER_MEGABYTE = 2.0
 """What a slow machine takes to receive, parse and draw 1 MB of meshes [s]."""
 
 _TICKET = "new URL(sambotSocket).searchParams.get('ticket')"
-_DRAW_WHEN_ASKED = """(() => {
+DRAW_WHEN_ASKED = """(() => {
   const begin = () => {
     const root = window.__viserMutable?.scene?.__r3f?.root;
     if (!root) return void setTimeout(begin, 10);
@@ -76,34 +77,59 @@ def snapshot(
     Raises:
         ServerError: the page did not show everything in time.
     """
-    page = chromium.open(_address(server.url), width=width, height=height)
+    page = chromium.open(page_address(server.url), width=width, height=height)
     try:
-        page.evaluate(_DRAW_WHEN_ASKED)
+        page.evaluate(DRAW_WHEN_ASKED)
         client = server.clients.wait_for_page(page.evaluate(_TICKET), LONGEST_WAIT)
         server.sessions.wait_for_meshes(LONGEST_WAIT)
-        longest = longest_wait(server.scene_bytes())
-        page.wait_for(_EVERYTHING_IS_THERE % server.node_count(), timeout=longest)
-        before: Picture | None = None
-        placed: tuple[float, ...] | None = None
-        # Loading may have taken all of the time that was meant for it.
-        end = time.monotonic() + longest
-        while time.monotonic() < end:
-            # viser draws a picture's background at the page's own camera, and nothing
-            # beyond 1000 m from it, so the page's camera must be moved too. A page that
-            # was just opened may report its first camera after another one was set.
-            if placed is None or not np.allclose(
-                _place(client), placed, rtol=1e-4, atol=1e-3
-            ):
-                ClientCamera(client).point(camera, ortho_fov=None)
-                placed, before = _place(client), None
-            picture = render(client, width, height, longest)
-            # Meshes and names appear some frames after their messages; two equal
-            # pictures in a row mean that nothing more is coming.
-            if before is not None and np.array_equal(picture, before):
-                return picture
-            before = picture
+        return picture_in(page, client, server.viser.scene, width, height, camera)
     finally:
         page.close()
+
+
+def picture_in(
+    page: BrowserPage,
+    client: viser.ClientHandle,
+    scene: viser.SceneApi,
+    width: int,
+    height: int,
+    camera: Camera,
+) -> Picture:
+    """Render a scene in a page, as soon as the page has all of it.
+
+    Args:
+        page: it has `DRAW_WHEN_ASKED`, and an address of `page_address`.
+        client: the same page, as the server knows it.
+        scene: what the page is to show.
+        width: as for `snapshot`.
+        height: as for `snapshot`.
+        camera: as for `snapshot`.
+
+    Raises:
+        ServerError: the page did not show everything in time.
+    """
+    longest = longest_wait(viser_private.scene_bytes(scene))
+    count = viser_private.node_count(scene)
+    page.wait_for(_EVERYTHING_IS_THERE % count, timeout=longest)
+    before: Picture | None = None
+    placed: tuple[float, ...] | None = None
+    # Loading may have taken all of the time that was meant for it.
+    end = time.monotonic() + longest
+    while time.monotonic() < end:
+        # viser draws a picture's background at the page's own camera, and nothing
+        # beyond 1000 m from it, so the page's camera must be moved too. A page that
+        # was just opened may report its first camera after another one was set.
+        if placed is None or not np.allclose(
+            _place(client), placed, rtol=1e-4, atol=1e-3
+        ):
+            ClientCamera(client).point(camera, ortho_fov=None)
+            placed, before = _place(client), None
+        picture = render(client, width, height, longest)
+        # Meshes and names appear some frames after their messages; two equal
+        # pictures in a row mean that nothing more is coming.
+        if before is not None and np.array_equal(picture, before):
+            return picture
+        before = picture
     raise _too_slow(longest)
 
 
@@ -146,7 +172,7 @@ def _too_slow(longest: float) -> ServerError:
     )
 
 
-def _address(url: str) -> str:
+def page_address(url: str) -> str:
     """Return the address of a page whose pixels are those of its picture."""
     return f"{url}&fixedDpr=1" if "?" in url else f"{url}/?fixedDpr=1"
 

@@ -11,7 +11,6 @@ from contextlib import suppress
 
 import viser
 
-from sambot_viz import viser_private
 from sambot_viz.joints.presets import Presets
 from sambot_viz.options import Options
 from sambot_viz.panels.files import Files
@@ -107,14 +106,6 @@ class Server:
     def viser(self) -> viser.ViserServer:
         """The viser server, to add your own nodes and widgets."""
         return self._viser
-
-    def node_count(self) -> int:
-        """How many nodes the shared scene has."""
-        return viser_private.node_count(self._viser.scene)
-
-    def scene_bytes(self) -> int:
-        """How much a page must receive to show the shared scene [bytes]."""
-        return viser_private.scene_bytes(self._viser.scene)
 
     def wait(self) -> None:
         """Return when the server is stopped."""
