@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from work import calls_of
 
 from sambot_viz import RobotError, errors, load_robot
 from sambot_viz.errors import did_you_mean
@@ -62,6 +63,18 @@ def test_the_nearest_name_is_offered_or_all_names_are_listed() -> None:
     assert did_you_mean("x", []) == "there are none"
     many = did_you_mean("x", [f"link_{n}" for n in range(9)])
     assert many.endswith("'link_7', …")
+
+
+def test_a_name_that_is_asked_again_costs_nothing_anew() -> None:
+    """A display whose topic is missing asks at each picture."""
+    topics = [f"/robot/sensor_{n}/points" for n in range(300)]
+
+    def ask() -> None:
+        assert "'/robot/sensor_7/points'" in did_you_mean(
+            "/robot/sensr_7/points", topics
+        )
+
+    assert calls_of(ask) > 20 * calls_of(ask)
 
 
 def test_a_notebook_shows_the_line_of_the_user_and_the_message(tmp_path: Path) -> None:

@@ -36,6 +36,7 @@ import difflib
 import traceback
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
@@ -248,7 +249,13 @@ class UsageError(SambotVizError):
 
 def nearest(name: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
     """Return the name that is most like another, if it is as like as that (0 to 1)."""
-    near = difflib.get_close_matches(name, list(names), n=1, cutoff=likeness)
+    return _nearest(name, tuple(names), likeness)
+
+
+@lru_cache(maxsize=128)
+def _nearest(name: str, names: tuple[str, ...], likeness: float) -> str | None:
+    # A display without its topic asks the same again at each picture.
+    near = difflib.get_close_matches(name, names, n=1, cutoff=likeness)
     return near[0] if near else None
 
 

@@ -6,17 +6,26 @@ all that have the same transforms and the same fixed frame.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import yaml
 from blank_messages import blank_message
 from inside import session_of
 from made_recording import Message, described, write_messages
+from patience import patience
+from protocol_client import wait_for_workers
 from situations import START_NS, TYPES, display_of, message_of
 from visible_steps import steps_to
+
+from sambot_viz.displays.robot_display import ModelRequest
+from sambot_viz.panels import row_sync
+from sambot_viz.server.model_thread import ModelThread
 
 FIRST_S, END_S = 0.5, 8.0
 """When messages begin to come, and when the recording ends [s]."""
@@ -54,9 +63,14 @@ def statuses_in(world: World, folder: Path) -> Mapping[str, Rows]:
     from sambot_viz import Visualizer
 
     source, config = files_of(world, folder)
-    with Visualizer(source=f"bag:{source}", config=config, port=0) as viz:
+    with (
+        _held_back() as read,
+        # No page is there for which rows of panels are to be made at each step.
+        mock.patch.object(row_sync, "PERIOD", 3600.0),
+        Visualizer(source=f"bag:{source}", config=config, port=0) as viz,
+    ):
         for _ in steps_to(viz, END_S, EVERY_S):
-            pass
+            read()
         session = session_of(viz)
         found = {
             display.config.name: {
@@ -66,6 +80,32 @@ def statuses_in(world: World, folder: Path) -> Mapping[str, Rows]:
         }
         fixed = session.scene.global_status()
         return {**found, "": {"Fixed Frame": (fixed.level, fixed.text)}}
+
+
+@contextmanager
+def _held_back() -> Iterator[Callable[[], None]]:
+    """Yield what reads the models that displays have asked for, and returns then.
+
+    A thread reads them otherwise, so that it depends on the machine what a robot of a
+    topic finds when it comes.
+    """
+    asked: list[Callable[[], None]] = []
+    begin = ModelThread.read
+
+    def hold(thread: ModelThread, request: ModelRequest) -> None:
+        asked.append(partial(begin, thread, request))
+        threads.add(thread)
+
+    def read() -> None:
+        if asked:
+            while asked:
+                asked.pop(0)()
+            assert all(thread.wait(patience(20.0)) for thread in threads)
+            wait_for_workers()
+
+    threads: set[ModelThread] = set()
+    with mock.patch.object(ModelThread, "read", hold):
+        yield read
 
 
 def files_of(world: World, folder: Path) -> tuple[Path, Path]:

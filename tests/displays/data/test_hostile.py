@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from unittest import mock
 
 import pytest
 from hostile_recording import MESSAGES, STEP_S, Tried, all_tried, write_hostile
@@ -12,6 +13,7 @@ from visible_steps import steps_to
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.display import LONGEST_KEY, LONGEST_TEXT, Display
+from sambot_viz.panels import row_sync
 
 MOST_ROWS = 110
 
@@ -23,6 +25,8 @@ def attacked(
     """All displays after their messages, and the numbers that no browser can draw."""
     source, config = write_hostile(tmp_path_factory.mktemp("bad"), list(all_tried()))
     with (
+        # No page is there for which rows of panels are to be made at each step.
+        mock.patch.object(row_sync, "PERIOD", 3600.0),
         Visualizer(source=f"bag:{source}", config=config, port=0) as viz,
         bad_numbers(viser_server(viz)) as bad,
     ):
