@@ -26,6 +26,10 @@ from websockets.typing import Origin, Subprotocol
 
 from sambot_viz import Visualizer
 
+# The same of our own code, without a proxy: tests/server/test_access.py, test_roles.py
+# and test_token_check.py; the files of deploy/: test_containers.py.
+pytestmark = pytest.mark.slow
+
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 NAME, PASSWORD = "student", "tortoise"
 LOGIN = {

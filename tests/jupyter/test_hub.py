@@ -18,6 +18,9 @@ from protocol_client import ProtocolClient
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+# The same of our own code, without a JupyterHub: test_frame.py and test_tile.py.
+pytestmark = pytest.mark.slow
+
 ROBOT = '<robot name="{0}"><link name="link_of_{0}"/></robot>'
 CELL = "from sambot_viz import Visualizer\nviz = Visualizer()\nviz"
 

@@ -19,6 +19,9 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin, Subprotocol
 
+# The same of our own code, without a JupyterLab: test_tile.py and test_model.py.
+pytestmark = pytest.mark.slow
+
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 ARM = """<robot name="arm">
 <link name="base"><visual><geometry><box size="1 1 1"/></geometry></visual></link>

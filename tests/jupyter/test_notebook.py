@@ -13,6 +13,9 @@ import pytest
 from a_jupyter import PYTHON, Lab, a_lab, a_place, ask, wait_until
 from recorded_page import RecordedPage
 
+# The same of our own code, without a notebook: test_frame.py.
+pytestmark = pytest.mark.slow
+
 CELLS = (
     "from sambot_viz import Visualizer\nviz = Visualizer('arm.urdf')\nviz",
     "viz.set_joint_positions({'swing': 1.0})",

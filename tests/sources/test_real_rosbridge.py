@@ -20,6 +20,9 @@ from patience import until
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.source import Source
 
+# The same with a peer of our own: test_rosbridge.py and test_conformance.py.
+pytestmark = pytest.mark.slow
+
 Open = Callable[[str], Source]
 SERVER = "venv-ws/lib/python3.11/site-packages/rosbridge_server_rs"
 TALKER = """
