@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from sambot_viz import check
 from sambot_viz.cli import main
 from sambot_viz.errors import Problem
+from sambot_viz.outlet import Line
 from sambot_viz.problems import (
     group_problems,
     in_order,
@@ -156,21 +157,30 @@ def warning(number: int) -> Problem:
     return Problem("warning", "some-code", f"number {number}", "fix it")
 
 
-def written(problems: list[Problem], **options: object) -> list[str]:
-    out = io.StringIO()
-    write_problems(problems, out, **options)  # type: ignore[arg-type]
-    return out.getvalue().splitlines()
+def written(problems: list[Problem], **options: Any) -> list[str]:
+    lines: list[str] = []
+
+    def write(*several: Line) -> None:
+        lines.extend(map(plain, several))
+
+    write_problems(problems, write, **options)
+    return lines
+
+
+def plain(line: Line) -> str:
+    parts = (line,) if isinstance(line, str) else line
+    return "".join(part if isinstance(part, str) else part.words for part in parts)
 
 
 def test_a_problem_has_its_place_its_line_and_a_mark(tmp_path: Path) -> None:
     file = tmp_path / "r.urdf"
     file.write_text("<robot>\n  <link/>\n")
 
-    text = problem_in_words(
+    lines = problem_in_words(
         Problem("error", "some-code", "no name", "give it one", str(file), 2, 3)
     )
 
-    assert text.splitlines() == [
+    assert [plain(line) for line in lines] == [
         f"{file}:2:3: error[some-code]: no name; give it one",
         "    2 |   <link/>",
         "          ^",

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-FOUNDATIONS = {"errors", "files", "geometry", "text"}
+FOUNDATIONS = {"errors", "files", "geometry", "outlet", "text"}
 """Any room may import these; they import nothing of the package but each other."""
 
 CONCURRENCY = {
@@ -145,7 +145,7 @@ ROOMS: Mapping[str, Row] = {
     "commands": Row(
         "_version bundled checks export flags frames inputs joints listened "
         "moved_by options problems robot rviz server session topics visualizer",
-        "PIL segno",
+        "PIL",
         "signal webbrowser",
     ),
     "jupyter": Row("bundled cli flags options", "", "http signal socket ssl threading"),
@@ -168,6 +168,7 @@ ROOMS: Mapping[str, Row] = {
     "listened": Row("sources topics", "", "threading"),
     "moved_by": Row("messages options rviz sources topics"),
     "options": Row("flags frames joints robot rviz sources", "yourdfpy"),
+    "outlet": Row("", "segno"),
     "problems": Row(),
     "text": Row(),
     "visualizer": Row(

@@ -7,13 +7,10 @@ error, 130 ended by Ctrl-C (which ends a server with 0). The commands are files 
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import os
 import sys
-import traceback
 from collections.abc import Sequence
-from typing import Any, TextIO, cast
 
 from sambot_viz.errors import (
     ConfigError,
@@ -24,6 +21,7 @@ from sambot_viz.errors import (
     UsageError,
     nearest,
 )
+from sambot_viz.outlet import drop_output, guarded, write_err, write_traceback
 from sambot_viz.problems import write_problems
 
 OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
@@ -53,7 +51,7 @@ def main(argv: Sequence[str] | None = None, notes: Sequence[Problem] = ()) -> in
         The exit code.
     """
     words = list(sys.argv[1:] if argv is None else argv)
-    with contextlib.redirect_stderr(cast(TextIO, _StandardError(sys.stderr))):
+    with guarded():
         return _run(words, notes)
 
 
@@ -77,7 +75,7 @@ def _run(words: list[str], notes: Sequence[Problem]) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of standard output has gone (`| head`): nothing more is wanted.
-        _write_to_nowhere(sys.stdout)
+        drop_output()
         return OK
     except Exception as error:
         return _internal_error(error, "--debug" in words)
@@ -92,50 +90,19 @@ def _refuse_mistyped(word: str) -> None:
         )
 
 
-class _StandardError:
-    """Standard error, whose reader may go without ending the work (`2>&1 | head`)."""
-
-    def __init__(self, stream: TextIO | None) -> None:
-        # Python has none when the program was started with it closed.
-        self._stream = stream or open(os.devnull, "w", encoding="utf-8")
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._stream, name)
-
-    def write(self, text: str) -> int:
-        """Write a text, or drop it when nothing reads it."""
-        try:
-            return self._stream.write(text)
-        except BrokenPipeError:
-            _write_to_nowhere(self._stream)
-            return len(text)
-
-    def flush(self) -> None:
-        """Write out what is buffered, or drop it when nothing reads it."""
-        try:
-            self._stream.flush()
-        except BrokenPipeError:
-            _write_to_nowhere(self._stream)
-
-
-def _write_to_nowhere(stream: TextIO) -> None:
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, stream.fileno())
-    os.close(nowhere)
-
-
 def _complain(error: SambotVizError, code: int) -> int:
-    sys.stderr.write(f"sambot-viz: error: {error}\n")
+    first, *rest = str(error).split("\n")
+    write_err(f"sambot-viz: error: {first}", *rest)
     return code
 
 
 def _internal_error(error: Exception, debug: bool) -> int:
     if debug:
-        traceback.print_exc()
+        write_traceback(error)
     else:
-        sys.stderr.write(
+        write_err(
             f"sambot-viz: internal error: {type(error).__name__}: {error}; run again "
-            "with --debug to see where, and please report it\n"
+            "with --debug to see where, and please report it"
         )
     return INTERNAL
 

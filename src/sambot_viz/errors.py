@@ -40,6 +40,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
+from sambot_viz.text import line
+
 Severity = Literal["error", "warning", "info"]
 
 
@@ -111,7 +113,7 @@ class Problem:
     def __str__(self) -> str:
         head = f"{self.severity}[{self.code}]: {self.message}"
         text = f"{self.place}: {head}" if self.place else head
-        return f"{text}; {self.hint}" if self.hint else text
+        return line(f"{text}; {self.hint}" if self.hint else text)
 
     def as_json(self) -> dict[str, str | int | None]:
         """Return the seven fields that a problem has in JSON."""
@@ -172,7 +174,14 @@ def _cut(text: str) -> str:
 
 
 class SambotVizError(Exception):
-    """Base of every error this package raises on purpose."""
+    """Base of every error this package raises on purpose.
+
+    Each of its arguments is a line of its text, in which names of files and of robots
+    are clean: Python itself writes it where a script does not catch it.
+    """
+
+    def __str__(self) -> str:
+        return "\n".join(line(each) for each in self.args)
 
     def _render_traceback_(self) -> list[str]:
         """The lines of the user and the message: IPython and Jupyter show these.
@@ -186,7 +195,7 @@ class SambotVizError(Exception):
                 break
             # IPython's own calls come first.
             if "site-packages" not in Path(call.filename).parts:
-                lines.append(f"line {call.lineno}: {call.line}")
+                lines.append(f"line {call.lineno}: {line(call.line)}")
         return [*lines, f"{type(self).__name__}: {self}"]
 
 
@@ -194,7 +203,7 @@ class _ErrorWithProblems(SambotVizError):
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems: tuple[Problem, ...] = tuple(problems)
         errors = [p for p in self.problems if p.severity == "error"]
-        super().__init__("\n".join(str(p) for p in errors or self.problems))
+        super().__init__(*map(str, errors or self.problems))
 
 
 class RobotError(_ErrorWithProblems):

@@ -8,15 +8,16 @@ with their number and the one remedy: a row in the page, a paragraph on the term
 from __future__ import annotations
 
 import os
+import re
 import shlex
-import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TextIO
 
 from sambot_viz.errors import Problem, Severity
+from sambot_viz.outlet import Line, Painted, write_err
+from sambot_viz.text import line
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
 """The order in which problems are shown."""
@@ -24,10 +25,9 @@ SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
 MOST = 10
 """A terminal gets at most so many groups; ``sambot-viz check`` prints each problem."""
 
-_COLORS = {"error": "\033[1;31m", "warning": "\033[1;33m", "info": "\033[1;36m"}
-_BOLD, _DIM, _END = "\033[1m", "\033[2m", "\033[0m"
-_PLAIN = ("", "", "")
 _LONGEST_LINE = 160
+_LINE_BREAK = re.compile("\n")
+_LINE_BREAK_OF_YAML = re.compile("[\n\x85\u2028\u2029]")
 
 _SENTENCES = {
     "mesh-not-found": "{count} meshes of {cause}: not found",
@@ -175,75 +175,73 @@ def problem_lines(problem: Problem, context: int = 2) -> list[tuple[int, str]]:
     return [(number, _shown(line)) for number, line in enumerate(around, first)]
 
 
-def _shown(line: str) -> str:
-    return line[:_LONGEST_LINE].expandtabs(1).rstrip()
+def _shown(written: str) -> str:
+    return line(written[:_LONGEST_LINE]).rstrip()
 
 
 @lru_cache(maxsize=4)
 def _lines(file: str, saved: int, size: int) -> list[str]:
-    """Return the lines of a file, read once for many problems until it is saved."""
-    return Path(file).read_text("utf-8", "replace").splitlines()
+    """Return the lines of a file, read once for many problems until it is saved.
 
-
-def problem_in_words(problem: Problem, color: bool = False) -> str:
-    """Write a problem as lines: the sentence, the excerpt with a mark, the fix.
-
-    Args:
-        problem: what to print.
-        color: with the escape codes of a terminal.
+    They are counted as whoever read the file has counted them.
     """
-    paint, dim, end = (_COLORS[problem.severity], _DIM, _END) if color else _PLAIN
-    lines = [_sentence(problem, problem.message, color)]
-    for number, line in problem_lines(problem, context=0):
-        if not line.strip():
+    is_yaml = file.endswith((".rviz", ".yaml", ".yml"))
+    lines = (_LINE_BREAK_OF_YAML if is_yaml else _LINE_BREAK).split(
+        Path(file).read_text("utf-8", "replace")
+    )
+    return lines if lines[-1] else lines[:-1]
+
+
+def problem_in_words(problem: Problem) -> list[Line]:
+    """Write a problem as lines: the sentence with the fix, the excerpt with a mark."""
+    lines: list[Line] = [_sentence(problem, problem.message)]
+    for number, excerpt in problem_lines(problem, context=0):
+        if not excerpt.strip():
             continue
         margin = f"{number:>5} | "
-        lines.append(f"{dim}{margin}{end}{line}")
-        if problem.column is not None and problem.column <= len(line) + 1:
-            lines.append(f"{' ' * (len(margin) + problem.column - 1)}{paint}^{end}")
-    return "\n".join(lines)
+        lines.append([Painted(margin, "dim"), excerpt])
+        if problem.column is not None and problem.column <= len(excerpt) + 1:
+            blank = " " * (len(margin) + problem.column - 1)
+            lines.append([blank, Painted("^", problem.severity)])
+    return lines
 
 
-def _sentence(problem: Problem, message: str, color: bool) -> str:
+def _sentence(problem: Problem, message: str) -> Line:
     """Write place, severity and code of a problem with a message, and the hint."""
-    paint, bold, end = (_COLORS[problem.severity], _BOLD, _END) if color else _PLAIN
-    place = f"{bold}{problem.place}:{end} " if problem.place else ""
+    place = (Painted(f"{problem.place}:", "bold"), " ") if problem.place else ()
+    kind = Painted(f"{problem.severity}[{problem.code}]:", problem.severity)
     hint = f"; {problem.hint}" if problem.hint else ""
-    return f"{place}{paint}{problem.severity}[{problem.code}]:{end} {message}{hint}"
+    return [*place, kind, f" {message}{hint}"]
 
 
 def write_problems(
     problems: Iterable[Problem],
-    stream: TextIO | None = None,
+    write: Callable[..., None] = write_err,
     *,
     most: int | None = MOST,
     model: object = None,
 ) -> None:
-    """Write problems to a stream, errors first.
+    """Write problems, errors first.
 
     Args:
         problems: what to write.
-        stream: where to; default standard error.
+        write: `outlet.write_err` or `outlet.write_out`.
         most: problems of one cause are written as one; after so many only the number of
             the others is written, and the command that prints each. None writes each.
         model: the model as the user wrote it, for that command.
     """
-    out: TextIO = stream or sys.stderr
-    color = out.isatty() and "NO_COLOR" not in os.environ
     if most is None:
-        texts = [problem_in_words(problem, color) for problem in in_order(problems)]
+        lines = [line for each in in_order(problems) for line in problem_in_words(each)]
     else:
         groups = group_problems(problems)
-        texts = [_group_in_words(group, color) for group in groups[:most]]
+        lines = [line for each in groups[:most] for line in _group_in_words(each)]
         rest = sum(len(group.problems) for group in groups[most:])
         if rest:
             commands = _commands(groups[most:], model)
-            texts.append(f"{rest} more; to see all of them: {commands}")
+            lines.append(f"{rest} more; to see all of them: {commands}")
         elif joined := [group for group in groups if len(group.problems) > 1]:
-            texts.append(f"to see each of them: {_commands(joined, model)}")
-    for text in texts:
-        out.write(f"{text}\n")
-    out.flush()
+            lines.append(f"to see each of them: {_commands(joined, model)}")
+    write(*lines)
 
 
 def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
@@ -257,8 +255,8 @@ def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
     return ", ".join(dict.fromkeys(commands))
 
 
-def _group_in_words(group: ProblemGroup, color: bool) -> str:
+def _group_in_words(group: ProblemGroup) -> list[Line]:
     """Write several problems in one line, at the place of the first; one in full."""
     if len(group.problems) == 1:
-        return problem_in_words(group.first, color)
-    return _sentence(group.first, group.message, color)
+        return problem_in_words(group.first)
+    return [_sentence(group.first, group.message)]

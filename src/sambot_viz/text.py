@@ -1,22 +1,36 @@
-"""Clean every string that comes from a file and goes to a browser.
+"""Clean every string that comes from outside and that a person reads.
 
-viser checks nothing: one lone surrogate in a label breaks every browser that comes
-later, and direction marks or invisible characters make one name look like another.
+A name in a file may hold what a terminal obeys, what turns letters round, or what is
+not seen, so that one name looks like another. viser checks nothing either: one lone
+surrogate in a label breaks every browser that comes later. What goes to a terminal or a
+log passes `outlet`, which uses the same functions.
 """
 
 from __future__ import annotations
 
 import html
+import json
 import re
+from typing import Any
 
-_BLANKS = re.compile("[\t\n\r\x85\u2028\u2029]+")
-_INVISIBLE = re.compile(
+_SIGN = "\N{REPLACEMENT CHARACTER}"
+_BLANK = "\t\n\r\x85\u2028\u2029"
+_BLANKS = re.compile(f"[{_BLANK}]+")
+_EACH_BLANK = re.compile(f"[{_BLANK}]")
+_UNSEEN = (
     "[\x00-\x1f\x7f-\x9f"  # control characters
     "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # direction marks
-    "\xad\u180e\u200b\u2060-\u2065\u206a-\u206f\ufeff\ufff9-\ufffb"  # no width
-    "\U000e0000-\U000e007f]"  # tags
+    "\xad\u034f\u180e\u200b\u2060-\u2065\u206a-\u206f\ufeff\ufff0-\ufffb"  # no width
+    "\u115f\u1160\u17b4\u17b5\u3164\uffa0"  # letters that are blank
+    "\u2028\u2029"  # line breaks
+    "\ud800-\udfff"  # halves of a character
+    "\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f]"  # tags
+    "|(?:(?<=[\x00-\x7f])|^)[\u200c\u200d\ufe00-\ufe0f\U000e0100-\U000e01ef]"
 )
-"""Joiners (U+200C and U+200D) are left: several scripts cannot be written without."""
+"""Joiners (U+200C and U+200D) and selectors of a letter's form are left behind a letter
+that is not ASCII: several scripts cannot be written without."""
+_INVISIBLE = re.compile(_UNSEEN)
+_INVISIBLE_OF_LINES = re.compile(f"(?!\n)(?:{_UNSEEN})")
 
 
 def text(value: object, limit: int = 400) -> str:
@@ -30,9 +44,30 @@ def text(value: object, limit: int = 400) -> str:
         One line of valid UTF-8 without control characters, direction marks and
         characters of no width; each is replaced by U+FFFD, a line break by a blank.
     """
-    clean = str(value)[: limit + 1].encode("utf-8", "replace").decode("utf-8")
-    clean = _INVISIBLE.sub("\N{REPLACEMENT CHARACTER}", _BLANKS.sub(" ", clean))
+    clean = str(value)[: limit + 1]
+    if not (clean.isascii() and clean.isprintable()):  # which most are
+        clean = _INVISIBLE.sub(_SIGN, _BLANKS.sub(" ", clean))
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"
+
+
+def line(value: object) -> str:
+    """Return the same of any length, character by character, so that columns stay."""
+    return _INVISIBLE.sub(_SIGN, _EACH_BLANK.sub(" ", str(value)))
+
+
+def lines(value: object) -> str:
+    """Return the same for a text of several lines, whose line breaks stay."""
+    return _INVISIBLE_OF_LINES.sub(_SIGN, str(value).replace("\t", " "))
+
+
+def json_text(value: Any, *, ascii_only: bool = True) -> str:
+    """Return a value as JSON with an indent of 2; what is invisible is escaped."""
+    written = json.dumps(value, indent=2, ensure_ascii=ascii_only)
+    return _INVISIBLE_OF_LINES.sub(_escaped, written)
+
+
+def _escaped(found: re.Match[str]) -> str:
+    return json.dumps(found[0])[1:-1] if found[0] != "\x7f" else "\\u007f"
 
 
 def capitalized(words: str) -> str:
@@ -43,3 +78,25 @@ def capitalized(words: str) -> str:
 def html_text(value: object, limit: int = 2000) -> str:
     """Escape HTML's special characters too, for `gui.add_html`."""
     return html.escape(text(value, limit), quote=True)
+
+
+_WITHOUT_REFERENCES = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
+
+
+def xml_text(document: str) -> str:
+    """Return an XML document that means the same, with references for the invisible.
+
+    Comments, CDATA sections and instructions can have none: the sign stands there.
+    """
+    parts: list[str] = []
+    end = 0
+    for found in _WITHOUT_REFERENCES.finditer(document):
+        parts += [_referred(document[end : found.start()]), lines(found[0])]
+        end = found.end()
+    return "".join([*parts, _referred(document[end:])])
+
+
+def _referred(part: str) -> str:
+    return _INVISIBLE_OF_LINES.sub(
+        lambda found: found[0] if found[0] == "\t" else f"&#x{ord(found[0]):X};", part
+    )

@@ -20,6 +20,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.jupyter.notebook import HEIGHT, Cell, remember, stop_former
 from sambot_viz.jupyter.notebook import notebook as here
 from sambot_viz.options import Options
+from sambot_viz.outlet import take_log
 from sambot_viz.scripting.displays import first
 from sambot_viz.scripting.robot import RobotControl
 from sambot_viz.server.listener import Listener, listen
@@ -122,6 +123,7 @@ class Visualizer(RobotControl):
         return visualizer
 
     def _start(self, inputs: Inputs, listening: Listener | None) -> None:
+        take_log()
         shown = self._shown = ShownInputs(inputs, listening, ask_page)
         self._configs = shown.configs
         super().__init__(shown.server)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import sys
-
 from sambot_viz.bundled import Found, find
 from sambot_viz.checks import check, check_folder
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem
 from sambot_viz.options import Options
+from sambot_viz.outlet import write_json, write_out
 from sambot_viz.problems import group_problems, write_problems
 
 
@@ -20,11 +18,11 @@ def run(words: list[str]) -> int:
     model, problems = found.model, _problems(options, found)
     if given.format == "json":
         listed = [group.as_json() for group in group_problems(problems)]
-        print(json.dumps({"model": str(model), "problems": listed}, indent=2))
+        write_json({"model": str(model), "problems": listed})
     elif problems:
-        write_problems(problems, sys.stdout, most=None)
+        write_problems(problems, write_out, most=None)
     else:
-        print(f"{model}: no problems found")
+        write_out(f"{model}: no problems found")
     return int(any(problem.severity == "error" for problem in problems))
 
 

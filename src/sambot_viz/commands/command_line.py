@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import re
-import sys
 from collections.abc import Sequence
 from dataclasses import Field
 from pathlib import Path
@@ -15,6 +14,8 @@ from sambot_viz.errors import UsageError, nearest
 from sambot_viz.files import is_recording
 from sambot_viz.flags import Flag, Group, declared, flag_of
 from sambot_viz.options import Options
+from sambot_viz.outlet import write_err
+from sambot_viz.text import line
 
 # Commands such as check must not wait for what only others need.
 if TYPE_CHECKING:
@@ -114,7 +115,7 @@ class Parser(argparse.ArgumentParser):
                 "; name each recording with --source bag:FILE, a model with --model."
             )
         help_is = f"{' ' if meant else '; '}see {self.prog} --help"
-        self.exit(2, f"{self.prog}: error: {message}{meant}{help_is}\n")
+        self.exit(2, line(f"{self.prog}: error: {message}{meant}{help_is}") + "\n")
 
 
 def parse(
@@ -225,7 +226,7 @@ def output_path(text: str, what: str, *endings: str) -> Path:
 
 def warn(text: str) -> None:
     """Write a warning about the command line to standard error."""
-    sys.stderr.write(f"sambot-viz: warning: {text}\n")
+    write_err(f"sambot-viz: warning: {text}")
 
 
 def _is_taken(flag: Flag, groups: Sequence[Group]) -> bool:

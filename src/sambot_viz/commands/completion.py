@@ -7,11 +7,11 @@ import importlib
 import pkgutil
 import re
 import shlex
-import sys
 from collections.abc import Callable, Iterable
 
 from sambot_viz import commands
 from sambot_viz.commands.command_line import Parser
+from sambot_viz.outlet import write_lines
 
 _NO_COMMANDS = ("command_line", "show")
 """Modules of `commands` that have no name on the command line."""
@@ -22,7 +22,7 @@ _FOLDERS, _FILES = ("DIR",), ("FILE", "PATH", "MODEL")
 def run(words: list[str]) -> int:
     """Print the script for a shell."""
     given = parser().parse_args(words)
-    sys.stdout.write(_SCRIPTS[given.shell](_all_parsers()))
+    write_lines(_SCRIPTS[given.shell](_all_parsers()))
     return 0
 
 

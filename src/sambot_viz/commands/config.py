@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os.path
-import sys
 from pathlib import Path
 
 from sambot_viz.bundled import missing
 from sambot_viz.commands.command_line import Parser
 from sambot_viz.errors import UsageError
+from sambot_viz.outlet import write_json, write_lines
 from sambot_viz.problems import write_problems
 
 
@@ -23,9 +22,9 @@ def run(words: list[str]) -> int:
 
     found = config_report(load_config(options.file))
     if options.format == "json":
-        print(json.dumps(found.as_json(), indent=2))
+        write_json(found.as_json())
     else:
-        sys.stdout.write(found.as_text())
+        write_lines(found.as_text())
         write_problems(found.problems, most=None)
     return 0
 

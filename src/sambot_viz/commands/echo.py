@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import os.path
 from collections.abc import Sequence
 
 from sambot_viz.commands.command_line import Parser, parse, posed_frames
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.robot_frames import Explanation, explain
+from sambot_viz.frames.robot_frames import explain
 from sambot_viz.frames.transform import Transform
 from sambot_viz.geometry import rotation_from_xyzw
 from sambot_viz.inputs import Inputs
+from sambot_viz.outlet import write_json, write_lines
 from sambot_viz.problems import write_problems
 
 
@@ -45,19 +45,15 @@ def run(words: list[str]) -> int:
     # What tf2_echo calls the source is the target of tf2's look-up.
     found = explain(tree, given.looker, given.seen, robot)
     if found.transform is None:
-        raise FrameError(_no_answer(found))
+        # The text that tf2 shows, then the reason.
+        tf2_text = found.refused.tf2_text if found.refused else ""
+        raise FrameError(tf2_text, f"  {found.reason}")
     if given.format == "json":
-        print(json.dumps(echo_json(found.transform), indent=2))
+        write_json(echo_json(found.transform))
     else:
         time = tree.latest_common_time(found.target, found.source)
-        print(format_echo(found.transform, time))
+        write_lines(f"{format_echo(found.transform, time)}\n")
     return 0
-
-
-def _no_answer(found: Explanation) -> str:
-    """Return the text that tf2 shows, then the reason."""
-    tf2_text = found.refused.tf2_text if found.refused else ""
-    return f"{tf2_text}\n  {found.reason}"
 
 
 def parser() -> Parser:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.bundled import find
 from sambot_viz.commands.command_line import Parser, model_path, parse
+from sambot_viz.outlet import write_xml
 from sambot_viz.problems import write_problems
 from sambot_viz.robot.load import expand
 from sambot_viz.robot.model import load_robot
@@ -27,8 +27,7 @@ def run(words: list[str]) -> int:
         package_path=options.package_path,
         trusted=options.trusted,
     )
-    sys.stdout.write(text)
-    sys.stdout.flush()
+    write_xml(text)
     return 0
 
 
@@ -64,5 +63,5 @@ def _urdf_of(
         model, xacro_args=xacro_args, package_path=package_path, trusted=trusted
     )
     lost = [problem for problem in robot.problems if problem.severity != "info"]
-    write_problems(lost, sys.stderr)
+    write_problems(lost)
     return robot.urdf

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.inputs import Inputs
+from sambot_viz.outlet import write_lines
 from sambot_viz.problems import write_problems
 from sambot_viz.robot.model import Robot
 
@@ -35,8 +35,7 @@ def run(words: list[str]) -> int:
         write_problems(found, model=options.model)
         drawing = draw(posed_frames(robot, inputs), robot)
     if output is None:
-        sys.stdout.write(drawing)
-        sys.stdout.flush()
+        write_lines(drawing)
     else:
         _write(output, drawing)
     return 0

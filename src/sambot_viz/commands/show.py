@@ -15,6 +15,7 @@ from sambot_viz._version import __version__
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
+from sambot_viz.outlet import write_code, write_err, write_out
 from sambot_viz.problems import write_problems
 
 EPILOG = """\
@@ -40,15 +41,16 @@ argument for xacro, anywhere on the line; model:=, rvizconfig:= and gui:= mean t
 as for display.launch.py.
 """
 
-_OPEN_TO_ALL = """\
-sambot-viz: warning: anyone who can reach port {} of this machine can see the robot and
-move its joints; --token restricts access to those who have the link
-"""
+_OPEN_TO_ALL = (
+    "sambot-viz: warning: anyone who can reach port {} of this machine can see the",
+    "robot and move its joints; --token restricts access to those who have the link",
+)
 
 
-_WAITING = """\
-sambot-viz: note: the page is open and will load the file once its errors are fixed
-"""
+_WAITING = (
+    "sambot-viz: note: the page is open and will load the file once its errors are "
+    "fixed"
+)
 
 
 _LARGE_BLOCK = 2**20
@@ -97,7 +99,8 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
             if public is None:
                 _invite(link(here), link(here, presenter=True) if presented else None)
             if options.token is None:
-                sys.stderr.write(_OPEN_TO_ALL.format(listener.viser.get_port()))
+                port = listener.viser.get_port()
+                write_err(*(line.format(port) for line in _OPEN_TO_ALL))
         inputs.begin()
         from sambot_viz.visualizer import Visualizer
 
@@ -138,10 +141,10 @@ def _report_recording(inputs: Inputs) -> None:
     if status is None or status.is_running:
         return
     lacks = status.trouble or status.missing
-    sys.stderr.write(
+    write_err(
         f"sambot-viz: recorded {path}: {status.messages:,} messages in "
         f"{status.seconds:.1f} s, {status.size / 1e6:.1f} MB"
-        f"{f'; {lacks}' if lacks else ''}\n"
+        f"{f'; {lacks}' if lacks else ''}"
     )
 
 
@@ -178,7 +181,7 @@ def _report_start(inputs: Inputs, report: _Reports) -> None:
     if inputs.refusal() is None and not options.waits_for_robot:
         start_state(inputs.robot(), options)
     if inputs.refusal() is not None or inputs.broken_config is not None:
-        sys.stderr.write(_WAITING)
+        write_err(_WAITING)
 
 
 class _Reports:
@@ -196,9 +199,9 @@ class _Reports:
     def __call__(self, problems: Sequence[Problem]) -> None:
         """Write what a reload has changed."""
         if not problems:
-            sys.stderr.write("sambot-viz: all problems are fixed\n")
+            write_err("sambot-viz: all problems are fixed")
         elif self._written.issuperset(problems):
-            sys.stderr.write("sambot-viz: fixed; what is left is listed above\n")
+            write_err("sambot-viz: fixed; what is left is listed above")
         self.write(problems)
 
     def write(self, problems: Sequence[Problem]) -> None:
@@ -209,7 +212,7 @@ class _Reports:
 
 
 def _announce(url: str, open_it: bool, whose: str = "") -> None:
-    print(f"{whose}{url}", flush=True)
+    write_out(f"{whose}{url}")
     if open_it:
         import webbrowser
 
@@ -219,15 +222,10 @@ def _announce(url: str, open_it: bool, whose: str = "") -> None:
 def _invite(url: str, presenter_url: str | None) -> None:
     """Write the links for other machines, and draw one for the camera of a phone."""
     viewers = "" if presenter_url is None else ", viewers"
-    sys.stderr.write(f"sambot-viz: from other machines{viewers}: {url}\n")
+    write_err(f"sambot-viz: from other machines{viewers}: {url}")
     if presenter_url is not None:
-        sys.stderr.write(
-            f"sambot-viz: from other machines, presenter: {presenter_url}\n"
-        )
-    if sys.stderr.isatty():
-        import segno
-
-        segno.make(url, error="l").terminal(sys.stderr, compact=True, border=2)
+        write_err(f"sambot-viz: from other machines, presenter: {presenter_url}")
+    write_code(url)
 
 
 def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import os.path
-import sys
 from collections.abc import Iterable, Sequence
 from contextlib import closing
 from operator import attrgetter
@@ -16,6 +14,7 @@ from sambot_viz.errors import Problem, UsageError
 from sambot_viz.listened import Listened
 from sambot_viz.moved_by import open_live, open_recorded, refuse_time_of_live
 from sambot_viz.options import Options
+from sambot_viz.outlet import write_err, write_json, write_lines
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
 from sambot_viz.topics.live_reasons import silent_topics
@@ -39,9 +38,9 @@ def run(words: list[str]) -> int:
         found = [p for p in found if p.severity == "error"]
     write_problems(found, most=None)
     if given.format == "json":
-        print(json.dumps({"topics": [topic_json(row) for row in statuses]}, indent=2))
+        write_json({"topics": [topic_json(row) for row in statuses]})
     else:
-        print(topics_text(statuses))
+        write_lines(f"{topics_text(statuses)}\n")
     return int(any(problem.severity == "error" for problem in found))
 
 
@@ -69,9 +68,9 @@ def _say_together(paths: Sequence[Path]) -> None:
     ):
         return
     names = ", ".join(text(path.name, _WIDEST) for path in paths)
-    sys.stderr.write(
+    write_err(
         f"sambot-viz: note: {len(paths)} files are counted as one recording: {names}; "
-        "give one of them to list it alone\n"
+        "give one of them to list it alone"
     )
 
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from sambot_viz import bundled, cli
 from sambot_viz.errors import Problem, UsageError
+from sambot_viz.outlet import write_err
 
 MODEL = "SAMBOT_VIZ_MODEL"
 """The variable that names a model file or a package folder."""
@@ -61,7 +62,7 @@ def model_of(folder: Path, named: str) -> tuple[Path | None, list[Problem]]:
         bundled.find(model)
     except UsageError as error:
         why = f"{MODEL}: {error}" if named else str(error)
-        sys.stderr.write(f"sambot-viz: note: the bundled sam_bot is shown; {why}\n")
+        write_err(f"sambot-viz: note: the bundled sam_bot is shown; {why}")
         problem = Problem("error", "model-not-found", f"{why}; {_STAND_IN}")
         return None, [problem] if named else []
     return model, []

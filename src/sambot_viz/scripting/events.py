@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from sambot_viz.outlet import logger
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
 
 Moved = Callable[[Mapping[str, float]], object]
 """Takes joint → position [rad or m]."""
 
-_log = logging.getLogger("sambot_viz")
+_log = logger("sambot_viz")
 
 
 def tell_moves(session: Session, callback: Moved) -> None:

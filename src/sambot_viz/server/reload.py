@@ -9,7 +9,6 @@ shown by its problem alone, and drawn as soon as it is fixed.
 
 from __future__ import annotations
 
-import logging
 import os.path
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -17,6 +16,7 @@ from pathlib import Path
 from sambot_viz.displays.display import robot_displays
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
+from sambot_viz.outlet import logger
 from sambot_viz.robot.model import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.nodes import Plain
@@ -27,7 +27,7 @@ from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 class Reloader:

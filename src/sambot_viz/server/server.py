@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import atexit
-import logging
 import threading
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
@@ -13,6 +12,7 @@ import viser
 
 from sambot_viz.joints.presets import Presets
 from sambot_viz.options import Options
+from sambot_viz.outlet import logger
 from sambot_viz.panels.files import Files
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.server.client_sessions import ClientSessions
@@ -23,7 +23,7 @@ from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 _LAST_ROUNDS = 1.0
 """The event loop gets this long to finish when the server stops [s]."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Sequence
 from typing import cast
 
@@ -13,6 +12,7 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
+from sambot_viz.outlet import logger
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import reload_problems
@@ -26,7 +26,7 @@ from sambot_viz.session.worker import Worker
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 MakeConfig = Callable[[], RvizConfig]
 

@@ -11,7 +11,6 @@ count is asked only after it may have changed, so that a look costs what it look
 
 from __future__ import annotations
 
-import logging
 import os.path
 import threading
 import time
@@ -22,6 +21,7 @@ from pathlib import Path
 from watchfiles import Change, watch
 
 from sambot_viz.files import Stamp, stamp
+from sambot_viz.outlet import logger
 
 QUIET = 30
 """Changes are looked at when nothing more has come for this long [ms] …"""
@@ -42,7 +42,7 @@ _TOLD_LATE = 2_000_000_000
 """That a file counts is told at most this long [ns] after it was read: it is drawn
 first."""
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 _Changes = set[tuple[Change, str]]
 OnChange = Callable[[frozenset[Path], frozenset[Path]], None]

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import asyncio
 import heapq
-import logging
 import threading
 import time
 from collections import deque
@@ -24,6 +23,8 @@ from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from functools import partial
 from typing import Any, Protocol
+
+from sambot_viz.outlet import logger
 
 Action = Callable[[], object]
 OnError = Callable[[Exception, int | None], None]
@@ -277,4 +278,4 @@ class WallClock:
 
 def log_error(error: Exception) -> None:
     """Log an unexpected exception, with its traceback."""
-    logging.getLogger("sambot_viz").error("internal error: %s", error, exc_info=error)
+    logger("sambot_viz").error("internal error: %s", error, exc_info=error)

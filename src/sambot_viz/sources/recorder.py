@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import os
 import shlex
 import threading
@@ -13,13 +12,14 @@ from typing import BinaryIO
 
 from sambot_viz.errors import UsageError
 from sambot_viz.files import reason_of
+from sambot_viz.outlet import logger
 from sambot_viz.sources.recording_thread import RecordingStatus, RecordingThread
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
 _MOST_NAMES = 100
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 class SourceRecorder:

@@ -6,7 +6,6 @@ that is too slow costs messages of the file, and nothing else.
 
 from __future__ import annotations
 
-import logging
 import os
 import threading
 import time
@@ -18,6 +17,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from sambot_viz.files import reason_of
+from sambot_viz.outlet import logger
 from sambot_viz.sources.bag.compression import BrokenPieceError
 from sambot_viz.sources.cut_recording import finish_cut
 from sambot_viz.sources.mcap_file import McapFile
@@ -38,7 +38,7 @@ _FIRST_WITHIN = 1.0
 LONGEST_STOP = 10.0
 """`stop` waits this long for the disk [s]."""
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 @dataclass(frozen=True, slots=True)

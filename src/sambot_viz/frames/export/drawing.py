@@ -6,7 +6,6 @@ out: joint name and type, xyz and rpy.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypedDict
@@ -14,7 +13,7 @@ from typing import TypedDict
 from sambot_viz.frames.frame_tree import FrameTree, Hop
 from sambot_viz.frames.robot_frames import joint_between
 from sambot_viz.robot.model import Robot
-from sambot_viz.text import text
+from sambot_viz.text import json_text, text
 
 NO_DATA = "No tf data received"
 """The drawing of view_frames without frames."""
@@ -191,4 +190,4 @@ def _quoted(value: str) -> str:
 
 def tree_json_text(tree: FrameTree, robot: Robot | None = None) -> str:
     """`tree_json` as text, readable, with a line break at the end."""
-    return json.dumps(tree_json(tree, robot), indent=2, ensure_ascii=False) + "\n"
+    return json_text(tree_json(tree, robot), ascii_only=False) + "\n"

@@ -18,7 +18,6 @@ sent is disconnected.
 from __future__ import annotations
 
 import asyncio
-import logging
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -28,6 +27,7 @@ import viser
 from websockets.protocol import State
 
 from sambot_viz import viser_private
+from sambot_viz.outlet import logger
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
@@ -50,7 +50,7 @@ LOG_PERIOD = 10.0
 _LARGEST_INT = 2**53
 """Integers beyond this one are not exact in a browser."""
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 class ClientHandler(Protocol):

@@ -7,12 +7,12 @@ dropped here: the oldest messages of the same topic, and they are counted.
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage
 
@@ -25,7 +25,7 @@ MOST_KEPT = 1000
 LONGEST_STOP = 5.0
 """`stop` waits this long for the callback that is running [s]."""
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 @dataclass(slots=True)

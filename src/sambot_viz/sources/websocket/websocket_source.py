@@ -7,7 +7,6 @@ without pause; it never calls anybody back. The second (`Delivery`) calls all ca
 from __future__ import annotations
 
 import asyncio
-import logging
 import random
 import threading
 from collections.abc import Callable, Mapping, Sequence
@@ -20,6 +19,7 @@ from typing import Any
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, SourceStatus, SourceTopic
 from sambot_viz.sources.websocket.address import Address
@@ -44,7 +44,7 @@ LONGEST_STOP = 5.0
 _TOPICS_PAUSE = 0.05
 """Topics that are advertised one by one are told together [s]."""
 
-_log = logging.getLogger(__name__)
+_log = logger(__name__)
 
 
 class WebsocketSource:

@@ -1,0 +1,234 @@
+"""The one outlet to the terminal and the log: nothing else writes there.
+
+What comes from a file or from the network may hold escape codes that a terminal obeys,
+or line breaks that make one line look like two; so may names of files. Each line passes
+`text.line`, and gets its colors after that. What others write (argparse, viser,
+logging, warnings, tracebacks) is cleaned in the process of a command, see `guarded`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import sys
+import traceback
+from collections.abc import Generator, Sequence
+from typing import Any, Literal, NamedTuple, TextIO, TypeAlias, cast
+
+from sambot_viz.text import json_text, line, lines, xml_text
+
+Style = Literal["error", "warning", "info", "bold", "dim"]
+
+_CODES: dict[Style, str] = {
+    "error": "\033[1;31m",
+    "warning": "\033[1;33m",
+    "info": "\033[1;36m",
+    "bold": "\033[1m",
+    "dim": "\033[2m",
+}
+_END = "\033[0m"
+
+
+class Painted(NamedTuple):
+    """A part of a line that is written in a color, on a terminal that has colors."""
+
+    words: str
+    style: Style
+
+
+Line: TypeAlias = "str | Sequence[str | Painted]"
+"""What stands in one line; a line break in it is written as a blank."""
+
+
+def write_err(*written: Line) -> None:
+    """Write lines to standard error."""
+    _write(sys.stderr, *written)
+
+
+def write_out(*written: Line) -> None:
+    """Write lines to standard output."""
+    _write(sys.stdout, *written)
+
+
+def write_json(value: Any) -> None:
+    """Write a value as JSON to standard output; what is invisible is escaped."""
+    _write_raw(sys.stdout, f"{json_text(value)}\n")
+
+
+def write_xml(document: str) -> None:
+    """Write an XML document to standard output; see `text.xml_text`."""
+    _write_raw(sys.stdout, xml_text(document))
+
+
+def write_lines(document: str) -> None:
+    """Write a text whose line breaks are its own to standard output."""
+    _write_raw(sys.stdout, lines(document))
+
+
+def write_code(url: str) -> None:
+    """Draw an address for the camera of a phone, where standard error is a terminal."""
+    stream = _own(sys.stderr)
+    if stream is not None and stream.isatty():
+        import segno
+
+        segno.make(url, error="l").terminal(stream, compact=True, border=2)
+
+
+@contextlib.contextmanager
+def guarded() -> Generator[None]:
+    """Let everything that this process writes pass the outlet.
+
+    For the process of a command; its readers may leave before the end (`2>&1 | head`).
+    """
+    out, err, last = sys.stdout, sys.stderr, logging.lastResort
+    sys.stdout = cast(TextIO, _Guard(out))
+    sys.stderr = cast(TextIO, _Guard(err, may_leave=True))
+    take_log()
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr, logging.lastResort = out, err, last
+
+
+def take_log() -> None:
+    """Write the log of a program that has not said where to, here and not raw."""
+    logging.lastResort = _Log(logging.WARNING)
+
+
+def logger(name: str) -> logging.Logger:
+    """Return the logger of a module, whose records are clean for any handler."""
+    made = logging.getLogger(name)
+    made.addFilter(_clean_record)  # it is added only once
+    return made
+
+
+def drop_output() -> None:
+    """Write standard output to nowhere from now on: nothing reads it any longer."""
+    if (stream := _own(sys.stdout)) is not None:
+        _write_to_nowhere(stream)
+
+
+class _Guard:
+    """Stands for a stream of the process; what is written to it is cleaned.
+
+    Args:
+        stream: Python has none when the program was started with it closed.
+        may_leave: whether what nothing reads is dropped, in place of BrokenPipeError.
+    """
+
+    def __init__(self, stream: TextIO | None, may_leave: bool = False) -> None:
+        self.stream = stream or open(os.devnull, "w", encoding="utf-8")
+        self._may_leave = may_leave
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.stream, name)
+
+    def isatty(self) -> bool:
+        """Say no: escape codes of others would be written as signs."""
+        return False
+
+    def write(self, words: str) -> int:
+        """Write lines of others."""
+        self.write_raw(lines(words))
+        return len(words)
+
+    def writelines(self, several: Sequence[str]) -> None:
+        """Write lines of others."""
+        for each in several:
+            self.write(each)
+
+    def write_raw(self, words: str) -> None:
+        """Write what is clean, as well as the encoding of the stream can."""
+        try:
+            _write_encoded(self.stream, words)
+        except BrokenPipeError:
+            if not self._may_leave:
+                raise
+            _write_to_nowhere(self.stream)
+
+    def flush(self) -> None:
+        """Write out what is buffered."""
+        try:
+            self.stream.flush()
+        except BrokenPipeError:
+            if not self._may_leave:
+                raise
+            _write_to_nowhere(self.stream)
+
+
+class _Log(logging.Handler):
+    """Writes records to standard error: a line, and the traceback behind a margin."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a record."""
+        try:
+            written = [record.getMessage()]
+            if record.exc_info and record.exc_info[0] is not None:
+                written += _traceback(*record.exc_info)
+            write_err(*written)
+        except Exception:
+            self.handleError(record)
+
+
+def write_traceback(error: BaseException) -> None:
+    """Write where an error was raised to standard error."""
+    write_err(*_traceback(type(error), error, error.__traceback__))
+
+
+def _traceback(*raised: Any) -> list[str]:
+    """Return the lines of a traceback, such that none can be taken for one of ours."""
+    written = "".join(traceback.format_exception(*raised)).rstrip("\n").split("\n")
+    return [f"  {each}" for each in written]
+
+
+def _clean_record(record: logging.LogRecord) -> bool:
+    record.msg, record.args = line(record.getMessage()), None
+    return True
+
+
+def _write(stream: TextIO | None, *written: Line) -> None:
+    own = _own(stream)
+    colors = own is not None and own.isatty() and "NO_COLOR" not in os.environ
+    _write_raw(stream, "".join(f"{_words(each, colors)}\n" for each in written))
+
+
+def _words(written: Line, colors: bool) -> str:
+    parts = (written,) if isinstance(written, str) else written
+    return "".join(_part(part, colors) for part in parts)
+
+
+def _part(part: str | Painted, colors: bool) -> str:
+    if isinstance(part, str):
+        return line(part)
+    words = line(part.words)
+    return f"{_CODES[part.style]}{words}{_END}" if colors else words
+
+
+def _write_raw(stream: TextIO | None, words: str) -> None:
+    if isinstance(stream, _Guard):
+        stream.write_raw(words)
+    elif stream is not None:
+        _write_encoded(stream, words)
+    else:
+        return
+    stream.flush()
+
+
+def _write_encoded(stream: TextIO, words: str) -> None:
+    try:
+        stream.write(words)
+    except UnicodeEncodeError:
+        encoding = stream.encoding or "ascii"
+        stream.write(words.encode(encoding, "replace").decode(encoding))
+
+
+def _own(stream: TextIO | None) -> TextIO | None:
+    """Return the stream itself, which knows whether it is a terminal."""
+    return stream.stream if isinstance(stream, _Guard) else stream
+
+
+def _write_to_nowhere(stream: TextIO) -> None:
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, stream.fileno())
+    os.close(nowhere)
