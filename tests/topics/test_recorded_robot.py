@@ -233,6 +233,24 @@ def test_what_a_description_has_of_xacro_reads_no_file(
     assert list(robot.links) == ["odom"]
 
 
+def test_a_description_without_xacro_is_not_given_to_it(
+    write_recording: Callable[..., Path],
+) -> None:
+    """Otherwise a name could stop the robot: for other subscribers it is a text."""
+    names = ("${XSS(1)}", "$(find nothing)", "$${a}", "${1/0}")
+    links = "".join(f'<link name="{name}"/>' for name in names)
+    joints = "".join(
+        f'<joint name="j{name}" type="fixed"><parent link="{names[0]}"/>'
+        f'<child link="{name}"/></joint>'
+        for name in names[1:]
+    )
+    text = f'<robot name="${{r}}">{links}{joints}</robot>'
+    path = write_recording([(0.0, {"odom": names[0]})], text)
+    with Inputs(Options(path)) as inputs:
+        assert tuple(inputs.robot().links) == names
+        assert [p for p in inputs.problems() if p.severity == "error"] == []
+
+
 @pytest.mark.parametrize("uri", ["square.mcap", "file:square.mcap", "bga:square.mcap"])
 def test_a_source_that_is_none_is_refused_with_the_right_form(uri: str) -> None:
     with pytest.raises(UsageError, match="bag:PATH"):

@@ -109,7 +109,10 @@ class _Loader:
         if undeclared is not None:
             # urdfdom does not look at prefixes: for ROS this is plain URDF.
             return self._without_xacro(document, problems, undeclared)
-        xacro = own or first_substitution(document)
+        xacro = own
+        if not self.opened.source.is_published:
+            # In what came over a topic "${…}" is text, as for other subscribers.
+            xacro = own or first_substitution(document)
         if xacro is None:
             problems += missing_prefixes(document)
             return self._robot(document, None, problems)

@@ -28,12 +28,14 @@ class ModelSource:
         text: the content.
         path: the file, or None for text.
         problems: what is unusual about the file itself.
+        is_published: it came over a topic, where robot_state_publisher's is expanded.
     """
 
     label: str
     text: str
     path: Path | None
     problems: tuple[Problem, ...] = ()
+    is_published: bool = False
 
     @property
     def folder(self) -> Path | None:
@@ -70,7 +72,7 @@ def open_model(model: PathLike) -> OpenedModel:
 
 
 def open_text(text: str, label: str) -> OpenedModel:
-    """Read a text that others have sent as XML; it is never the name of a file.
+    """Read the text of a topic as XML; it is never the name of a file.
 
     Args:
         text: the model.
@@ -79,7 +81,8 @@ def open_text(text: str, label: str) -> OpenedModel:
     Raises:
         RobotError: it is not well-formed.
     """
-    return _parsed(replace(_with_good_prolog(TEXT_LABEL, text, None), label=label))
+    source = _with_good_prolog(TEXT_LABEL, text, None)
+    return _parsed(replace(source, label=label, is_published=True))
 
 
 def _parsed(source: ModelSource) -> OpenedModel:

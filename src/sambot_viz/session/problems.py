@@ -168,10 +168,12 @@ class Problems:
         return " ".join(notes)
 
     def _what_is_wrong(self) -> str:
-        """Say what became of the model's file."""
+        """Say what became of the model's file, or what a live robot sent."""
         for fault in self.of_saves.get("model", ()):
             if fault.code == "model-not-found" and fault.file is not None:
                 return f"{Path(fault.file).name} is gone"
+            if fault.file is not None and "://" in fault.file:
+                return "the new description has an error"
         return "the saved file has an error"
 
     def _has_error(self, of: Reloaded) -> bool:
