@@ -140,7 +140,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     # What programs and people start it with.
     "scripting": Row(
-        "displays export frames joints robot rviz server session views", "numpy viser"
+        "displays export frames joints options robot rviz server session views",
+        "numpy viser",
     ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints listened "

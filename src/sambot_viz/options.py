@@ -9,7 +9,6 @@ is used.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
@@ -44,6 +43,8 @@ if TYPE_CHECKING:
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
+LATEST = 1e9
+"""No recording is longer, about thirty years; nanoseconds fit in 64 bits [s]."""
 
 
 def _is_live(uri: str) -> bool:
@@ -355,7 +356,13 @@ class Options:
                 f"'{model}' is the address of a robot, not a model: write --source "
                 f"{model}"
             )
-        if self.at is not None and not (source and math.isfinite(self.at)):
+        # A comparison that is also false for NaN.
+        if self.at is not None and not abs(self.at) <= LATEST:
+            raise UsageError(
+                f"--at {self.at:g} is not a time of a recording: give the seconds from "
+                "its first message, such as 2.5"
+            )
+        if self.at is not None and not source:
             raise UsageError(
                 f"--at {self.at:g} needs a recording: give its file, or --source "
                 "bag:FILE"

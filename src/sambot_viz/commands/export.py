@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from sambot_viz.commands.command_line import (
     Parser,
     output_path,
@@ -17,19 +19,23 @@ def run(words: list[str]) -> int:
     """Write a page of a model; 0 when the file is written."""
     given, options = parse(parser(), words, panels=False, watch=False)
     output = output_path(given.output, "a page", ".html", ".htm")
-    inputs = Inputs(options, listen=given.listen)
-    write_problems(inputs.problems(), model=options.model)
-    start_state(inputs.robot(), options)
+    with Inputs(options, listen=given.listen) as inputs:
+        write_problems(inputs.problems(), model=options.model)
+        start_state(inputs.robot(), options)
+        _export(inputs, output, given.motion == "sweep")
+    return 0
 
+
+def _export(inputs: Inputs, output: Path, sweep: bool) -> None:
+    """Write what a page would show."""
     from sambot_viz.visualizer import Visualizer
 
     with Visualizer.of_inputs(inputs) as viz:
         write_problems(viz.server.sessions.all()[0].document.config.problems)
         try:
-            viz.export(output, sweep=given.motion == "sweep")
+            viz.export(output, sweep=sweep)
         except OSError as error:
             raise UsageError(f"cannot write '{output}': {error.strerror}") from error
-    return 0
 
 
 def parser() -> Parser:

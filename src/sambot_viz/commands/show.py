@@ -72,7 +72,15 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     report = _Reports()
     given, options = parse(parser(), words, on_reload=report, notes=notes)
     report.model = options.model
-    inputs = Inputs(options, may_be_broken=options.watch)
+    with Inputs(options, may_be_broken=options.watch) as inputs:
+        _serve(inputs, report, given.open)
+    _report_recording(inputs)
+    return 0
+
+
+def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
+    """Show the page until Ctrl-C; with `open_it` in this machine's browser."""
+    options = inputs.options
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
     from sambot_viz.server.listener import listen, public_url, reachable_at
@@ -80,16 +88,16 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
 
     stop = threading.Event()
     _stop_on_signals(stop, inputs)
-    listener = listen(inputs.options)
+    listener = listen(options)
     try:
         _refuse_early(inputs)
         presented, link = options.presenter is not None, listener.url
         if presented:
             # The wrong link in a chat would give the class thirty presenters.
             _announce(link(), False, "viewers:   ")
-            _announce(link(presenter=True), given.open, "presenter: ")
+            _announce(link(presenter=True), open_it, "presenter: ")
         else:
-            _announce(link(), given.open)
+            _announce(link(), open_it)
         # What others can open: behind a proxy not the address that is listened on.
         public = public_url(options)
         if public is not None:
@@ -111,8 +119,6 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
         listener.close()
-    _report_recording(inputs)
-    return 0
 
 
 def parser() -> Parser:

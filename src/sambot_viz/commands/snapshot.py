@@ -34,14 +34,21 @@ def run(words: list[str]) -> int:
     given, options = parse(parser(), words, panels=False)
     width, height = _size(given.size)
     output = output_path(given.output, "PNG files", ".png")
-    inputs = Inputs(options, listen=given.listen)
-    write_problems(inputs.problems(), model=options.model)
-    start_state(inputs.robot(), options)
+    with Inputs(options, listen=given.listen) as inputs:
+        write_problems(inputs.problems(), model=options.model)
+        start_state(inputs.robot(), options)
+        picture = _picture(inputs, (width, height), given.fit)
+    _write(output, picture)
+    return 0
 
+
+def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
+    """Draw what a page would show."""
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import LONGEST_WAIT, snapshot
     from sambot_viz.visualizer import Visualizer
 
+    options, (width, height) = inputs.options, size
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions.all()[0]
         if inputs.recorded is not None:
@@ -53,12 +60,10 @@ def run(words: list[str]) -> int:
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.document_view.camera
-            if given.fit or session.document.config.fits_robot:
+            if fit or session.document.config.fits_robot:
                 viz.server.sessions.wait_for_meshes(LONGEST_WAIT)
                 camera = session.document_view.camera_on_robot(width, height)
-            picture = snapshot(viz.server, chromium, width, height, camera)
-    _write(output, picture)
-    return 0
+            return snapshot(viz.server, chromium, width, height, camera)
 
 
 def parser() -> Parser:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 from sambot_viz.errors import UsageError
+from sambot_viz.options import LATEST
 from sambot_viz.scripting.displays import first, for_all
 from sambot_viz.server.sessions import Sessions
 from sambot_viz.session import Session
@@ -68,10 +68,10 @@ class PlayerControl:
         """Show a time, or the nearest one that there is; it plays on if it has played.
 
         Raises:
-            UsageError: no finite number.
+            UsageError: no number of seconds that a recording could have.
         """
-        if not math.isfinite(seconds):
-            raise UsageError(f"a time is a finite number, not {seconds!r}")
+        if not abs(seconds) <= LATEST:
+            raise UsageError(f"a time is a number of seconds, not {seconds!r}")
         self._for_all(lambda p: p.jump(p.start_ns + round(seconds * 1e9)))
 
     def _first(self) -> Player:
