@@ -207,6 +207,42 @@ def test_joints_do_not_end_a_program_that_waits_for_its_robot(
     assert (process.returncode, err) == (0, "")
 
 
+@pytest.mark.parametrize(
+    ("flags", "said"),
+    [
+        (("--record", "there"), "is there already"),
+        (("--record", "dangling"), "is there already"),
+        (("--record", "folder"), "is there already"),
+        (("--record", "no/a.mcap"), "there is no folder no"),
+        (("--record", "there/a.mcap"), "is not a folder"),
+        (("--record", f"{300 * 'a'}.mcap"), "cannot be written"),
+        (("--record", "/proc/a.mcap"), "the folder /proc takes no file"),
+        (("--record-dir", "/proc"), "the folder /proc takes no file"),
+        (("--record-dir", "there"), "is not a folder"),
+        (("--record-dir", "no"), "there is no folder no"),
+    ],
+)
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs Linux's /proc")
+def test_where_nothing_can_be_recorded_is_said_before_there_is_a_page(
+    flags: tuple[str, str],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("there").write_text("kept")
+    Path("folder").mkdir()
+    Path("dangling").symlink_to("nowhere")
+    before = sorted(tmp_path.iterdir())
+    source = f"foxglove://127.0.0.1:{free_port()}"
+    assert main(["--source", source, "--port", "0", *flags]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert said in err
+    assert sorted(tmp_path.iterdir()) == before
+
+
 def test_a_recording_of_the_command_line_says_what_it_has(
     peer: FoxglovePeer, tmp_path: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import tempfile
 import threading
 from collections.abc import Callable
 from datetime import datetime
@@ -118,18 +119,21 @@ def check_file(path: Path) -> None:
     """Refuse a file that a recording cannot become, before there is a robot.
 
     Raises:
-        UsageError: the file is there already, or there is no folder for it.
+        UsageError: the file is there already, or cannot be made.
     """
     if os.path.lexists(path):
         raise UsageError(_exists(path))
     check_folder(path.parent)
+    # Some folders take files and not this name.
+    _created(path)[1].close()
+    path.unlink()
 
 
 def check_folder(folder: Path) -> None:
     """Refuse a folder in which no recording can be made.
 
     Raises:
-        UsageError: it is not a folder, or may not be written.
+        UsageError: it is not a folder, or takes no file.
     """
     if not folder.is_dir():
         name = text(str(folder))
@@ -137,8 +141,14 @@ def check_folder(folder: Path) -> None:
             made = shlex.quote(name)
             raise UsageError(f"there is no folder {name}: make it with mkdir -p {made}")
         raise UsageError(f"{name} is not a folder for recordings")
-    if not os.access(folder, os.W_OK):
-        raise UsageError(f"the folder {text(str(folder))} may not be written to")
+    try:
+        # Permissions do not say it all: /proc takes no file of anybody.
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise UsageError(
+            f"the folder {text(str(folder))} takes no file ({reason_of(error)}); give "
+            "another one"
+        ) from error
 
 
 def _named(folder: Path | None) -> tuple[Path, BinaryIO]:
