@@ -8,12 +8,12 @@ client, such as its camera and its selection, is not a matter of roles.
 from __future__ import annotations
 
 import itertools
-import unicodedata
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
+from sambot_viz.session.people.looks_alike import same_form
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.text import text
 
@@ -89,11 +89,11 @@ class Roles:
         person = Participant(number, presenter, name, has_control)
         self._people[client_id] = person
         if login:
-            # One that looks like a presenter's is not taken.
-            with suppress(UsageError):
-                login = text(login, _LONGEST_LOGIN)
-                self._name(client_id, self._free_name(login, client_id))
-                person.known = not presenter
+            if not presenter and _is_presenters(login):
+                login = f"User {login}"
+            login = text(login, _LONGEST_LOGIN)
+            self._name(client_id, self._free_name(login, client_id))
+            person.known = not presenter
         self.changed.touch()
 
     def leave(self, client_id: int) -> None:
@@ -157,7 +157,7 @@ class Roles:
         if len(name) > LONGEST_NAME:
             raise UsageError(f"a name has at most {LONGEST_NAME} characters")
         name = " ".join(name.split())
-        if not person.presenter and _same_form(name).startswith("presenter"):
+        if not person.presenter and _is_presenters(name):
             raise UsageError("names that begin with 'Presenter' are the presenter's")
         if name and self._is_taken(name, client_id):
             raise UsageError(f"someone here is called '{name}' already")
@@ -170,7 +170,7 @@ class Roles:
         own = person.number if person is not None and person.presenter else None
         others = [p.name for id, p in self._people.items() if id != client_id]
         others += [kept for number, kept in self._presenters.items() if number != own]
-        return _same_form(name) in map(_same_form, others)
+        return same_form(name) in map(same_form, others)
 
     def _free_name(self, name: str, client_id: int) -> str:
         """Return a name that nobody else has: "Ada", or "Ada 2"."""
@@ -254,8 +254,6 @@ class Roles:
             raise UsageError("only the presenter can do this")
 
 
-def _same_form(name: str) -> str:
-    """Return what two names have in common that look alike."""
-    form = unicodedata.normalize("NFKC", name).casefold()
-    # What is not seen does not make another name.
-    return " ".join("".join(c for c in form if c.isprintable()).split())
+def _is_presenters(name: str) -> bool:
+    """Whether a name could be taken for that of a presenter."""
+    return same_form(name).startswith("presenter")
