@@ -14,7 +14,7 @@ from urllib.request import urlopen
 
 import pytest
 from patience import patience
-from program import address, running
+from program import address, running, serving
 
 from sambot_viz import Visualizer, load_robot
 from sambot_viz.cli import main
@@ -107,23 +107,23 @@ def test_a_model_whose_name_is_nearly_a_command_is_a_model(
     tmp_path: Path,
 ) -> None:
     (tmp_path / "exports").write_text('<robot name="r"><link name="a"/></robot>')
-    with running("exports", "--port", "0", cwd=tmp_path) as process:
-        assert address(process).startswith("http://")
+    with serving("exports", "--port", "0", cwd=tmp_path) as program:
+        assert address(program).startswith("http://")
 
 
 def test_the_secrets_may_come_from_variables(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SAMBOT_VIZ_TOKEN", "of-the-environment")
-    with running("--port", "0", cwd=tmp_path) as process:
-        assert address(process).endswith("/?token=of-the-environment")
-    with running("--port", "0", "--token=of-the-line", cwd=tmp_path) as process:
-        assert address(process).endswith("/?token=of-the-line")
+    with serving("--port", "0", cwd=tmp_path) as program:
+        assert address(program).endswith("/?token=of-the-environment")
+    with serving("--port", "0", "--token=of-the-line", cwd=tmp_path) as program:
+        assert address(program).endswith("/?token=of-the-line")
     monkeypatch.setenv("SAMBOT_VIZ_PRESENTER", "of-the-teacher")
     for flags in ((), ("--presenter", "--token")):
-        with running("--port", "0", *flags, cwd=tmp_path) as process:
-            assert address(process).endswith("/?view=of-the-environment")
-            assert address(process).endswith("/?present=of-the-teacher")
+        with serving("--port", "0", *flags, cwd=tmp_path) as program:
+            assert address(program).endswith("/?view=of-the-environment")
+            assert address(program).endswith("/?present=of-the-teacher")
 
 
 def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
@@ -356,8 +356,8 @@ def test_poses_that_a_browser_saves_are_kept_beside_the_model(tmp_path: Path) ->
         '<joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>'
         "</robot>"
     )
-    with running(str(model), "--port", "0", cwd=tmp_path) as process:
-        client = ProtocolClient(int(address(process).rsplit(":", 1)[1]))
+    with serving(str(model), "--port", "0", cwd=tmp_path) as program:
+        client = ProtocolClient(int(address(program).rsplit(":", 1)[1]))
         # Before it has joined, its own rows are not there, and its edits do nothing.
         client.wait_until(lambda: {"poses/save", "role/me"} <= client.rows.keys())
         client.act("poses/save", "half")

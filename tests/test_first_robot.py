@@ -11,7 +11,7 @@ import first_robot
 import pytest
 from command_line_page import parser_of
 from first_robot import PAGE, Trial, Walk, agrees, changed, said_in, write_files
-from program import address, running
+from program import address, serving
 
 from sambot_viz import load_robot
 from sambot_viz.cli import COMMANDS
@@ -55,8 +55,8 @@ def test_each_command_of_the_tutorial_says_what_the_page_quotes(
 def _open(trial: Trial, folder: Path) -> None:
     """Open the page as a reader does, at a free port."""
     words = shlex.split(trial.commands[0])[1:]
-    with running(*words, "--port", "0", cwd=folder) as process:
-        with urllib.request.urlopen(address(process)) as page:
+    with serving(*words, "--port", "0", cwd=folder) as program:
+        with urllib.request.urlopen(address(program)) as page:
             assert page.status == 200
 
 

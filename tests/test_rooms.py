@@ -250,7 +250,7 @@ def _imports(node: ast.AST, typing: bool) -> Iterator[Import]:
         word = node.args[0]
         if isinstance(word, ast.Constant):
             yield Import(str(word.value), typing)
-    if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+    if isinstance(node, ast.If) and _last_name(node.test) == "TYPE_CHECKING":
         for child in node.body:
             yield from _imports(child, True)
         for child in node.orelse:
@@ -261,9 +261,13 @@ def _imports(node: ast.AST, typing: bool) -> Iterator[Import]:
 
 
 def _called(call: ast.Call) -> str:
-    if isinstance(call.func, ast.Attribute):
-        return call.func.attr
-    return call.func.id if isinstance(call.func, ast.Name) else ""
+    return _last_name(call.func)
+
+
+def _last_name(node: ast.expr) -> str:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def concurrency(path: Path) -> set[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import signal
 import threading
 from collections.abc import Callable, Iterator
 from itertools import count
@@ -13,7 +12,7 @@ from pathlib import Path
 import pytest
 from live_peers import WAIT, FoxglovePeer, free_port
 from patience import patience, until
-from program import address, running
+from program import address, serving
 from protocol_client import ProtocolClient
 from robot_peer import BusyPeer, square_peer
 
@@ -199,12 +198,10 @@ def test_joints_do_not_end_a_program_that_waits_for_its_robot(
     peer: FoxglovePeer, tmp_path: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:
     words = ("--source", peer.uri, "--joint", "lead=1", "--port", "0")
-    with running(*words, cwd=tmp_path) as process:
-        page = protocol(int(address(process).rsplit(":", 1)[1]))
+    with serving(*words, cwd=tmp_path) as program:
+        page = protocol(int(address(program).rsplit(":", 1)[1]))
         page.wait_until(lambda: "joints/none" in page.rows)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=patience(20))
-    assert (process.returncode, err) == (0, "")
+        assert program.end() == (0, "", "")
 
 
 @pytest.mark.parametrize(
@@ -250,12 +247,11 @@ def test_a_recording_of_the_command_line_says_what_it_has(
     peer.publish("/chatter", "one")
     path = tmp_path / "one.mcap"
     words = ("--source", peer.uri, "--record", str(path), "--port", "0")
-    with running(*words, cwd=tmp_path) as process:
-        page = protocol(int(address(process).rsplit(":", 1)[1]))
+    with serving(*words, cwd=tmp_path) as program:
+        page = protocol(int(address(program).rsplit(":", 1)[1]))
         # What is loaded by then can be ended, too.
         page.wait_until(lambda: "joints/none" in page.rows)
         until(lambda: path.exists() and path.stat().st_size > 200, WAIT)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=patience(20))
+        _, _, err = program.end()
     (said,) = err.splitlines()
     assert f"recorded {path}: 1 messages in " in said

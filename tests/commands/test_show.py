@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import signal
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from program import address, running
+from program import Serving, address, serving
 from protocol_client import ProtocolClient
 
 ARM = """<robot name="arm">
@@ -23,11 +21,10 @@ RVIZ = "Visualization Manager:\n  Displays: []\n"
 BROKEN_RVIZ = "Panels:\n  - Class: a\n Name: b\n"
 
 
-def read_until(process: subprocess.Popen[str], text: str) -> str:
+def read_until(program: Serving, text: str) -> str:
     """What standard error says up to a line with a text."""
-    assert process.stderr is not None
     said = ""
-    for line in process.stderr:
+    for line in program.stderr:
         said += line
         if text in line:
             return said
@@ -50,19 +47,18 @@ def test_a_broken_model_is_served_and_its_robot_comes_when_it_is_fixed(
 ) -> None:
     model = tmp_path / "arm.urdf"
     model.write_text(broken)
-    with running("arm.urdf", "--port", "0", cwd=tmp_path) as process:
-        client = protocol(int(address(process).rsplit(":", 1)[1]))
-        said = read_until(process, "the page is open")
+    with serving("arm.urdf", "--port", "0", cwd=tmp_path) as program:
+        client = protocol(int(address(program).rsplit(":", 1)[1]))
+        said = read_until(program, "the page is open")
         assert said.startswith("arm.urdf:") and f"error[{code}]" in said
         client.wait_until(lambda: message in str(client.messages))
         assert client.types()["BoxMessage"] == 0
 
         model.write_text(ARM)
 
-        assert read_until(process, "fixed") == "sambot-viz: all problems are fixed\n"
+        assert read_until(program, "fixed") == "sambot-viz: all problems are fixed\n"
         client.wait_until(lambda: client.types()["BoxMessage"] == 1)
-        process.send_signal(signal.SIGINT)
-        assert process.wait(timeout=10) == 0
+        assert program.end()[0] == 0
 
 
 def test_a_broken_config_is_served_with_the_default_displays_until_it_is_fixed(
@@ -72,12 +68,12 @@ def test_a_broken_config_is_served_with_the_default_displays_until_it_is_fixed(
     config = tmp_path / "own.rviz"
     config.write_text(BROKEN_RVIZ)
     words = ("arm.urdf", "-d", "own.rviz", "--port", "0")
-    with running(*words, cwd=tmp_path) as process:
-        assert address(process).startswith("http://")
-        said = read_until(process, "the page is open")
+    with serving(*words, cwd=tmp_path) as program:
+        assert address(program).startswith("http://")
+        said = read_until(program, "the page is open")
         assert said.startswith("own.rviz:3:2: error[config-yaml]")
         config.write_text(RVIZ)
-        assert read_until(process, "fixed") == "sambot-viz: all problems are fixed\n"
+        assert read_until(program, "fixed") == "sambot-viz: all problems are fixed\n"
 
 
 def test_a_problem_that_stays_is_written_once(tmp_path: Path) -> None:
@@ -85,16 +81,16 @@ def test_a_problem_that_stays_is_written_once(tmp_path: Path) -> None:
     model.write_text(ARM)
     config.write_text(BROKEN_RVIZ)
     words = ("arm.urdf", "-d", "own.rviz", "--port", "0")
-    with running(*words, cwd=tmp_path) as process:
-        assert "error[config-yaml]" in read_until(process, "the page is open")
+    with serving(*words, cwd=tmp_path) as program:
+        assert "error[config-yaml]" in read_until(program, "the page is open")
         model.write_text(NOT_XML)
-        said = read_until(process, "error[xml-")
+        said = read_until(program, "error[xml-")
         model.write_text(ARM)
-        said += read_until(process, "fixed; what is left is listed above")
+        said += read_until(program, "fixed; what is left is listed above")
         assert "config-yaml" not in said
         # Another mistake in it is news.
         config.write_text(f"# mine\n{BROKEN_RVIZ}")
-        assert "own.rviz:4:2" in read_until(process, "error[config-yaml]")
+        assert "own.rviz:4:2" in read_until(program, "error[config-yaml]")
 
 
 @pytest.mark.parametrize(
@@ -124,22 +120,21 @@ def test_what_will_not_be_served_ends_with_1_and_without_an_address(
     (tmp_path / "arm.urdf").write_text(model)
     (tmp_path / "own.rviz").write_text(config)
     words = ["arm.urdf", "-d", "own.rviz", "--port", "0", *words]
-    with running(*words, cwd=tmp_path) as process:
-        out, err = process.communicate(timeout=30)
-        assert (process.returncode, out) == (1, "")
-        assert said in err
+    with serving(*words, cwd=tmp_path) as program:
+        code, out, err = program.end()
+    assert (code, out) == (1, "")
+    assert said in err
 
 
 def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
     tmp_path: Path, protocol: Callable[..., ProtocolClient]
 ) -> None:
     (tmp_path / "arm.urdf").write_text(ARM)
-    with running(
+    with serving(
         "--presenter", "arm.urdf", "--port", "0", "--no-watch", cwd=tmp_path
-    ) as process:
-        assert process.stdout is not None
+    ) as program:
         (whose, link), (secrets, secret) = (
-            process.stdout.readline().split() for _ in range(2)
+            program.stdout.readline().split() for _ in range(2)
         )
         assert (whose, secrets) == ("viewers:", "presenter:")
         page, _, query = secret.partition("/?present=")
@@ -156,11 +151,11 @@ def test_a_presenter_gets_a_second_link_and_the_model_stays_the_model(
 
 def test_a_presenters_secret_of_ones_own_is_written_in_one_word(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(ARM)
-    with running(
+    with serving(
         "--presenter=for-the-teacher", "arm.urdf", "--port", "0", cwd=tmp_path
-    ) as process:
-        assert address(process).startswith("http://127.0.0.1:")
-        assert address(process).endswith("/?present=for-the-teacher")
+    ) as program:
+        assert address(program).startswith("http://127.0.0.1:")
+        assert address(program).endswith("/?present=for-the-teacher")
 
 
 def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
@@ -169,10 +164,9 @@ def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
     (tmp_path / "arm.urdf").write_text(ARM)
     words = ["--token=for-the-class", "--presenter=for-the-teacher", "arm.urdf"]
     proxy = ["--allow-origin", "https://lab.example.org", "--base-path", "/robot"]
-    with running(*words, *proxy, "--port", "0", cwd=tmp_path) as process:
-        assert address(process).startswith("http://127.0.0.1:")
-        assert process.stderr is not None
-        lines = [process.stderr.readline().strip() for _ in range(2)]
+    with serving(*words, *proxy, "--port", "0", cwd=tmp_path) as program:
+        assert address(program).startswith("http://127.0.0.1:")
+        lines = [program.stderr.readline().strip() for _ in range(2)]
     page = "https://lab.example.org/robot/"
     assert lines == [
         f"sambot-viz: from other machines, viewers: {page}?view=for-the-class",
