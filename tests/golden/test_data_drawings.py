@@ -163,3 +163,24 @@ def test_points_of_a_depth_image_grow_with_their_depth(shared_page: SharedPage) 
     for channel, metres in ((0, 0.2), (1, 0.6)):
         pixels = (seen[..., channel] == 255).sum()
         assert np.sqrt(pixels) == pytest.approx(112 * metres, abs=1)
+
+
+def test_the_centre_of_mass_is_seen_through_the_robot(shared_page: SharedPage) -> None:
+    """Its ball is yellow and black, in the middle of an opaque box."""
+    from sambot_viz import bundled, load_config
+
+    config = load_config(bundled.config_path())
+    config.view.set("Distance", 1.0)
+    # Of the box and of the wheels together.
+    config.view.set("Focal Point", (-0.05 / 16.5, 0.0, -0.095 / 16.5))
+    for display in config.displays:
+        display.set_enabled(display.name == "RobotModel")
+        if display.name == "RobotModel":
+            display.set("Alpha", 1.0)
+            display.set("Mass Properties/Balance", True)
+    model = bundled.model_path("sam_bot_collision.urdf.xacro")
+    with shared_page.shows(model=model, config=config) as session:
+        seen = shared_page.picture(session, (480, 640))
+    middle = seen[240 - 8 : 240 + 8, 320 - 8 : 320 + 8]
+    for color in ((255, 210, 0), (0, 0, 0)):
+        assert (np.abs(middle - color).max(axis=-1) <= 1).mean() > 0.1
