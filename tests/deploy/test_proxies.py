@@ -9,7 +9,6 @@ import shutil
 import socket
 import ssl
 import subprocess
-import time
 from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ import pytest
 import viser
 from a_jupyter import wait_until
 from inside import session_of
+from patience import until
 from protocol_client import CAMERA
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
@@ -118,6 +118,17 @@ def with_ports(site: str, upstream: list[str]) -> str:
     return site
 
 
+def answers_or_ended(process: subprocess.Popen[str], port: int) -> bool:
+    """Return whether a program has ended, or takes connections.
+
+    Raises:
+        OSError: it does not take any yet.
+    """
+    if process.poll() is None:
+        socket.create_connection(("127.0.0.1", port), 0.2).close()
+    return True
+
+
 @contextlib.contextmanager
 def behind(
     command: Callable[[list[str]], list[str]],
@@ -140,12 +151,8 @@ def behind(
         upstream = [str(each.viser.get_port()) for each in (viz, second)]
         process = subprocess.Popen(command(upstream), stderr=subprocess.PIPE, text=True)
         try:
-            for _ in range(200):
-                with contextlib.suppress(OSError):
-                    socket.create_connection(("127.0.0.1", port), 0.2).close()
-                    break
-                assert process.poll() is None, process.communicate()[1]
-                time.sleep(0.05)
+            until(lambda: answers_or_ended(process, port), not_yet=OSError)
+            assert process.poll() is None, process.communicate()[1]
             yield Proxy(port, viz, trust, plain_port, second)
         finally:
             process.terminate()

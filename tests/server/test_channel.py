@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import secrets
 import threading
-import time
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import ExitStack
 from types import SimpleNamespace
@@ -175,7 +174,7 @@ def test_a_client_that_leaves_as_the_channel_comes_is_not_taken_for_the_next(
     async def answers(self: Connection, timeout: float) -> bool:
         # Its answer is the last that comes of it.
         self.transport.abort()
-        await asyncio.sleep(0.1)
+        await self.wait_closed()
         return True
 
     gone = pages.viser(viz, ticket)
@@ -232,11 +231,18 @@ def test_both_connections_of_a_page_have_one_limit(
     (client_id,) = viz.viser.get_clients()
     own: Any = viser_private.connection_of(viz.viser, client_id)
     until(lambda: own.rate._left <= -1)
-    start = time.monotonic()
+    pauses: list[float] = []
+    sleep = asyncio.sleep
+
+    async def pause(seconds: float) -> None:
+        pauses.append(seconds)
+        await sleep(0)
+
+    monkeypatch.setattr(asyncio, "sleep", pause)
     channel.send(PING)
     while channel.recv(timeout=10.0) != PONG:
         pass
-    assert time.monotonic() - start > 0.1
+    assert max(pauses, default=0.0) == pytest.approx(0.2)
 
 
 def test_a_slow_page_gets_the_newest_state_only() -> None:

@@ -1,0 +1,103 @@
+"""Tests wait on conditions and count: no sleep, and no clock of the computer.
+
+What takes 50 ms on one machine takes a second on another that is busy. A session has a
+clock that a test moves (`hand_clock`), `patience.until` waits for what must come, and
+`work.calls_of` counts what something costs.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+CLOCKS = {
+    "time": {
+        "sleep",
+        "time",
+        "time_ns",
+        "monotonic",
+        "monotonic_ns",
+        "perf_counter",
+        "perf_counter_ns",
+    },
+    "asyncio": {"sleep"},
+    "threading": {"Timer"},
+}
+"""Module → its names that sleep, or tell the time of the computer."""
+
+MAY = {
+    "support/patience.py": "waits for all tests",
+    "support/protocol_client.py": "waits with a deadline, and notes when frames came",
+    "support/a_jupyter.py": "waits for another program",
+    "support/browser_input.py": "moves a mouse as fast as a hand does",
+    "support/crowd.py": "measures, for benchmarks",
+    "support/data_loads.py": "measures, for benchmarks",
+    "support/steps.py": "measures, for benchmarks",
+    "support/usage.py": "measures, for benchmarks",
+    "support/slow_line.py": "is a slow line",
+    "support/troublemakers.py": "sends garbage at a rate",
+    "browser/test_keys_and_mouse.py": "moves a mouse for two seconds, to count",
+    "browser/test_reload.py": "waits until a picture is the same twice",
+    "browser/test_views_and_tools.py": "waits while a page goes on drawing",
+}
+"""Files that may, and what for; folders of benchmarks are no tests."""
+
+
+@cache
+def python_files(repository: Path) -> list[Path]:
+    found = (repository / "tests").rglob("*.py")
+    return sorted(p for p in found if not {".venv", "benchmarks"} & {*p.parts})
+
+
+def uses(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Yield the lines that sleep or look at a clock, and how."""
+    taken: dict[str, str] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module in CLOCKS:
+            taken |= {
+                alias.asname or alias.name: f"{node.module}.{alias.name}"
+                for alias in node.names
+                if alias.name in CLOCKS[node.module]
+            }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and not _gives_way(node):
+            name = taken.get(ast.unparse(node.func), ast.unparse(node.func))
+            module, _, last = name.rpartition(".")
+            if last in CLOCKS.get(module, ()):
+                yield node.lineno, name
+
+
+def _gives_way(call: ast.Call) -> bool:
+    """Whether it only lets others go first: ``asyncio.sleep(0)``."""
+    return [ast.unparse(word) for word in call.args] == ["0"]
+
+
+def test_no_test_sleeps_or_looks_at_a_clock(repository: Path) -> None:
+    found = [
+        f"{path.relative_to(repository)}:{line}: {how}"
+        for path in python_files(repository)
+        if path.relative_to(repository / "tests").as_posix() not in MAY
+        for line, how in uses(ast.parse(path.read_text("utf-8")))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import time\ntime.sleep(0.1)",
+        "from time import monotonic as now\nnow()",
+        "import threading\nthreading.Timer(1, print)",
+        "import asyncio\nasync def f():\n    await asyncio.sleep(0.1)",
+    ],
+)
+def test_a_sleep_is_noticed(text: str) -> None:
+    assert [*uses(ast.parse(text))]
+
+
+def test_to_give_way_is_no_sleep() -> None:
+    assert not [*uses(ast.parse("import asyncio\nasyncio.sleep(0)"))]
