@@ -84,6 +84,7 @@ def test_links_of_the_documents_lead_to_files() -> None:
         "docs/first-robot.md",
         "docs/live.md",
         ".github/CONTRIBUTING.md",
+        ".github/SECURITY.md",
         "CHANGELOG.md",
     ):
         document = ROOT / name

@@ -86,9 +86,34 @@ def test_packages_are_a_layer_of_their_own_below_the_wheel(deploy: Path) -> None
 
 
 def pinned(deploy: Path) -> dict[str, Version]:
-    lines = (deploy / "requirements.txt").read_text("utf-8").split("\n")
-    pairs = [line.split("==") for line in lines if line and line[0] != "#"]
-    return {canonicalize_name(name): Version(version) for name, version in pairs}
+    return {name: version for name, version, _ in pins(deploy)}
+
+
+def pins(deploy: Path) -> list[tuple[str, Version, list[str]]]:
+    """Name, version and hashes of each package; nothing else is in the file."""
+    text = (deploy / "requirements.txt").read_text("utf-8").replace("\\\n", " ")
+    found: list[tuple[str, Version, list[str]]] = []
+    for line in text.splitlines():
+        if line and not line.startswith("#"):
+            pin, *options = line.split()
+            name, version = pin.split("==")
+            found.append((canonicalize_name(name), Version(version), options))
+    return found
+
+
+def test_pip_installs_only_the_files_that_were_seen(
+    repository: Path, deploy: Path
+) -> None:
+    every = pins(deploy)
+    assert len(every) > 30
+    for name, _, hashes in every:
+        assert hashes, name
+        assert all(re.fullmatch("--hash=sha256:[0-9a-f]{64}", one) for one in hashes)
+    documents = (deploy / "Dockerfile", repository / "docs" / "deploy.md")
+    for path in documents:
+        lines = path.read_text("utf-8").split("\n")
+        installs = [x for x in lines if "install" in x and "requirements.txt" in x]
+        assert installs and all("--require-hashes" in x for x in installs), path
 
 
 def test_the_image_has_all_packages_that_are_needed_in_one_version(
