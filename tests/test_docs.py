@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import limits_page
 import manual_page
 import pytest
 from command_line_page import PAGE, page, parser_of
@@ -39,6 +40,12 @@ def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
 def test_the_manual_page_is_that_of_the_parsers() -> None:
     assert manual_page.PAGE.read_text("utf-8") == manual_page.page(), (
         "run: PYTHONPATH=tests/support python tests/support/manual_page.py"
+    )
+
+
+def test_the_page_of_limits_is_that_of_the_table() -> None:
+    assert limits_page.PAGE.read_text("utf-8") == limits_page.page(), (
+        "run: PYTHONPATH=tests/support python tests/support/limits_page.py"
     )
 
 

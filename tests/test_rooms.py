@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-FOUNDATIONS = {"errors", "files", "geometry", "outlet", "text"}
+FOUNDATIONS = {"errors", "files", "geometry", "limits", "outlet", "text"}
 """Any room may import these; they import nothing of the package but each other."""
 
 CONCURRENCY = {
@@ -166,6 +166,7 @@ ROOMS: Mapping[str, Row] = {
         "concurrent threading",
     ),
     "flags": Row("frames joints"),
+    "limits": Row(),
     "listened": Row("sources topics", "", "threading"),
     "moved_by": Row("messages options rviz sources topics"),
     "options": Row("flags frames joints robot rviz sources", "yourdfpy"),

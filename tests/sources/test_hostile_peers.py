@@ -17,6 +17,7 @@ from rosbridge_peer import RosbridgePeer, cbor
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import Server, ServerConnection, serve
 
+from sambot_viz import limits
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import Source
@@ -241,7 +242,7 @@ def test_a_message_beyond_the_limit_is_refused_before_it_comes(
         client.recv()
 
     source = opened(f"foxglove://{play(boaster)}")
-    says(source, "larger than the limit of 256 MB")
+    says(source, f"{2**40:,} bytes; the limit is {limits.MESSAGE.value:,}")
 
 
 def test_text_that_is_not_utf8_ends_the_connection(

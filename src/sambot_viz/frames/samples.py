@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.frames.errors import TransformFault
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Vector3, Xyzw
@@ -27,7 +28,7 @@ Pose = tuple[Vector3, Xyzw]
 Poses = npt.NDArray[np.float64]
 """(N, 7): x, y, z [m] and the quaternion x, y, z, w of each frame."""
 
-MOST_POSES = 4_000_000
+MOST_POSES = limits.POSES.value
 """Of all frames together, 240 MB: enough for ten seconds of 300 frames at 1 kHz."""
 MOST_GROUPS = 256
 """Messages with further sets of frames are kept frame by frame."""

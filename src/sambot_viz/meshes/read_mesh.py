@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.files import (
     FileTooLargeError,
     NotAFileError,
@@ -22,7 +23,7 @@ from sambot_viz.meshes.mesh import Mesh, MeshError, mesh_error
 from sambot_viz.meshes.source import MeshSource
 from sambot_viz.meshes.textures import TextureStore
 
-LARGEST = 500 * 1024 * 1024
+LARGEST = limits.MESH.value
 """Files above this size [bytes] are refused unless the caller allows more."""
 
 _Reader = Callable[[MeshSource], list[Submesh]]

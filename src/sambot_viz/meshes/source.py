@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Findings
 from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import MeshError, Texture, mesh_error
@@ -13,7 +14,7 @@ from sambot_viz.meshes.named_files import NamedFileError, NamedFiles
 from sambot_viz.meshes.textures import TextureError, TextureStore
 
 MOST_NODES = 100_000
-MOST_TRIANGLES = 20_000_000
+MOST_TRIANGLES = limits.TRIANGLES.value
 MOST_VERTICES = 30_000_000
 MOST_WITHOUT_DATA = 2**20
 """Meshes that unfold to more than this are refused."""

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 from weakref import WeakValueDictionary
 
+from sambot_viz import limits
 from sambot_viz.errors import SambotVizError
 from sambot_viz.files import Stamp, is_lfs_pointer, read_limited, reason_of, stamp
 from sambot_viz.meshes.mesh import Texture
@@ -29,9 +30,9 @@ _MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
 }
 _FORMATS = (*_MIME, "TGA", "BMP", "TIFF", "WEBP", "GIF")
 """Others are not opened: Pillow starts Ghostscript for an EPS."""
-LARGEST_IMAGE = 64 * 2**20
+LARGEST_IMAGE = limits.TEXTURE.value
 """Image files above this size [bytes] are refused."""
-MOST_PIXELS = 8192 * 8192
+MOST_PIXELS = limits.TEXTURE_PIXELS.value
 """Images that decode to more are refused: this many take half a gigabyte."""
 
 

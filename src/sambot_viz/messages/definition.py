@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 
 if TYPE_CHECKING:
@@ -24,8 +25,8 @@ Lookup = Callable[[str], "Types | None"]
 
 BASE, NAME, ARRAY, SEQUENCE = 1, 2, 3, 4
 """rosbags' kinds of fields."""
-_MOST_TYPES = 1000
-_MOST_FIELDS = 5000
+_MOST_TYPES = limits.DEFINITION_TYPES.value
+_MOST_FIELDS = limits.DEFINITION_FIELDS.value
 _MOST_PARTS = 1000
 """Parts of the fixed arrays of a type that become lines of code."""
 _MOST_EMPTY = 64

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import (
     NAME,
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 LANGUAGES = ("ros2msg", "ros2idl", "ros1msg")
 """The encodings of definitions that can be parsed."""
-_LONGEST = 1 << 20
+_LONGEST = limits.DEFINITION.value
 """A longer text is none of a message: MoveIt's largest has 60 kB."""
 _LONGEST_WITHOUT_COMMENTS = 1 << 17
 _WORD = re.compile(r"[A-Za-z]\w*", re.ASCII)

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import Lookup, TypeDefinition, Types, closed
 from sambot_viz.messages.definition_text import parsed_types
@@ -32,7 +33,7 @@ _PLACES = (
     "src/{package}/msg/{name}.msg",
 )
 """Where a message is below a folder of packages, an installation, or a workspace."""
-_LARGEST = 1 << 20
+_LARGEST = limits.DEFINITION.value
 _TYPE = re.compile(r"([A-Za-z]\w*)/msg/([A-Za-z]\w*)", re.ASCII)
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, cast
 
+from sambot_viz import limits
 from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
 from sambot_viz.panels.command import LARGEST, Argument, Command
@@ -22,7 +23,7 @@ from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 
-LONGEST_TEXT = 1000
+LONGEST_TEXT = limits.PAGE_TEXT.value
 """Of a value that is a text [characters]."""
 LONGEST_ID = 400
 _MOST_PARTS = 4000

@@ -7,6 +7,7 @@ import stat
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, RobotError, did_you_mean
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.element import Element, parse_xml
@@ -16,7 +17,7 @@ PathLike = str | os.PathLike[str]
 TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
 
-_LARGEST = 64_000_000
+_LARGEST = limits.MODEL.value
 
 
 @dataclass(frozen=True, slots=True)

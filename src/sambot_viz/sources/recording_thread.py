@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from sambot_viz import limits
 from sambot_viz.files import reason_of
 from sambot_viz.outlet import logger
 from sambot_viz.sources.bag.compression import BrokenPieceError
@@ -25,7 +26,7 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
-MOST_BYTES = 64 * 2**20
+MOST_BYTES = limits.RECORDING_WAITS.value
 """All messages that wait for the disk together have at most this size."""
 MOST_MESSAGES = 100_000
 """So many messages wait for the disk at most."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.samples import FramePair, Poses
 
-MOST_FRAMES = 2000
+MOST_FRAMES = limits.FRAMES.value
 """No robot has so many; twenty robots with a hundred frames each have."""
 _MOST_KEPT = 1000
 Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]

@@ -28,6 +28,7 @@ SEVERITIES: Mapping[str, Severity] = {
     "encoding": "warning",
     "type-unknown": "warning",
     "not-decodable": "warning",
+    "left-out": "warning",
     "not-here-yet": "info",
     "definition-wrong": "info",
     "two-clocks": "warning",
@@ -148,6 +149,11 @@ def no_message(name: str) -> TopicReason:
         "no message was recorded: nothing was published, or with another QoS than the "
         f"recorder wanted (ros2 topic info -v {name})",
     )
+
+
+def left_out(what: str) -> TopicReason:
+    """Say what of a recorded topic is too large, or in a part that is damaged."""
+    return TopicReason("left-out", what)
 
 
 def not_here_yet(begins: float, latched: bool) -> TopicReason:

@@ -107,6 +107,8 @@ class TopicReport:
         """
         topic, looked = self._topics[name], self._survey.of(name)
         decoder = self._recorded.decoder(topic)
+        if topic.left_out:
+            return reasons.left_out(topic.left_out)
         if topic.count == 0:
             return reasons.no_message(name)
         if decoder.reason is not None:

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError, FrameError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.frames.frame_prefix import frame_prefix
@@ -23,8 +24,8 @@ from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.transforms import Transforms, TransformTopics
 
-MOST_MESSAGES = 20_000
-MOST_BYTES = 50_000_000
+MOST_MESSAGES = limits.SURVEYED.value
+MOST_BYTES = limits.SURVEYED_BYTES.value
 """So much is looked at from the begin of a recording."""
 MOST_DECODED = 30
 """So many messages of a topic are decoded."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.data.map_properties import (
     HEIGHT,
     MAP_PROPERTIES,
@@ -35,7 +36,7 @@ from sambot_viz.topics.decoding import frame_and_stamp
 
 MAP, UPDATE = "Map", "Update"
 """Keys of statuses."""
-MOST_CELLS = 100_000_000
+MOST_CELLS = limits.MAP_CELLS.value
 """A map of more cells is not drawn."""
 MOST_UPDATES = 2000
 """So many updates since the last map are applied after a jump in a recording."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
@@ -16,7 +17,7 @@ from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz, unit_wxyzs
 from sambot_viz.topics.decoding import numbers_of
 
 Floats = npt.NDArray[np.float64]
-MOST_POSES = 100_000
+MOST_POSES = limits.MESSAGE_POSES.value
 """So many poses of one message are drawn at most."""
 
 

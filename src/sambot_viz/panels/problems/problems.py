@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path, PurePath
 from typing import cast
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
@@ -20,7 +21,7 @@ from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, proble
 from sambot_viz.session.problems import Problems
 from sambot_viz.text import text
 
-MOST_SHOWN = 100
+MOST_SHOWN = limits.PROBLEM_ROWS.value
 """So many groups of problems, and of the problems of one group, have rows."""
 LINES_AROUND = 2
 _LONGEST_FILE = 60

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.errors import Severity
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
@@ -18,7 +19,7 @@ from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicStatus
 
-MOST_SHOWN = 200
+MOST_SHOWN = limits.TOPIC_ROWS.value
 """So many topics have rows; the search finds the others."""
 AGES = 50
 """Of so many topics the age is looked up at a time."""

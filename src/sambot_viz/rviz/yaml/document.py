@@ -7,6 +7,7 @@ from pathlib import Path
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.errors import ConfigError, Findings, Problem
 from sambot_viz.files import is_recording, read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
@@ -14,7 +15,7 @@ from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
 from sambot_viz.rviz.yaml.writer import Writer
 
-LARGEST = 4_000_000
+LARGEST = limits.CONFIG.value
 """A larger file is not read [bytes]: the largest known one is 20 times smaller, and
 reading takes 3 s for 1 MB."""
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")

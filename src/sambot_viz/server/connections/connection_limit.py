@@ -15,11 +15,12 @@ import http
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Response
 
+from sambot_viz import limits
 from sambot_viz.server.connections.page_files import plain_page
 
-MOST_PAGES = 200
+MOST_PAGES = limits.PAGES.value
 """So many pages may be open."""
-MOST_CONNECTIONS = 600
+MOST_CONNECTIONS = limits.CONNECTIONS.value
 """So many connections, two for each page; also of those that have not asked for
 anything yet."""
 _OWN_FILES = 400

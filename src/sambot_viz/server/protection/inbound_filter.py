@@ -26,7 +26,7 @@ from typing import Any, Protocol, cast
 import viser
 from websockets.protocol import State
 
-from sambot_viz import viser_private
+from sambot_viz import limits, viser_private
 from sambot_viz.outlet import logger
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
@@ -39,7 +39,7 @@ from sambot_viz.server.protection.client_messages import (
     decode,
 )
 
-LARGEST_MESSAGE = 64 * 1024
+LARGEST_MESSAGE = limits.PAGE_MESSAGE.value
 """A connection that sends a longer message is closed [bytes]."""
 LONGEST_TEXT = 1000
 """Of a value that is a text [characters]."""

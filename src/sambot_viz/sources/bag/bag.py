@@ -29,6 +29,7 @@ class RecordedTopic:
         is_latched: late subscribers got its messages, so that they hold at any time of
             the recording; see `latched.py`.
         count: how many messages can be read, or None while that is not known.
+        left_out: what cannot be read of it, and why; empty for nothing.
     """
 
     name: str
@@ -37,6 +38,7 @@ class RecordedTopic:
     qos: Qos | None
     is_latched: bool
     count: int | None
+    left_out: str = ""
 
 
 class Bag(Protocol):

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.bag import RecordedTopic
@@ -26,10 +27,11 @@ from sambot_viz.sources.bag.blocks import (
     TimeIndex,
     position,
 )
-from sambot_viz.sources.bag.compression import BrokenPieceError
+from sambot_viz.sources.bag.compression import BrokenPieceError, TooLargeError
 from sambot_viz.sources.bag.damage import Damage
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.latched import LatchedMessages
+from sambot_viz.sources.bag.left_out import LeftOut
 from sambot_viz.sources.bag.merge import merged
 from sambot_viz.sources.bag.refusals import unreadable
 from sambot_viz.sources.message import Recorded, TopicChannel
@@ -52,10 +54,12 @@ class BlockBag(ABC):
 
     Attributes:
         damage: what was met.
+        left_out: what is too large.
     """
 
     def __init__(self, file: FileBytes) -> None:
         self.damage = Damage(file.path)
+        self.left_out = LeftOut()
         self._file = file
         self._blocks: list[Block] = []
         self._channels: dict[int, TopicChannel] = {}
@@ -100,6 +104,10 @@ class BlockBag(ABC):
     def _message(self, entries: Entries, number: int) -> Recorded | None:
         """Return a message of a block; None when it cannot be read after all."""
 
+    def _place_of(self, block: Block) -> int:
+        """Return where a block begins in the file [bytes]."""
+        return 0
+
     def _counts_of(self, block: Block) -> Mapping[int, int]:
         """Return how many messages of a block were counted without reading it."""
         return {}
@@ -113,12 +121,16 @@ class BlockBag(ABC):
 
     def _add_channel(self, number: int, channel: TopicChannel) -> None:
         with self._lock:
-            if number not in self._channels:
+            if number in self._channels:
+                return
+            self._changes += 1
+            if len(self._channels) >= limits.CHANNELS.value:
+                self.left_out.add_topic(channel.topic)
+            else:
                 self._channels[number] = channel
                 self._numbers_of.setdefault(channel.topic, set()).add(number)
                 if channel.is_latched:
                     self._latched_channels[number] = channel
-                self._changes += 1
 
     def _count(self, counts: Mapping[int, int]) -> None:
         """Count messages by channel."""
@@ -147,14 +159,13 @@ class BlockBag(ABC):
                 self._kept.move_to_end(block.number)
                 return kept
         try:
-            entries: Entries | None = self._read(block)
-        except BrokenPieceError:
-            entries = None
+            entries = self._read(block)
+        except BrokenPieceError as error:
+            self._note_broken(block, error)
+            return None
         except (OSError, ValueError) as error:
             raise unreadable(self._file.path, error) from error
-        if entries is None:
-            self._note_broken(block)
-            return None
+        self._note_large(block, entries)
         with self._lock:
             self._kept[block.number] = entries
             size = sum(each.size for each in self._kept.values())
@@ -169,7 +180,22 @@ class BlockBag(ABC):
         except (OSError, ValueError) as error:
             raise unreadable(self._file.path, error) from error
 
-    def _note_broken(self, block: Block) -> None:
+    def _note_large(self, block: Block | None, entries: Entries) -> None:
+        """Note the messages of a part that are too large, in a block or elsewhere."""
+        if not entries.large:
+            return
+        counted = block is not None and bool(self._counts_of(block))
+        with self._lock:
+            for channel, time, size in entries.large:
+                if self.left_out.add_message(channel, time, size) and counted:
+                    self._said().subtract((channel,))
+            self._changes += 1
+
+    def _said(self) -> Counter[int]:
+        """How many messages each channel has: as the file says, or as counted."""
+        return self._counts if self._stated is None else self._stated
+
+    def _note_broken(self, block: Block, why: BrokenPieceError) -> None:
         try:
             lost = self._counts_of(block)
         except (OSError, ValueError) as error:
@@ -178,8 +204,10 @@ class BlockBag(ABC):
             if block.number not in self._broken:
                 self._broken.add(block.number)
                 self._changes += 1
-                self.damage.add_broken(block.start, block.end)
-                (self._counts if self._stated is None else self._stated).subtract(lost)
+                if not isinstance(why, TooLargeError):
+                    self.damage.add_broken(block.start, block.end)
+                self.left_out.add_chunk(self._place_of(block), why, block.channels)
+                self._said().subtract(lost)
 
     # --- finding --------------------------------------------------------------------
 
@@ -256,7 +284,7 @@ class BlockBag(ABC):
         first: dict[str, TopicChannel] = {}
         counts: Counter[str] = Counter()
         latched: set[str] = set()
-        said = self._counts if self._stated is None else self._stated
+        said = self._said()
         for number, channel in self._channels.items():
             first.setdefault(channel.topic, channel)
             counts[channel.topic] += max(0, said[number])
@@ -271,6 +299,7 @@ class BlockBag(ABC):
                 channel.qos,
                 topic in latched,
                 counts[topic] if known else None,
+                self.left_out.of(self._numbers_of[topic], counts[topic]),
             )
             for topic, channel in first.items()
         }
@@ -293,7 +322,10 @@ class BlockBag(ABC):
     def problems(self) -> tuple[Problem, ...]:
         """What is lost and what to do."""
         with self._lock:
-            return self.damage.problems(self.start_ns, self.end_ns)
+            names = {number: one.topic for number, one in self._channels.items()}
+            large = self.left_out.problems(self._file.path, names)
+            cause = self.left_out.cause
+            return (*self.damage.problems(self.start_ns, self.end_ns, cause), *large)
 
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics, by log time."""

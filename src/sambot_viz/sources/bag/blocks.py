@@ -49,12 +49,15 @@ class Entries:
         channels: their channels' numbers.
         places: where the messages are, in `raw` or in the file.
         raw: the decompressed chunk, or None.
+        large: channel, log time [ns] and size [bytes] of messages that are too large,
+            and are not among the others.
     """
 
     times: Times
     channels: Numbers
     places: Places
     raw: bytes | memoryview | None = None
+    large: Sequence[tuple[int, int, int]] = ()
 
     @property
     def size(self) -> int:
@@ -63,13 +66,17 @@ class Entries:
 
 
 def sorted_entries(
-    times: Times, channels: Numbers, places: Places, raw: bytes | memoryview | None
+    times: Times,
+    channels: Numbers,
+    places: Places,
+    raw: bytes | memoryview | None,
+    large: Sequence[tuple[int, int, int]] = (),
 ) -> Entries:
     """Sort messages by log time; at one time they keep the order of the file."""
     if len(times) > 1 and not bool(np.all(times[:-1] <= times[1:])):
         order = np.argsort(times, kind="stable")
         times, channels, places = times[order], channels[order], places[order]
-    return Entries(times, channels, places, raw)
+    return Entries(times, channels, places, raw, large)
 
 
 def position(times: Times, time: int, *, right: bool) -> int:

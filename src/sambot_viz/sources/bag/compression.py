@@ -10,12 +10,18 @@ import lzma
 import zlib
 from typing import Any
 
-LARGEST = 256 * 2**20
-"""Most bytes that one piece may have once it is decompressed."""
+from sambot_viz import limits
 
 
 class BrokenPieceError(Exception):
     """Some bytes of the file that cannot be used; never leaves this package."""
+
+
+class TooLargeError(BrokenPieceError):
+    """A piece of the file that is above the limit of chunks."""
+
+    def __init__(self, size: int) -> None:
+        super().__init__(f"says that it holds {limits.CHUNK.said(size)}")
 
 
 def decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memoryview:
@@ -27,10 +33,11 @@ def decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memory
         size: how many bytes it has once decompressed, as the file says.
 
     Raises:
-        BrokenPieceError: it is damaged, too large, or has another length.
+        TooLargeError: it is above the limit of chunks.
+        BrokenPieceError: it is damaged, or has another length.
     """
-    if size > LARGEST:
-        raise BrokenPieceError(f"it claims to have {size:,} bytes")
+    if size > limits.CHUNK.value:
+        raise TooLargeError(size)
     try:
         raw = _decompress(name, data, size)
     except (MemoryError, OSError, RuntimeError, ValueError, EOFError) as error:
@@ -38,8 +45,12 @@ def decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memory
     except (zlib.error, lzma.LZMAError) as error:
         raise BrokenPieceError("it cannot be decompressed") from error
     if len(raw) != size:
-        raise BrokenPieceError(f"it has {len(raw):,} of {size:,} bytes")
+        raise _other_size(size, len(raw))
     return raw
+
+
+def _other_size(size: int, held: int) -> BrokenPieceError:
+    return BrokenPieceError(f"it says that it holds {size:,} bytes, and holds {held:,}")
 
 
 def _decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memoryview:
@@ -61,7 +72,7 @@ def _zstd(data: bytes | memoryview, size: int) -> bytes:
         # The header of the frame may claim any size, and memory would be taken for it.
         claimed = zstandard.get_frame_parameters(data).content_size
         if claimed not in (size, zstandard.CONTENTSIZE_UNKNOWN):
-            raise BrokenPieceError(f"it has {claimed:,} of {size:,} bytes")
+            raise _other_size(size, claimed)
         return zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
     except zstandard.ZstdError as error:
         raise BrokenPieceError("it cannot be decompressed") from error

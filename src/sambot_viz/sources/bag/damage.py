@@ -82,16 +82,21 @@ class Damage:
         elif high - low > known[0] - known[1]:
             self._step_back = (high, low, known[2])
 
-    def problems(self, start: int | None, end: int | None) -> tuple[Problem, ...]:
+    def problems(
+        self, start: int | None, end: int | None, cause: str = ""
+    ) -> tuple[Problem, ...]:
         """Return the sentences.
 
         Args:
             start: log time of the first message [ns], or None.
             end: log time of the last message [ns], or None.
+            cause: why nothing may be left to read; empty for no cause.
         """
         found: list[Problem] = []
         if start is None or end is None:
-            found.append(no_messages(self.path))
+            if self._unreadable and not cause:
+                cause = "bytes {:,} to {:,} make no sense".format(*self._unreadable[0])
+            found.append(no_messages(self.path, cause))
         else:
             found += self._about_end(start, end)
             found += self._about_step_back(start)
@@ -190,8 +195,12 @@ class Damage:
         return [Problem("warning", "log-back", message, hint, str(self.path))]
 
 
-def no_messages(path: Path) -> Problem:
-    """Say that a recording has no message."""
+def no_messages(path: Path, cause: str) -> Problem:
+    """Say that a recording has no message, or none that can be read for a cause."""
+    if cause:
+        message = f"{path.name} has no message that can be read: {cause}"
+        hint = "copy the file again if there is another one, or record again"
+        return Problem("error", "file-no-messages", message, hint, str(path))
     return Problem(
         "error",
         "file-no-messages",

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import BlockBag
 from sambot_viz.sources.bag.blocks import (
@@ -35,7 +36,6 @@ from sambot_viz.sources.qos import parse_qos
 _ROWS = 4096
 _COST = 25
 """Work of a row: its page has to be read."""
-_MOST_TOPICS = 1_000_000
 
 
 @dataclass(slots=True, eq=False)
@@ -101,7 +101,7 @@ class Db3Bag(BlockBag):
         encoding = _column("serialization_format", columns)
         qos = _column("offered_qos_profiles", columns)
         query = f"select id, name, type, {encoding}, {qos} from topics order by id"
-        for row in self._rows(f"{query} limit {_MOST_TOPICS}"):
+        for row in self._rows(f"{query} limit {limits.CHANNELS.value + 1}"):
             number, name, kind, how, offered = row
             if isinstance(number, int) and isinstance(name, str):
                 offers = parse_qos(offered) if isinstance(offered, str) else None
@@ -125,10 +125,14 @@ class Db3Bag(BlockBag):
     # --- finding --------------------------------------------------------------------
 
     def _find(self) -> Iterator[int]:
+        # For these sqlite3 reads the head of a row and none of its data.
+        size = "case typeof(data) when 'blob' then length(data) else 0 end"
         # What is cut off has rows whose data are gone.
-        data = ", data" if self._database.lacks else ""
+        most, data = limits.MESSAGE.value, ""
+        if self._database.lacks:
+            data = f", case when {size} <= {most} then data end"
         query = (
-            f"select rowid, topic_id, timestamp{data} from messages "
+            f"select rowid, topic_id, timestamp, {size}{data} from messages "
             f"where rowid > ? order by rowid limit {64 if data else _ROWS}"
         )
         last, found = -(2**63), 0
@@ -149,7 +153,8 @@ class Db3Bag(BlockBag):
         with self._reading:
             try:
                 # It keeps those before one that cannot be read.
-                rows.extend(self._database.connection.execute(query, (last,)))
+                for row in self._database.connection.execute(query, (last,)):
+                    rows.append(row[:4])
             except sqlite3.ProgrammingError as error:
                 raise ValueError("the file was closed") from error
             except sqlite3.Error:
@@ -158,13 +163,17 @@ class Db3Bag(BlockBag):
 
     def _add_rows(self, rows: list[tuple[Any, ...]]) -> None:
         table = _numbers(rows)
-        fitting = (table[:, 2] >= 0) & np.isin(table[:, 1], list(self._channels))
-        if not fitting.any():
-            return
+        known = (table[:, 2] >= 0) & np.isin(table[:, 1], list(self._channels))
+        is_large = table[:, 3] > limits.MESSAGE.value
+        large = table[known & is_large][:, 1:].tolist()
+        fitting = known & ~is_large
         places, channels = table[fitting, 0], table[fitting, 1]
         times: Times = table[fitting, 2].astype(np.uint64)
+        entries = sorted_entries(times, channels, places, None, large)
+        self._note_large(None, entries)
+        if not fitting.any():
+            return
         self.damage.add_times(times, channels)
-        entries = sorted_entries(times, channels, places, None)
         start, end = int(entries.times[0]), int(entries.times[-1])
         found = frozenset(np.unique(channels).tolist())
         block = RowBlock(self._number(), start, end, found, entries)
@@ -207,13 +216,11 @@ class Db3Bag(BlockBag):
 
 
 def _numbers(rows: list[tuple[Any, ...]]) -> Places:
-    """Return the first three columns of rows, (N, 3), without rows of other values."""
-    if rows and len(rows[0]) > 3:
-        rows = [row[:3] for row in rows]
+    """Return the columns of rows, (N, 4), without rows of other values."""
     table: Numbers = np.array(rows)
     if table.dtype != np.int64:
         whole = [row for row in rows if all(isinstance(one, int) for one in row)]
-        table = np.reshape(np.array(whole, np.int64), (len(whole), 3))
+        table = np.reshape(np.array(whole, np.int64), (len(whole), 4))
     return table
 
 

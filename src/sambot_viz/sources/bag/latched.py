@@ -9,16 +9,17 @@ from __future__ import annotations
 
 from operator import attrgetter
 
+from sambot_viz import limits
 from sambot_viz.sources.message import Recorded, is_latched_name
 from sambot_viz.sources.qos import Qos
 
 _LOGS = ("rosout",)
 _LOG_TYPES = ("rcl_interfaces/Log", "rosgraph_msgs/Log")
 
-MOST_KEPT_BY_NAME = 32 * 2**20
+MOST_KEPT_BY_NAME = limits.LATCHED.value
 """Most memory for transforms and descriptions, which hold from start to end [bytes]."""
 
-MOST_OF_OTHERS = 16 * 2**20
+MOST_OF_OTHERS = limits.LATCHED_OTHERS.value
 """Most memory for all other latched messages [bytes]; `Bag.last` finds the others."""
 
 

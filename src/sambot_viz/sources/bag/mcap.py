@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import NO_SCHEMA, BlockBag
 from sambot_viz.sources.bag.blocks import Block, Entries
@@ -57,7 +58,6 @@ from sambot_viz.sources.message import Recorded, TopicChannel
 SMALL = 8 * 2**20
 """A file up to this size is read through at opening, so that all damage is known."""
 
-_MOST_OF_SUMMARY = 2**28
 _LARGEST_DEFINITION = 2**26
 _LOOSE = 4096
 _MESSAGE_SIZE = HEAD.size + MESSAGE_HEAD.size
@@ -100,7 +100,7 @@ class McapBag(BlockBag):
         Returns:
             place → chunk; empty when not all of their channels are known.
         """
-        if not len(MAGIC) <= at < end or end - at > _MOST_OF_SUMMARY:
+        if not len(MAGIC) <= at < end or end - at > limits.SUMMARY.value:
             return {}
         data = self._file.read_at(at, end - at + FOOTER_SIZE)
         if crc and zlib.crc32(data[: end - at + FOOTER_SIZE - 4]) != crc:
@@ -161,9 +161,7 @@ class McapBag(BlockBag):
             behind = at + HEAD.size + length
             if opcode == MESSAGE and length >= MESSAGE_HEAD.size and behind <= end:
                 channel, _, time, _ = MESSAGE_HEAD.unpack_from(data, begin + HEAD.size)
-                loose.channels.append(channel)
-                loose.times.append(time)
-                loose.places.append(at)
+                loose.add(channel, time, at, length - MESSAGE_HEAD.size)
                 at = behind
                 continue
             if opcode == MESSAGE_INDEX and chunk is not None and behind <= end:
@@ -258,8 +256,9 @@ class McapBag(BlockBag):
                 self._add_channel(channel.id, channel_of(channel, schema))
 
     def _add_loose(self, loose: LooseMessages) -> None:
+        entries = loose.entries(self.damage, None)
+        self._note_large(None, entries)
         if loose.times:
-            entries = loose.entries(self.damage, None)
             found = frozenset(np.unique(entries.channels).tolist())
             first, last = int(entries.times[0]), int(entries.times[-1])
             block = LooseBlock(self._number(), first, last, found, entries)
@@ -354,9 +353,7 @@ class McapBag(BlockBag):
                 if length < MESSAGE_HEAD.size:
                     raise BrokenPieceError("a message has no times")
                 channel, _, time, _ = MESSAGE_HEAD.unpack_from(raw, at + HEAD.size)
-                loose.channels.append(channel)
-                loose.times.append(time)
-                loose.places.append(at)
+                loose.add(channel, time, at, length - MESSAGE_HEAD.size)
             elif opcode in (SCHEMA, CHANNEL):
                 self._define(opcode, bytes(raw[at + HEAD.size : behind]))
             elif opcode == 0:
@@ -394,11 +391,14 @@ class McapBag(BlockBag):
             return None
         return Recorded(channel.topic, channel, log, publish, payload)
 
+    def _place_of(self, block: Block) -> int:
+        return block.at if isinstance(block, ChunkBlock) else 0
+
     def _counts_of(self, block: Block) -> Mapping[int, int]:
         counts = Counter[int]()
         if isinstance(block, ChunkBlock) and block.is_counted:
             at = block.at + block.length
-            data = self._file.read_at(at, min(block.index_length, _MOST_OF_SUMMARY))
+            data = self._file.read_at(at, min(block.index_length, limits.SUMMARY.value))
             try:
                 for opcode, content in records(data):
                     if opcode == MESSAGE_INDEX:

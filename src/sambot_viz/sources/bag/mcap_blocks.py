@@ -9,12 +9,19 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
-from sambot_viz.sources.bag.compression import BrokenPieceError, decompress
+from sambot_viz.sources.bag.compression import (
+    BrokenPieceError,
+    TooLargeError,
+    decompress,
+)
 from sambot_viz.sources.bag.damage import Damage
 from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.mcap_records import CHUNK, HEAD, read_chunk
 
+_ABOUT_CHUNK = 2**16
+"""What compression may add to that which cannot be compressed [bytes]."""
 CHUNK_HEAD_SIZE = 64
 """So many bytes have all that stands before the records of a chunk."""
 
@@ -39,8 +46,11 @@ class ChunkBlock(Block):
         """Its records, decompressed; and whether the record's own length is a lie.
 
         Raises:
+            TooLargeError: it is above the limit of chunks.
             BrokenPieceError: it is not all there, or something else.
         """
+        if self.length > limits.CHUNK.value + _ABOUT_CHUNK:
+            raise TooLargeError(self.length)
         content = file.read_at(self.at, self.length)
         if len(content) < self.length or self.length < HEAD.size:
             raise BrokenPieceError("the file ends before it")
@@ -89,6 +99,23 @@ class LooseMessages:
         self.channels = array("H")
         self.times = array("Q")
         self.places = array("Q")
+        self.large: list[tuple[int, int, int]] = []
+
+    def add(self, channel: int, time: int, place: int, size: int) -> None:
+        """Take a message, unless it is too large.
+
+        Args:
+            channel: its channel.
+            time: its log time [ns].
+            place: where its record begins.
+            size: of its payload [bytes].
+        """
+        if size > limits.MESSAGE.value:
+            self.large.append((channel, time, size))
+            return
+        self.channels.append(channel)
+        self.times.append(time)
+        self.places.append(place)
 
     def entries(self, damage: Damage | None, raw: bytes | memoryview | None) -> Entries:
         """Return them by log time; tell their order in the file."""
@@ -97,4 +124,4 @@ class LooseMessages:
         places = np.array(self.places, np.int64)
         if damage is not None:
             damage.add_times(times, channels)
-        return sorted_entries(times, channels, places, raw)
+        return sorted_entries(times, channels, places, raw, self.large)

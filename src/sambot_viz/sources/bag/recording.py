@@ -175,5 +175,6 @@ def _joined(one: RecordedTopic, other: RecordedTopic) -> RecordedTopic:
         one,
         qos=one.qos or other.qos,
         is_latched=one.is_latched or other.is_latched,
+        left_out=one.left_out or other.left_out,
         count=(one.count or 0) + (other.count or 0) if known else None,
     )

@@ -15,10 +15,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag.block_bag import BlockBag
 from sambot_viz.sources.bag.blocks import Block, Entries, sorted_entries
-from sambot_viz.sources.bag.compression import LARGEST, BrokenPieceError, decompress
+from sambot_viz.sources.bag.compression import (
+    BrokenPieceError,
+    TooLargeError,
+    decompress,
+)
 from sambot_viz.sources.bag.file_bytes import FileBytes, ReadAhead
 from sambot_viz.sources.bag.latched import is_latched
 from sambot_viz.sources.message import Recorded, TopicChannel
@@ -178,9 +183,10 @@ class Ros1Bag(BlockBag):
         return len(entries.times) + entries.size // 1000
 
     def _connect(self, ahead: ReadAhead, record: _Record) -> None:
-        if record.size <= _LARGEST_DEFINITION:
-            data = ahead.get(record.at, record.size)
-            self._define(record.header, data)
+        # Of one that is too large the topic is known, and that its type is not.
+        is_large = record.size > _LARGEST_DEFINITION
+        data = b"" if is_large else ahead.get(record.at, record.size)
+        self._define(record.header, data)
 
     def _define(self, header: _Header, data: bytes) -> None:
         """Take a connection; the same ones come again."""
@@ -222,16 +228,19 @@ class Ros1Bag(BlockBag):
     def _read(self, block: Block) -> Entries:
         assert isinstance(block, Ros1Block)
         record = self._record(ReadAhead(self._file), block.at)
-        if record.op != _CHUNK or record.size > LARGEST:
+        if record.op != _CHUNK:
             raise BrokenPieceError("there is no chunk")
-        stored = self._file.read_at(record.at, record.size)
         size = _number(record.header, b"size", _U32)
+        if max(size, record.size) > limits.CHUNK.value:
+            raise TooLargeError(max(size, record.size))
+        stored = self._file.read_at(record.at, record.size)
         name = _text(record.header.get(b"compression", b""))
         return self._entries_in(bytes(decompress(name, stored, size)))
 
     def _entries_in(self, raw: bytes) -> Entries:
         """Walk through the records of a chunk."""
         times, channels, places = array("Q"), array("L"), array("Q")
+        large: list[tuple[int, int, int]] = []
         at, end = 0, len(raw)
         while at < end:
             if end - at < 8:
@@ -245,16 +254,21 @@ class Ros1Bag(BlockBag):
                 raise BrokenPieceError("it ends in a record")
             op = header.get(b"op")
             if op == b"\x02":
-                channels.append(_number(header, b"conn", _U32))
-                times.append(_time(header, b"time"))
-                places.append(begin)
+                channel, time = _number(header, b"conn", _U32), _time(header, b"time")
+                size = behind - begin - 4
+                if size > limits.MESSAGE.value:
+                    large.append((channel, time, size))
+                else:
+                    channels.append(channel)
+                    times.append(time)
+                    places.append(begin)
             elif op == b"\x07":
                 self._define(header, raw[begin + 4 : behind])
             at = behind
         found = np.array(times, np.uint64), np.array(channels, np.uint32)
         if self._is_finding:
             self.damage.add_times(*found)
-        return sorted_entries(*found, np.array(places, np.int64), raw)
+        return sorted_entries(*found, np.array(places, np.int64), raw, large)
 
     def _message(self, entries: Entries, number: int) -> Recorded | None:
         channel = self._channels.get(int(entries.channels[number]))
@@ -269,6 +283,9 @@ class Ros1Bag(BlockBag):
             payload = bytes(payload)
         time = int(entries.times[number])
         return Recorded(channel.topic, channel, time, None, payload)
+
+    def _place_of(self, block: Block) -> int:
+        return block.at if isinstance(block, Ros1Block) else 0
 
     def _counts_of(self, block: Block) -> Mapping[int, int]:
         return block.counts if isinstance(block, Ros1Block) else {}

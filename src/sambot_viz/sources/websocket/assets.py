@@ -12,10 +12,11 @@ from collections import OrderedDict
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.text import text
 
-MOST_BYTES = 256 * 2**20
+MOST_BYTES = limits.ASSET.value
 """About so much is kept; what was used longest ago goes first."""
 MOST_AT_ONCE = 4
 """So many requests are on their way at once; the others wait."""

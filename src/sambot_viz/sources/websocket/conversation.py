@@ -10,6 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sambot_viz import limits
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import SourceTopic
 from sambot_viz.sources.websocket.address import Address
@@ -17,7 +18,7 @@ from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
 from sambot_viz.text import text
 
-MOST_TOPICS = 20_000
+MOST_TOPICS = limits.TOPICS.value
 """So many topics of a peer are listed; a broken one may advertise without end."""
 _LATE = 1.0
 """A lag is said from so much on [s]."""

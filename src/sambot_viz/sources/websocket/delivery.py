@@ -12,13 +12,14 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from sambot_viz import limits
 from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage
 
-MOST_MESSAGES = 1024
+MOST_MESSAGES = limits.WAITING.value
 """So many messages of one topic wait at most."""
-MOST_BYTES = 128 * 2**20
+MOST_BYTES = limits.WAITING_BYTES.value
 """All waiting messages together have about this size at most; one of each topic may."""
 MOST_KEPT = 1000
 """So many messages of a latched topic are kept for late subscribers."""

@@ -14,6 +14,7 @@ from websockets.exceptions import (
     InvalidStatus,
 )
 
+from sambot_viz import limits
 from sambot_viz.sources.websocket.address import PORTS, Address
 from sambot_viz.text import text
 
@@ -103,7 +104,10 @@ def _refused(error: InvalidStatus, address: Address) -> str:
 def _lost(error: ConnectionClosed, place: str) -> str:
     ours, theirs = error.sent, error.rcvd
     if ours is not None and ours.code == _TOO_BIG:
-        return f"{place} sent a message that is larger than the limit of 256 MB"
+        # "frame with 300000000 bytes exceeds limit of …", when it says its size.
+        size = re.search(r"with (\d+) bytes", ours.reason)
+        said = limits.MESSAGE.said(int(size[1])) if size else "too many bytes"
+        return f"{place} sent a message of {said}"
     if theirs is None and ours is not None:
         what = text(ours.reason, 120) or "it no longer answers"
         return f"{place} was left: {what}"

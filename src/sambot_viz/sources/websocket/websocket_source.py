@@ -19,6 +19,7 @@ from typing import Any
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from sambot_viz import limits
 from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, SourceStatus, SourceTopic
@@ -37,8 +38,6 @@ FIRST_PAUSE, LONGEST_PAUSE, GROWTH = 0.5, 15.0, 1.7
 """Before the second attempt and at most [s], and how much each pause is longer."""
 STEADY = 10.0
 """A connection that lasted so long [s] was a good one: pauses begin again."""
-MOST_BYTES = 256 * 2**20
-"""The largest message that is taken: a mesh, or a picture that is not compressed."""
 LONGEST_STOP = 5.0
 """`close` waits this long for the thread [s]."""
 _TOPICS_PAUSE = 0.05
@@ -204,7 +203,7 @@ class WebsocketSource:
             self._address.websocket,
             subprotocols=self._subprotocols,
             compression=None,
-            max_size=MOST_BYTES,
+            max_size=limits.MESSAGE.value,
             # What comes is read at once: stopping the socket for every few messages
             # of a burst costs more than they do.
             max_queue=MOST_MESSAGES,

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.cloud.cloud import Cloud
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
 from sambot_viz.displays.data.cloud.properties import CLOUD_PROPERTIES
@@ -53,7 +54,7 @@ from sambot_viz.sources.message import Recorded
 
 COLOR_IMAGE = "Color Image"
 """Key of a status."""
-MOST_POINTS = 4_000_000
+MOST_POINTS = limits.DEPTH_POINTS.value
 """A depth image of more pixels is not drawn."""
 _NAMES = {DEPTH_TOPIC: ("depth",), COLOR_TOPIC: ("color", "rgb", "bgr", "gray", "mono")}
 """What a name in the list of topics has in it, where the list is filtered."""

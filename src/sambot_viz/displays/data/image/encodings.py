@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.data.refusals import MessageRefused
 
 IMAGE = "Image"
 """The key of the status."""
-MOST_PIXELS = 50_000_000
+MOST_PIXELS = limits.IMAGE.value
 """A larger picture is not shown."""
 Bytes = npt.NDArray[np.uint8]
 Values = npt.NDArray[np.uint16] | npt.NDArray[np.float32]

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.interactive_markers.controls import (
     MOST_SHAPES,
     TITLES,
@@ -32,7 +33,7 @@ from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.nodes import short_id
 from sambot_viz.frames import LookupRefused
 
-MOST_MARKERS = 500
+MOST_MARKERS = limits.INTERACTIVE_MARKERS.value
 """So many interactive markers are shown."""
 MOST_SHOWN = MOST_SHAPES
 """So many markers of the controls of all of them are shown."""

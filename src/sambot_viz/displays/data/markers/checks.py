@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.markers.textures import has_texture, texture_of
 from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.display import Level
@@ -35,7 +36,7 @@ LISTS = (CUBE_LIST, SPHERE_LIST, POINTS)
 LINES = (LINE_STRIP, LINE_LIST)
 _WITH_POINTS = (*LINES, *LISTS, TRIANGLES)
 
-MOST_POINTS = 500_000
+MOST_POINTS = limits.MARKER_POINTS.value
 """A marker with more points is not drawn."""
 INVALID = "contains invalid floating point values (nans or infs)"
 EMPTY = "Points should not be empty for specified marker type."

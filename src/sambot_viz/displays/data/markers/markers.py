@@ -6,6 +6,7 @@ import heapq
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.markers.checks import check_of, looks_the_same
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.fields import MarkerPose
@@ -23,8 +24,8 @@ ADD, DELETE, DELETE_ALL = 0, 2, 3
 _NS = 1_000_000_000
 SHORTEST_LIFE_NS = 100_000
 """A lifetime that is not longer is none [ns]."""
-MOST_MARKERS = 20_000
-MOST_POINTS = 2_000_000
+MOST_MARKERS = limits.MARKERS.value
+MOST_POINTS = limits.MARKERS_POINTS.value
 """Of all markers of a display together."""
 MOST_ROWS = 100
 """So many markers have a status of their own."""

@@ -1,0 +1,215 @@
+"""What is above the limits of messages and chunks costs its topic, in every format."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import struct
+import tracemalloc
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+import lz4.frame  # type: ignore[import-untyped]
+import pytest
+import zstandard
+from any_recording import FORMATS, Given, write_any
+
+from sambot_viz import limits
+from sambot_viz.commands.topics import run
+from sambot_viz.messages import MessageTypes
+from sambot_viz.sources.bag import mcap, open_bag, open_recording, ros1
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.report import TopicReport
+from sambot_viz.topics.survey import Survey
+
+LIMIT = 40_000
+MAGIC = b"\x89MCAP0\r\n"
+
+
+def string(size: int) -> bytes:
+    """A message of std_msgs/String of so many bytes; ROS 1 leaves out the first 4."""
+    return b"\0\1\0\0" + struct.pack("<I", size - 8) + b"a" * (size - 9) + b"\0"
+
+
+def size_of(kind: str, size: int) -> int:
+    return size + 4 if kind == "bag" else size
+
+
+def limit(monkeypatch: pytest.MonkeyPatch, name: str, value: int = LIMIT) -> None:
+    changed = replace(getattr(limits, name), value=value)
+    monkeypatch.setattr(limits, name, changed)
+
+
+def reasons(path: Path) -> dict[str, str]:
+    """What is said of each topic; "" for nothing."""
+    with open_recording(path) as recording:
+        survey = Survey(RecordedRobot(recording, MessageTypes(), path.name))
+        survey.finish()
+        rows = TopicReport(survey).statuses()
+        found = {row.name: (row.reason, row.count) for row in rows}
+    return {n: f"{c} {r.code} {r.text}" if r else f"{c}" for n, (r, c) in found.items()}
+
+
+def warned(path: Path) -> list[str]:
+    with open_bag(path) as bag:
+        list(bag.messages())
+        return [problem.message for problem in bag.problems]
+
+
+@pytest.mark.parametrize("is_small", [True, False])
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_message_above_the_limit_costs_its_topic_alone(
+    kind: str, is_small: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    limit(monkeypatch, "MESSAGE")
+    if not is_small:
+        monkeypatch.setattr(mcap, "SMALL", 0)
+        monkeypatch.setattr(ros1, "SMALL", 0)
+    below, above = string(size_of(kind, LIMIT)), string(size_of(kind, LIMIT + 1))
+    given = [
+        Given("/most", [below, below]),
+        Given("/more", [string(40), above, string(40)]),
+        Given("/small", [string(40)] * 3),
+    ]
+    path = write_any(tmp_path, kind, given, 10**9)
+    with open_recording(path) as recording:
+        came = [m.topic for m in recording.messages()]
+        assert [came.count(t) for t in ("/most", "/more", "/small")] == [2, 2, 3]
+        end = recording.end_ns or 0
+        last = recording.last("/more", end)
+        assert last is not None
+        assert len(last.payload) < 100
+        first = recording.next("/more", last.log_ns - 1)
+        assert first is not None
+        assert first.log_ns == last.log_ns
+    said = f"{LIMIT + 1:,} bytes; the limit is {LIMIT:,}"
+    (one,) = warned(path)
+    assert said in one
+    assert "/more" in one
+    assert "recorder" not in one
+    about = reasons(path)
+    assert "left-out" not in about["/most"] + about["/small"]
+    assert "2 left-out" in about["/more"]
+    assert said in about["/more"]
+
+
+def test_a_blob_above_the_limit_is_never_loaded(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_any(tmp_path, "db3", [Given("/tf", []), Given("/ok", [string(40)])])
+    huge = limits.MESSAGE.value + 1
+    with closing(sqlite3.connect(path)) as base, base:
+        base.execute("insert into messages values (null, 0, 5, zeroblob(?))", (huge,))
+    tracemalloc.start()
+    try:
+        assert run([str(path), "--format", "json"]) == 0
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 2**26
+    out, err = capsys.readouterr()
+    said = f"{huge:,} bytes; the limit is {limits.MESSAGE.value:,}"
+    assert said in err
+    rows = {row["name"]: row for row in json.loads(out)["topics"]}
+    assert (rows["/tf"]["code"], rows["/tf"]["count"]) == ("left-out", 0)
+    assert said in rows["/tf"]["reason"]
+    assert rows["/ok"]["code"] != "left-out"
+
+
+# Chunks.
+
+
+def record(opcode: int, content: bytes) -> bytes:
+    return bytes([opcode]) + struct.pack("<Q", len(content)) + content
+
+
+def sized(content: bytes) -> bytes:
+    return struct.pack("<I", len(content)) + content
+
+
+def message(channel: int, time: int) -> bytes:
+    return record(5, struct.pack("<HIQQ", channel, 0, time, time) + string(40))
+
+
+def chunk(content: bytes, says: int, compression: str = "zstd") -> bytes:
+    packed = content
+    if compression == "zstd":
+        packed = zstandard.ZstdCompressor().compress(content)
+    elif compression == "lz4":
+        packed = bytes(cast(Any, lz4.frame).compress(content))
+    head = struct.pack("<QQQI", 1, 2, says, 0) + sized(compression.encode())
+    return record(6, head + struct.pack("<Q", len(packed)) + packed)
+
+
+def mcap_file(folder: Path, records: Sequence[bytes]) -> Path:
+    schema = struct.pack("<H", 1) + b"".join(
+        map(sized, (b"std_msgs/msg/String", b"ros2msg", b"string data\n"))
+    )
+    channels = [
+        record(
+            4, struct.pack("<HH", number, 1) + sized(name) + sized(b"cdr") + sized(b"")
+        )
+        for number, name in ((1, b"/a"), (2, b"/b"))
+    ]
+    begin = MAGIC + record(1, sized(b"ros2") + sized(b"tests")) + record(3, schema)
+    end = record(15, bytes(4)) + record(2, bytes(20)) + MAGIC
+    path = folder / "chunks.mcap"
+    path.write_bytes(begin + b"".join([*channels, *records]) + end)
+    return path
+
+
+@pytest.mark.parametrize("compression", ["zstd", "lz4", ""])
+def test_a_chunk_above_the_limit_is_left_out_alone(
+    compression: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    most = message(1, 10**9) * 300
+    limit(monkeypatch, "CHUNK", len(most))
+    large = most + message(2, 10**9)
+    chunks = [
+        chunk(large, len(large), compression),
+        chunk(most, len(most), compression),
+    ]
+    path = mcap_file(tmp_path, chunks)
+    with open_bag(path) as bag:
+        assert sum(1 for _ in bag.messages()) == 300
+    (one,) = warned(path)
+    at = path.read_bytes().index(chunks[0])
+    assert f"the chunk at byte {at:,} says that it holds {len(large):,} bytes" in one
+    assert f"the limit is {len(most):,}" in one
+    about = reasons(path)
+    assert "left-out" in about["/b"]
+    assert "left-out" not in about["/a"]
+
+
+@pytest.mark.parametrize("compression", ["zstd", "lz4", ""])
+@pytest.mark.parametrize("says", [100, 10**6, 2**62])
+def test_a_recording_of_chunks_that_lie_says_so(
+    compression: str, says: int, tmp_path: Path
+) -> None:
+    content = message(1, 10**9) * 100
+    path = mcap_file(tmp_path, [chunk(content, says, compression)])
+    found = " ".join(warned(path))
+    at = path.read_bytes().index(struct.pack("<QQQI", 1, 2, says, 0)) - 9
+    assert f"the chunk at byte {at:,}" in found
+    assert "the recorder was stopped" not in found
+    about = reasons(path)
+    assert "nothing was published" not in about["/a"] + about["/b"]
+
+
+def test_a_chunk_of_ros_1_above_the_limit_is_left_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = [Given("/a", [string(40)] * 200), Given("/b", [string(1000)])]
+    path = write_any(tmp_path, "bag", given)
+    limit(monkeypatch, "CHUNK", 100)
+    found = warned(path)
+    assert any(
+        "the limit is 100" in one and "the chunk at byte" in one for one in found
+    )
+    assert "the recorder was stopped" not in " ".join(found)
+    about = reasons(path)
+    assert "left-out" in about["/a"]
+    assert "left-out" in about["/b"]
