@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from patience import patience
+from patience import patience, until
 from pictures import Image
 
 from sambot_viz.displays.robot_display import Description
@@ -43,6 +43,7 @@ _HAS_ALL = f"""(number => {{
     && nodePoseData[{json.dumps(_FENCE)}]?.position[0] === number;
 }})"""
 """Whether all that was sent before the fence has been taken."""
+_IS_OPEN = "window.sambotVizLook && window.__viserMutable?.scene"
 _FORGET_PICTURE = "sambotVizDrawn = false; sambotVizLook.frames = 0"
 """What was counted in the last picture is not true of the next scene."""
 
@@ -55,18 +56,26 @@ class SharedPage:
     """
 
     def __init__(self, chromium: Chromium) -> None:
-        options = Options(port=0, gui=False, panels=False, look="rviz")
+        self._chromium = chromium
         self._numbers = itertools.count(1)
+        self._open()
+
+    def _open(self) -> None:
+        """Open server and page."""
+        self._is_whole = True
         self._size = (640, 480)
+        options = Options(port=0, gui=False, panels=False, look="rviz")
         with ExitStack() as opened:
             listener = opened.enter_context(listen(options))
             self._viser = listener.viser
             prepare_page(self._viser)
             address = page_address(listener.url())
-            self._page = chromium.open(address, width=640, height=480)
+            self._page = self._chromium.open(address, width=640, height=480)
             opened.callback(self._page.close)
             self._page.evaluate(DRAW_WHEN_ASKED)
-            self._page.wait_for("window.__viserMutable?.scene", patience(60.0))
+            self._page.wait_for(_IS_OPEN, patience(60.0))
+            # viser knows a page from its first camera on.
+            until(self._viser.get_clients, 20.0)
             self._opened = opened.pop_all()
 
     def close(self) -> None:
@@ -82,6 +91,9 @@ class SharedPage:
         Args:
             options: as those of `Visualizer`.
         """
+        if not self._is_whole:
+            self.close()
+            self._open()
         with Inputs(Options(**options)) as inputs:
 
             def load(described: Description) -> Robot:
@@ -120,6 +132,8 @@ class SharedPage:
             shape: of the picture: height, width, ….
         """
         height, width = shape[:2]
+        # After a page that has crashed or hangs, the next scene gets another one.
+        self._is_whole = False
         if (width, height) != self._size:
             self._page.set_viewport(width, height)
             self._size = width, height
@@ -132,6 +146,7 @@ class SharedPage:
         (client,) = self._viser.get_clients().values()
         camera = session.document_view.camera
         found = picture_in(self._page, client, scene, width, height, camera)
+        self._is_whole = True
         return found.astype(np.int16)
 
     def end_of_recording(
