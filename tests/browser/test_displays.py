@@ -150,7 +150,7 @@ def test_a_name_with_a_tick_box_beside_it_has_the_room_up_to_the_box(
     own: Own,
 ) -> None:
     user, session = own
-    name = "Wheel axes here and there"
+    name = "Wheel axes here, there"
     box = user.box(user.row("Displays", "Grid").one("checkbox"))
     session.display_edits.rename_display(session.scene.displays[0].config, name)
     label = user.row("Displays", name).one("StaticText", name)

@@ -68,10 +68,16 @@ def test_a_mistake_is_shown_beside_the_last_good_robot_until_it_is_fixed(
     for frame in ("base_link", LINK):
         place = [float(v) for v in viz.frames.lookup("base_link", frame).translation]
         until(lambda p=place: not viewer.is_covered(*viewer.project("", p)))
-    # The list takes room from the view; without it, the picture is the one before.
-    viewer.user.click("button", "Close Problems")
+    # The list lies over the view: nothing gets smaller while somebody types elsewhere.
     viewer.settle(viz)
     until(lambda: np.array_equal(settled_picture(viewer), before))
+    # Opened by a hand, it is beside the view.
+    viewer.user.click("button", "Problems: 1 error")
+    viewer.user.gone("treegrid", "Problems")
+    viewer.user.click("button", "Problems: 1 error")
+    viewer.user.find("treegrid", "Problems")
+    viewer.user.until(lambda: settled_picture(viewer).shape[0] < before.shape[0])
+    viewer.user.click("button", "Close Problems")
 
     model.write_text(content, "utf-8")
     viewer.wait_for(f"!({shows(NOTE)})")

@@ -169,14 +169,11 @@ function Choices({ id, label, of, offered, at, value, choose }) {
   /** @param {number} i */
   const isMarked = (i) => (at >= 0 ? i === at : offered[i].name === value);
   return html`<ul class="choices" role="listbox" id=${id} aria-label=${label} popover="manual"
-    ref=${list}>
+    ref=${list} onPointerDown=${(/** @type {Press} */ e) => e.preventDefault()}>
     ${offered.map(
       ({ name, isNew }, i) => html`<li role="option" id=${`${id}-${i}`} key=${name}
       aria-selected=${isMarked(i) ? "true" : "false"}
-      onPointerDown=${(/** @type {Press} */ e) => {
-        e.preventDefault();
-        choose(name);
-      }}
+      onClick=${() => choose(name)}
       >${isNew ? html`${name} <span class="none">not known yet</span>` : name}</li>`,
     )}
     ${!offered.length && html`<li class="none">no names yet</li>`}

@@ -66,9 +66,9 @@ function Choose({ close, folder, name }) {
   };
   return html`<${Dialog} title="Open Config" close=${close} submit=${open}>
     <p>In the folder <b class="path">${folder}</b></p>
-    ${
+    <div class="configs">${
       names?.length
-        ? html`<select size=${Math.min(14, Math.max(4, names.length))} aria-label="Configs"
+        ? html`<select size="10" aria-label="Configs"
           ref=${list} data-first
         onDblClick=${open} onKeyDown=${(/** @type {Key} */ e) => {
           if (e.key === "Enter") {
@@ -83,7 +83,7 @@ function Choose({ close, folder, name }) {
       </select>`
         : html`<p class="empty">
           ${asked && names ? "This folder has no .rviz files." : "Reading the folder…"}</p>`
-    }
+    }</div>
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     <div class="buttons end">
       <button type="submit" class="main" disabled=${!names?.length}>Open</button>

@@ -126,6 +126,6 @@ export function Driving() {
     const { factor, unit } = shownUnit(/** @type {any} */ (row));
     return `${formatNumber(row?.value * factor, 2)} ${unit}`;
   });
-  return html`<span class="driving">Driving ${speeds.join(", ")}
+  return html`<span class="driving"><span class="speeds">Driving ${speeds.join(", ")}</span>
     ${stops && html`<${Stop} />`}</span>`;
 }

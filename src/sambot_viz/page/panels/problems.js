@@ -13,7 +13,7 @@ const KINDS = /** @type {const} */ ([
 ]);
 
 /**
- * @typedef {{shown: boolean, show: (on: boolean) => void, byItself: boolean}} Shown
+ * @typedef {{shown: boolean, show: (on: boolean, byItself?: boolean) => void, byItself: boolean}} Shown
  *   whether the list is shown; byItself: whether there is room to open it for every error
  */
 
@@ -77,7 +77,8 @@ function Numbers({ of, none, icon }) {
             html`<span key=${name} class=${`l-${level}`} aria-hidden="true">
               <${Icon} name=${level} /> ${number}</span>`,
         )
-      : html`<span aria-hidden="true">${icon && html`<${Icon} name=${icon} />`} ${none}</span>`
+      : html`<span aria-hidden="true">${icon && html`<${Icon} name=${icon} />`}
+          <span class=${icon && "none"}> ${none}</span></span>`
   }
     <span class="spoken">${words ? `Problems: ${words}` : none}</span>`;
 }
@@ -94,7 +95,7 @@ function useOpening(count, { shown, show, byItself }) {
     Object.assign(known, { errors: count.error, old: count.old });
     if ((byItself && count.error > Math.max(0, before.errors)) || (count.old && !before.old)) {
       known.opened = known.opened || !shown;
-      show(true);
+      if (!shown) show(true, true);
     } else if (!count.error && (known.opened || before.errors < 0)) {
       // What was open when the page was left is not opened for mere warnings.
       known.opened = false;

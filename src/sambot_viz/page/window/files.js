@@ -73,8 +73,10 @@ export function FileName() {
   useEffect(() => {
     document.title = `${shown} - sambot-viz`;
   }, [shown]);
-  // Of a long name the middle is left out: its end has the star.
-  const tail = shown.length > LONG ? shown.slice(-TAIL) : "";
+  // Of a long name the middle is left out: its end has the star, or room for it.
+  const text = name || "no file yet";
+  const tail = text.length > LONG ? text.slice(-TAIL) : "";
+  const star = html`<span class=${modified ? "star" : "star none"}>*</span>`;
   const where = own
     ? ""
     : name
@@ -82,7 +84,9 @@ export function FileName() {
       : "";
   const title = `${name || "no file yet"}: ${modified ? "unsaved changes." : "no changes."} ${where}`;
   return html`<span class="file-name" title=${title}><bdi>
-    ${shown.slice(0, shown.length - tail.length)}</bdi>${tail && html`<bdi>${tail}</bdi>`}</span>`;
+    ${text.slice(0, text.length - tail.length)}${!tail && star}</bdi>${
+      tail && html`<bdi>${tail}${star}</bdi>`
+    }</span>`;
 }
 
 /** The keys of the file menu, which also act while a text is typed. */

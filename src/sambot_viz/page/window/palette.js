@@ -122,8 +122,12 @@ function Palette({ close }) {
   const marked = Math.min(at, shown.length - 1);
   /** @type {Ref} */
   const list = useRef(null);
+  // What the mouse marks is not scrolled: it would be another one then.
+  const byMouse = useRef(false);
   useLayoutEffect(() => {
-    list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
+    if (!byMouse.current)
+      list.current.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
+    byMouse.current = false;
   }, [marked, text]);
   /** @param {Target | undefined} target */
   const go = (target) => {
@@ -160,7 +164,10 @@ function Palette({ close }) {
       ${shown.map(
         (one, i) => html`<li class="option" role="option" id=${`palette-${i}`} key=${i}
           aria-selected=${String(i === marked)} onClick=${() => go(one)}
-          onPointerMove=${() => setAt(i)}>
+          onPointerMove=${() => {
+            byMouse.current = i !== marked;
+            setAt(i);
+          }}>
           <${Icon} name=${one.icon} /><b>${one.name}</b><span class="soft">${one.where}</span>
           ${one.keys && html`<kbd>${one.keys}</kbd>`}</li>`,
       )}

@@ -75,8 +75,14 @@ function choose(name) {
 /** The tab that the list of problems has taken the place of. */
 let covered = "joints";
 
-/** Show the list of problems, or hide it. @param {boolean} on */
-export function showProblems(on) {
+/** Whether the list of problems lies over the view.
+ * @type {Cell<boolean>} */
+export const problemsOver = new Cell(/** @type {boolean} */ (false));
+
+/** Show the list of problems, or hide it.
+ * @param {boolean} on @param {boolean} [byItself] it then takes no room from the view */
+export function showProblems(on, byItself = false) {
+  problemsOver.set(on && byItself);
   if (shape.value === "wide") return hidden.set({ ...hidden.value, problems: !on });
   if (on && tab.value !== "problems") covered = tab.value;
   choose(on ? "problems" : covered);

@@ -192,7 +192,8 @@ function Controls({ time }) {
       onInput=${(/** @type {any} */ event) =>
         go(Number(event.currentTarget.value), gesture.current)}
       onKeyDown=${key} />
-    <span class="time"><${Popup} name="Time" role="dialog" title="ROS and wall time" label=${short}>
+    <span class="time" style=${`--chars: ${clocks(most, most, false).length}`}>
+      <${Popup} name="Time" role="dialog" title="ROS and wall time" label=${short}>
       ${() => html`<${Times} ros=${() => begin + now()} first=${() => begin} />`}<//></span>
     <label class="rate">Rate <select class="needs-control" aria-label="Rate" value=${String(rate)}
       onChange=${(/** @type {any} */ event) => send("player/rate", Number(event.currentTarget.value))}>

@@ -18,7 +18,16 @@ import { DisplaysPanel } from "../panels/displays.js";
 import { Driving } from "../panels/drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
-import { panelList, SHEET, showProblems, shownTab, tab, tabNames, TABS } from "./panels.js";
+import {
+  panelList,
+  problemsOver,
+  SHEET,
+  showProblems,
+  shownTab,
+  tab,
+  tabNames,
+  TABS,
+} from "./panels.js";
 import { Asking } from "./people.js";
 import { PlayerBar } from "./player_bar.js";
 import { StatusBar } from "./status_bar.js";
@@ -202,8 +211,9 @@ function Tabs({ names, of, current }) {
 /** What is below the view: the problems, when they are open. */
 function Bottom() {
   const away = hidden.use();
+  const over = problemsOver.use() ? " over" : "";
   if (away.problems !== false) return null;
-  return html`<section class="panel bottom" aria-label="Problems">
+  return html`<section class=${`panel bottom${over}`} aria-label="Problems">
     <${Splitter} side="bottom" label="Height of Problems" />
     <header class="title">Problems
       <button class="flat" aria-label="Close Problems" title="Close"
