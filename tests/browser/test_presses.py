@@ -32,8 +32,8 @@ _BEYOND = """(() => {
   const box = document.querySelector(".displays .treebox");
   const ends = [...box.querySelectorAll("[role=row]")].map((row) =>
     row.getBoundingClientRect().bottom);
-  return Math.ceil(Math.max(...ends) + 2 + box.scrollTop - box.getBoundingClientRect().top)
-    - box.clientHeight;
+  const top = box.getBoundingClientRect().top - box.scrollTop;
+  return Math.ceil(Math.max(...ends) + 2 - top) - box.clientHeight;
 })()"""
 
 
@@ -41,7 +41,7 @@ _BEYOND = """(() => {
 def page_of(
     viz_for_all: Visualizer, open_for_all: Callable[..., ViewerPage]
 ) -> Callable[[tuple[int, int]], ViewerPage]:
-    """The page with the bundled robot in a window of a size; a narrow one is a phone."""
+    """The page with the bundled robot in a window of a size; a phone's is narrow."""
     return cache(partial(quick_page, open_for_all, viz_for_all))
 
 

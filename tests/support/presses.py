@@ -2,9 +2,9 @@
 
     assert press_all(viewer) == []
 
-Real presses, at the middle of each control that is in sight. Their clicks are taken away:
-what a click does may move things, a press, a hover and the focus must not. Otherwise the
-click is lost, or is for something else.
+Real presses, at the middle of each control that is in sight. Their clicks are taken
+away: what a click does may move things, a press, a hover and the focus must not.
+Otherwise the click is lost, or is for something else.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from typing import Any
 from viewer_page import ViewerPage
 
 _PLACES = """(() => {
-  const CONTROLS = `button, input, select, textarea, a[href], label.tick, .twist:not(.none),
-    [role=row], [role=option], [role^=menuitem], [role=separator][tabindex]`;
+  const CONTROLS = `button, input, select, textarea, a[href], label.tick,
+    .twist:not(.none), [role=row], [role=option], [role^=menuitem],
+    [role=separator][tabindex]`;
   const box = (one) => {
     const { left, top, width, height } = one.getBoundingClientRect();
     // Of a line that is dragged only the end moves when rows come.
@@ -32,7 +33,8 @@ _PLACES = """(() => {
     const words = (one.ariaLabel || one.textContent).trim().replace(/\\s+/g, " ");
     return `${role} '${words.slice(0, 40)}'`;
   };
-  const drawn = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  const drawn = () =>
+    new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
   const places = {
     holds: false,
     all: [],
@@ -50,11 +52,12 @@ _PLACES = """(() => {
     },
     compare(what, at) {
       const moved = [...this.boxes].filter(([one, before]) =>
-        one.isConnected && box(one).some((value, i) => Math.abs(value - before[i]) > 0.5));
+        one.isConnected
+          && box(one).some((value, i) => Math.abs(value - before[i]) > 0.5));
       if (moved.length) {
         const [one, before] = moved[0];
-        this.faults.push(`${what} moves ${said(one)} and ${moved.length - 1} others: ${before}`
-          + ` to ${box(one)}`);
+        this.faults.push(`${what} moves ${said(one)} and ${moved.length - 1} others:`
+          + ` ${before} to ${box(one)}`);
       }
       this.remember();
     },
@@ -66,8 +69,9 @@ _PLACES = """(() => {
     async after(i, at) {
       await drawn();
       const one = this.all[i];
-      if (!isHit(one, at)) this.faults.push(
-        `pressing ${said(one)}: at ${at} is ${document.elementFromPoint(...at)?.className}`);
+      const under = document.elementFromPoint(...at)?.className;
+      if (!isHit(one, at))
+        this.faults.push(`pressing ${said(one)}: at ${at} is ${under}`);
       this.compare(`pressing ${said(one)}`);
     },
     async focus() {
