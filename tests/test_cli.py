@@ -137,7 +137,7 @@ def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
         with urlopen(f"http://127.0.0.1:{port}") as page:
             assert page.status == 200
         process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=10)
+        _, err = process.communicate(timeout=patience(10.0))
         assert err == ""
 
 
@@ -165,7 +165,7 @@ def test_a_snapshot_that_is_ended_removes_what_its_browser_wrote(
         started.read_text()
         assert list(folder.iterdir())
         process.send_signal(number)
-        _, err = process.communicate(timeout=20)
+        _, err = process.communicate(timeout=patience(20.0))
         assert (process.returncode, err) == (code, "")
     assert list(folder.iterdir()) == []
 

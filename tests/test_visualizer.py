@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from patience import patience
 from protocol_client import ProtocolClient, Received
 
 from sambot_viz import (
@@ -240,7 +241,7 @@ def test_stopping_twice_is_fine_and_ends_the_wait() -> None:
     waiting = threading.Thread(target=viz.wait)
     waiting.start()
     viz.stop()
-    waiting.join(timeout=30)
+    waiting.join(timeout=patience(30.0))
     assert not waiting.is_alive()
     viz.stop()
 
@@ -258,7 +259,7 @@ def test_no_thread_is_left_after_the_end() -> None:
         pass
     left = [t for t in threading.enumerate() if t not in before]
     for thread in left:
-        thread.join(timeout=30)
+        thread.join(timeout=patience(30.0))
     assert [t.name for t in left if t.is_alive()] == []
 
 

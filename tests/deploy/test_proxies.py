@@ -18,7 +18,7 @@ import pytest
 import viser
 from a_jupyter import wait_until
 from inside import session_of
-from patience import until
+from patience import patience, until
 from protocol_client import CAMERA
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
@@ -93,7 +93,7 @@ class Proxy:
             additional_headers=headers,
             ssl=self.trust,
         ) as socket_:
-            return len(socket_.recv(timeout=10.0))
+            return len(socket_.recv(timeout=patience(10.0)))
 
 
 @pytest.fixture(scope="module")
@@ -156,7 +156,7 @@ def behind(
             yield Proxy(port, viz, trust, plain_port, second)
         finally:
             process.terminate()
-            process.communicate(timeout=10.0)
+            process.communicate(timeout=patience(10.0))
 
 
 @contextlib.contextmanager
@@ -298,7 +298,9 @@ def test_viewers_are_called_as_they_have_logged_in(proxy: Proxy) -> None:
 
 
 def test_nginx_sends_http_to_https(nginx: Proxy) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", nginx.plain_port, timeout=10)
+    connection = http.client.HTTPConnection(
+        "127.0.0.1", nginx.plain_port, timeout=patience(10.0)
+    )
     with contextlib.closing(connection):
         connection.request("GET", "/robot/?a=b", headers={"Host": "localhost"})
         answer = connection.getresponse()

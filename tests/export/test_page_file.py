@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
@@ -33,7 +34,7 @@ def test_while_a_page_is_made_the_loop_and_the_session_are_free(
         running[0] += 1
         most[0] = max(most[0], running[0])
         begun.set()
-        assert go_on.wait(20.0)
+        assert go_on.wait(patience(20.0))
         running[0] -= 1
         return b"page"
 
@@ -48,13 +49,13 @@ def test_while_a_page_is_made_the_loop_and_the_session_are_free(
             asyncio.run_coroutine_threadsafe(ask(session, browser, "sweep"), loop)
             for browser in browsers
         ]
-        assert begun.wait(10.0)
+        assert begun.wait(patience(10.0))
 
         async def answer() -> str:
             return "free"
 
         assert asyncio.run_coroutine_threadsafe(answer(), loop).result(5.0) == "free"
-        assert session.lock.acquire(timeout=5.0)
+        assert session.lock.acquire(timeout=patience(5.0))
         session.lock.release()
         viz.set_joint_positions({"drivewhl_l_joint": 1.0})
         go_on.set()

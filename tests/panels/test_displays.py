@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from inside import session_of
 from panel_rows import commands_of, data_of, edit, panel_of, rows_of
+from patience import patience
 
 from sambot_viz import SambotVizError, Visualizer
 from sambot_viz.frames import Transform
@@ -377,7 +378,7 @@ def test_positions_follow_a_joint(displays: Displays, session: Session) -> None:
     moved = threading.Event()
     connect([session.robot.positions], moved.set)
     session.robot.set_positions({"turn": 3.0})
-    assert moved.wait(10)
+    assert moved.wait(patience(10.0))
     assert displays.panel.values()[shown.id] != "0; 0; 0; 1"
 
 

@@ -12,6 +12,7 @@ import msgspec.msgpack
 import numpy as np
 import pytest
 import viser
+from patience import patience
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
@@ -350,10 +351,10 @@ def test_a_browser_that_does_not_read_is_disconnected(
     socket.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
     for number in range(64):
         viz.viser.scene.add_image(f"/large{number}", noise(), 1.0, 1.0, format="png")
-    assert gone.wait(20.0)
+    assert gone.wait(patience(20.0))
     with pytest.raises(ConnectionClosed):
         while True:
-            socket.recv(timeout=20.0)
+            socket.recv(timeout=patience(20.0))
 
 
 def noise() -> np.ndarray:
@@ -376,4 +377,4 @@ def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
             client.send_camera()
         client.close()
         # At the rate of the flood that would be 24 seconds.
-        assert gone.wait(12.0)
+        assert gone.wait(patience(12.0))

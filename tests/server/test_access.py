@@ -9,6 +9,7 @@ from urllib.request import Request, urlopen
 
 import pytest
 import viser
+from patience import patience
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
@@ -142,7 +143,9 @@ def test_a_foreign_name_for_this_machine_gets_no_page(port: int) -> None:
 
 def raw_answer(port: int, *headers: str) -> bytes:
     """The first line that the server answers to a request with these headers."""
-    with socket.create_connection(("127.0.0.1", port), timeout=10.0) as connection:
+    with socket.create_connection(
+        ("127.0.0.1", port), timeout=patience(10.0)
+    ) as connection:
         request = "\r\n".join(("GET / HTTP/1.1", *headers, "", ""))
         connection.sendall(request.encode())
         return connection.makefile("rb").readline()
@@ -192,7 +195,7 @@ def test_a_page_of_another_version_is_disconnected_and_nothing_is_printed(
         f"ws://127.0.0.1:{port}", subprotocols=[Subprotocol("viser-v0.0.1")]
     ) as old:
         with pytest.raises(ConnectionClosed):
-            old.recv(timeout=10.0)
+            old.recv(timeout=patience(10.0))
         assert old.close_code == 1002
     assert capfd.readouterr() == ("", "")
 

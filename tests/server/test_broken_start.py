@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from inside import signals_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import RobotError, Visualizer, bundled, load_robot
@@ -51,7 +52,7 @@ class Shown:
 
     def wait_for(self, condition: Callable[[], object]) -> None:
         with self._changed:
-            assert self._changed.wait_for(condition, 10)
+            assert self._changed.wait_for(condition, patience(10.0))
 
     @property
     def codes(self) -> list[str]:

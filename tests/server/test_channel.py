@@ -15,7 +15,7 @@ import pytest
 import viser
 from inside import all_have_rows
 from page_rows import decode
-from patience import until
+from patience import patience, until
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.protocol import State
@@ -86,13 +86,13 @@ def ticket() -> str:
 
 def rows(channel: ClientConnection) -> list[Any]:
     """What a page gets first: the rows of the session, and its own."""
-    return [decode(channel.recv(timeout=10.0)) for _ in range(2)]
+    return [decode(channel.recv(timeout=patience(10.0))) for _ in range(2)]
 
 
 def until_changed(channel: ClientConnection, row: str) -> Any:
     """What has changed of a row, as soon as something has."""
     while True:
-        changed = decode(channel.recv(timeout=10.0)).get("rows", {})
+        changed = decode(channel.recv(timeout=patience(10.0))).get("rows", {})
         if row in changed:
             return changed[row]
 
@@ -100,14 +100,14 @@ def until_changed(channel: ClientConnection, row: str) -> Any:
 def answers(channel: ClientConnection) -> None:
     """Wait for the answer to a ping; rows that are made late may come before it."""
     channel.send(PING)
-    while channel.recv(timeout=10.0) != PONG:
+    while channel.recv(timeout=patience(10.0)) != PONG:
         pass
 
 
 def closed_with(channel: ClientConnection) -> int | None:
     with pytest.raises(ConnectionClosed) as closed:
         while True:
-            channel.recv(timeout=10.0)
+            channel.recv(timeout=patience(10.0))
     return closed.value.rcvd and closed.value.rcvd.code
 
 
@@ -131,12 +131,12 @@ def test_both_connections_of_a_page_are_one_client_in_any_order(
     for channel in (early, late):
         answers(channel)
     early.send(f'["{JOINT}",0.5]')
-    patches = [decode(early.recv(timeout=10.0)) for _ in range(2)]
+    patches = [decode(early.recv(timeout=patience(10.0))) for _ in range(2)]
     # Undo is offered where the joint was moved, and nowhere else.
     assert {patch["of"] for patch in patches} == {"session", "browser"}
     assert until_changed(late, JOINT) == {"value": 0.5}
     late.send(PING)
-    while (message := late.recv(timeout=10.0)) != PONG:
+    while (message := late.recv(timeout=patience(10.0))) != PONG:
         assert decode(message)["of"] == "session"
 
 
@@ -240,7 +240,7 @@ def test_both_connections_of_a_page_have_one_limit(
 
     monkeypatch.setattr(asyncio, "sleep", pause)
     channel.send(PING)
-    while channel.recv(timeout=10.0) != PONG:
+    while channel.recv(timeout=patience(10.0)) != PONG:
         pass
     assert max(pauses, default=0.0) == pytest.approx(0.2)
 
@@ -350,7 +350,7 @@ def test_a_channel_that_is_lost_alone_leaves_the_client_as_it_is(
     channel.close()
     rows(pages.channel(viz, ticket))
     assert list(viz.viser.get_clients()) == [before]
-    assert client.ping().wait(10.0)
+    assert client.ping().wait(patience(10.0))
 
 
 def test_a_page_without_a_first_camera_changes_nothing(
@@ -360,7 +360,7 @@ def test_a_page_without_a_first_camera_changes_nothing(
     channel = pages.channel(viz, ticket)
     channel.send(f'["{JOINT}",0.5]')
     channel.send(PING)
-    assert channel.recv(timeout=10.0) == PONG
+    assert channel.recv(timeout=patience(10.0)) == PONG
     client.send(msgspec.msgpack.encode({"type": "ViewerCameraMessage", **CAMERA}))
     rows(channel)
     assert viz.joint_positions[JOINT[2:]] == 0.0
@@ -403,7 +403,7 @@ def test_a_viewer_who_waits_with_the_ticket_of_the_presenter_is_closed_at_once(
         viewer.send(f'["{JOINT}",0.5]')
         pages.viser(viz, ticket, query=f"&token={PRESENTER}")
         with pytest.raises(ConnectionClosed):
-            viewer.recv(timeout=10.0)
+            viewer.recv(timeout=patience(10.0))
         assert viz.joint_positions[JOINT[2:]] == 0.0
 
 

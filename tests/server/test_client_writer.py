@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
+from patience import patience
 
 from sambot_viz.server.connections import client_writer
 from sambot_viz.server.connections.client_writer import PIECE, ClientWriter
@@ -53,7 +54,7 @@ def send(line: Line, size: int, monkeypatch: pytest.MonkeyPatch) -> None:
         line.send = cast(Any, line.send)
         await ClientWriter(cast(Any, line)).send(bytes(size))
 
-    asyncio.run(asyncio.wait_for(run(), 10.0))
+    asyncio.run(asyncio.wait_for(run(), patience(10.0)))
 
 
 def test_a_line_that_takes_a_little_all_the_time_gets_everything(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 import viser
+from patience import patience
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import Close, Frame, Opcode
 from websockets.sync.client import ClientConnection, connect
@@ -50,7 +51,7 @@ def test_a_flood_of_small_frames_ends_its_connection(
     client.socket.sendall(data)
     with pytest.raises(ConnectionClosed) as closed:
         while True:
-            client.recv(timeout=10.0)
+            client.recv(timeout=patience(10.0))
     assert closed.value.rcvd == Close(1002, "too many small frames")
 
 
@@ -63,7 +64,7 @@ def test_who_does_not_stop_sending_is_disconnected(client: ClientConnection) -> 
 def test_a_message_in_large_parts_and_a_few_pings_are_taken(
     client: ClientConnection,
 ) -> None:
-    assert client.ping().wait(10.0)
+    assert client.ping().wait(patience(10.0))
     client.send([b"x" * 2000] * 20)
     for _ in range(20):
-        assert client.ping().wait(10.0)
+        assert client.ping().wait(patience(10.0))

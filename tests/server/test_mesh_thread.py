@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from patience import patience
 from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz import Visualizer
@@ -46,7 +47,7 @@ class Gated(MeshCache):
         self.times: list[Path] = []
 
     def read(self, asset: Asset) -> Content:
-        assert self.passes.acquire(timeout=20)
+        assert self.passes.acquire(timeout=patience(20.0))
         self.times.append(asset.path)
         return super().read(asset)
 
@@ -197,7 +198,7 @@ def test_all_listeners_of_a_file_are_called_and_none_after_the_end(
     for listener in (one, two, two):
         thread.request(asset, listener)
     cache.let(1)
-    assert one.called.wait(20) and two.called.wait(20)
+    assert one.called.wait(patience(20.0)) and two.called.wait(patience(20.0))
     assert one.heard == two.heard == [{asset}]
     thread.close()
     cache.let(1)
@@ -216,7 +217,7 @@ def test_a_listener_that_fails_ends_neither_the_thread_nor_the_others(
         for listener in (bad, good):
             listener.called.clear()
             thread.request(Asset("mesh", tmp_path / f"{number}.stl"), listener)
-        assert bad.called.wait(20) and good.called.wait(20)
+        assert bad.called.wait(patience(20.0)) and good.called.wait(patience(20.0))
     thread.close()
     assert errors and {str(error) for error in errors} == {"a session failed"}
 

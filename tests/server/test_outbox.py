@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 import viser
-from patience import until
+from patience import patience, until
 from protocol_client import ProtocolClient, decode_frame
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
@@ -145,7 +145,7 @@ def test_a_thread_that_adds_a_message_touches_nobody_who_waits(
         await asyncio.sleep(0)
         seen.append(waiting.done())
         await asyncio.to_thread(server.scene.add_frame, "/a")
-        await asyncio.wait_for(waiting, 10.0)
+        await asyncio.wait_for(waiting, patience(10.0))
 
     loop = server.get_event_loop()
     asyncio.run_coroutine_threadsafe(wait(), loop).result(20.0)

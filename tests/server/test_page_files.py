@@ -12,6 +12,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from patience import patience
 
 import sambot_viz.page
 from sambot_viz import Visualizer
@@ -27,7 +28,9 @@ def port() -> Iterator[int]:
 
 def ask(port: int, path: str, **headers: str) -> tuple[http.client.HTTPResponse, bytes]:
     """The answer to a request for exactly this path, and its content."""
-    with closing(http.client.HTTPConnection("127.0.0.1", port, timeout=10)) as server:
+    with closing(
+        http.client.HTTPConnection("127.0.0.1", port, timeout=patience(10.0))
+    ) as server:
         server.request(
             "GET", path, headers={k.replace("_", "-"): v for k, v in headers.items()}
         )

@@ -14,6 +14,7 @@ from typing import Any, cast
 import msgspec.msgpack
 import pytest
 import viser
+from patience import patience
 from protocol_client import CAMERA, ProtocolClient
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
@@ -52,7 +53,7 @@ def early_client(server: viser.ViserServer) -> ClientConnection:
         compression=None,
         max_size=None,
     )
-    assert client.ping().wait(10.0)
+    assert client.ping().wait(patience(10.0))
     return client
 
 
@@ -105,7 +106,7 @@ def test_the_filter_sees_all_that_a_client_sends_while_the_program_starts(
         camera = {"type": "ViewerCameraMessage", **CAMERA}
         for message in (share, camera):
             clients[0].send(msgspec.msgpack.encode(message))
-        assert clients[0].ping().wait(10.0)
+        assert clients[0].ping().wait(patience(10.0))
 
     with started(early, monkeypatch) as made:
         number = made.viser.gui.add_number("number", 1.0)
@@ -113,7 +114,7 @@ def test_the_filter_sees_all_that_a_client_sends_while_the_program_starts(
         (uuid,) = cast(Any, made.viser.gui)._gui_input_handle_from_uuid
         update = {"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": 2.0}}
         clients[0].send(msgspec.msgpack.encode(update))
-        assert taken.wait(10.0), "the camera was not seen"
+        assert taken.wait(patience(10.0)), "the camera was not seen"
         dropped = [record.getMessage() for record in caplog.records]
         assert [m for m in dropped if "not one of the messages" in m], dropped
         clients[0].close()
@@ -128,7 +129,7 @@ def test_a_message_that_is_too_long_is_refused_also_while_the_program_starts(
         client = early_client(server)
         client.send(b"x" * (inbound_filter.LARGEST_MESSAGE + 1))
         with pytest.raises(ConnectionClosed) as closed:
-            client.recv(timeout=10.0)
+            client.recv(timeout=patience(10.0))
         assert closed.value.rcvd is not None
         codes.append(closed.value.rcvd.code)
 

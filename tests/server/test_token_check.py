@@ -13,7 +13,7 @@ from types import SimpleNamespace
 
 import pytest
 import viser
-from patience import until
+from patience import patience, until
 from websockets.datastructures import Headers
 from websockets.exceptions import InvalidStatus
 from websockets.http11 import Request
@@ -51,7 +51,7 @@ class Answered:
 
 
 def ask(port: int, path: str, headers: Mapping[str, str] | None = None) -> Answered:
-    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=10.0)
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=patience(10.0))
     with contextlib.closing(connection):
         connection.request("GET", path, headers=dict(headers or {}))
         answer = connection.getresponse()
@@ -60,7 +60,9 @@ def ask(port: int, path: str, headers: Mapping[str, str] | None = None) -> Answe
 
 def raw_status(port: int, line: bytes, header: bytes) -> int:
     """The status for a request with bytes that a well-behaved client does not send."""
-    with socket.create_connection(("127.0.0.1", port), timeout=10.0) as connection:
+    with socket.create_connection(
+        ("127.0.0.1", port), timeout=patience(10.0)
+    ) as connection:
         host = f"Host: 127.0.0.1:{port}".encode()
         connection.sendall(b"\r\n".join((line + b" HTTP/1.1", host, header, b"", b"")))
         return int(connection.makefile("rb").readline().split()[1])
@@ -219,7 +221,7 @@ def test_guesses_are_slowed_down_and_who_is_in_stays(
         for thread in guesses:
             thread.join()
         assert sorted(statuses) == [401, 401, 429, 429, 429, 429]
-        in_.ping().wait(5.0)
+        in_.ping().wait(patience(5.0))
     assert ask(port, f"/?token={TOKEN}").status == 303
 
 

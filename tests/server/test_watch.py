@@ -101,7 +101,7 @@ def test_a_save_is_reported_once_whichever_way_the_editor_saves(
     path.write_text("old", "utf-8")
     changes = follow(path)
     save(path, "new")
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
     assert path.read_text("utf-8") == "new"
 
 
@@ -131,7 +131,7 @@ def test_a_file_that_is_emptied_in_the_middle_of_a_look_is_waited_for(
     watcher = FileWatcher(lambda: watched, changed, lambda _: None)
     watcher.start()
     try:
-        assert contents.get(timeout=10) == "new"
+        assert contents.get(timeout=patience(10.0)) == "new"
     finally:
         watcher.close()
 
@@ -145,7 +145,7 @@ def test_folders_with_blanks_and_korean_letters_are_watched(
     path.write_text("old", "utf-8")
     changes = follow(path)
     path.write_text("newer", "utf-8")
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
 
 
 def test_a_file_whose_name_is_no_text_does_not_end_the_watching(
@@ -161,7 +161,7 @@ def test_a_file_whose_name_is_no_text_does_not_end_the_watching(
         except OSError:
             pytest.skip("this file system takes no such names")
         path.write_text(content, "utf-8")
-        assert changes.get(timeout=10) == {path}
+        assert changes.get(timeout=patience(10.0)) == {path}
     assert troubles == []
 
 
@@ -176,11 +176,11 @@ def test_a_save_behind_a_link_and_another_target_of_it_are_reported(
     link.symlink_to(tmp_path / "there" / "one")
     changes = follow(link)
     (tmp_path / "there" / "one").write_text("changed", "utf-8")
-    assert changes.get(timeout=10) == {link}
+    assert changes.get(timeout=patience(10.0)) == {link}
     new = tmp_path / "here" / "new"
     new.symlink_to(tmp_path / "there" / "two")
     new.replace(link)
-    assert changes.get(timeout=10) == {link}
+    assert changes.get(timeout=patience(10.0)) == {link}
 
 
 def test_a_folder_that_was_created_again_is_watched_again(
@@ -191,12 +191,12 @@ def test_a_folder_that_was_created_again_is_watched_again(
     path.write_text("one", "utf-8")
     changes = follow(path)
     shutil.rmtree(path.parent)
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
     path.parent.mkdir()
     path.write_text("two", "utf-8")
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
     path.write_text("three", "utf-8")
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
 
 
 def test_without_the_systems_help_files_are_polled_and_that_is_reported_once(
@@ -213,7 +213,7 @@ def test_without_the_systems_help_files_are_polled_and_that_is_reported_once(
     path.write_text("old", "utf-8")
     changes = follow(path, troubles=troubles)
     path.write_text("newer", "utf-8")
-    assert changes.get(timeout=10) == {path}
+    assert changes.get(timeout=patience(10.0)) == {path}
     assert troubles == ["OS file watch limit reached."]
 
 
@@ -243,10 +243,10 @@ def test_an_error_while_looking_does_not_end_the_watching(
     watcher.start()
     watcher.ask_again()
     try:
-        assert failed.wait(10)
+        assert failed.wait(patience(10.0))
         for content in ("new", "newer"):
             path.write_text(content, "utf-8")
-            assert changes.get(timeout=10) == {path}
+            assert changes.get(timeout=patience(10.0)) == {path}
     finally:
         watcher.close()
     assert [r.levelname for r in caplog.records] == ["ERROR"] * 3
@@ -270,15 +270,15 @@ def test_what_counts_is_asked_only_when_it_may_have_changed(
     try:
         for content in ("new", "newer"):
             first.write_text(content, "utf-8")
-            assert changes.get(timeout=10) == {first}
+            assert changes.get(timeout=patience(10.0)) == {first}
         assert next(asked) == 1
         # It was read, then saved, and only then it is told that it counts.
         files.append(later)
         replace(later, "new")
         watcher.ask_again()
-        assert changes.get(timeout=10) == {later}
+        assert changes.get(timeout=patience(10.0)) == {later}
         replace(later, "newer")
-        assert changes.get(timeout=10) == {later}
+        assert changes.get(timeout=patience(10.0)) == {later}
         assert next(asked) == 3
     finally:
         watcher.close()
@@ -307,11 +307,11 @@ def test_what_a_callback_reads_counts_from_then_on_and_once(
         # It was there before the next look.
         os.utime(part, ns=(0, 0))
         replace(first, "new")
-        assert changes.get(timeout=10) == {first}
+        assert changes.get(timeout=patience(10.0)) == {first}
         replace(first, "newer")
-        assert changes.get(timeout=10) == {first}
+        assert changes.get(timeout=patience(10.0)) == {first}
         replace(part, "newer")
-        assert changes.get(timeout=10) == {part}
+        assert changes.get(timeout=patience(10.0)) == {part}
     finally:
         watcher.close()
 
@@ -346,7 +346,7 @@ class Followed:
 
     def wait_for(self, condition: Callable[[], object]) -> None:
         with self._told:
-            assert self._told.wait_for(condition, 10)
+            assert self._told.wait_for(condition, patience(10.0))
 
     def save(self, old: str, new: str, path: Path | None = None) -> None:
         path = path or self.model
@@ -382,11 +382,11 @@ def test_a_mistake_keeps_the_robot_and_is_shown_until_it_is_fixed(
 ) -> None:
     sam_bot.save("</robot>", "</rob>")
     sam_bot.wait_for(lambda: sam_bot.failed)
-    assert sam_bot.reports.get(timeout=10)[0].severity == "error"
+    assert sam_bot.reports.get(timeout=patience(10.0))[0].severity == "error"
     assert "front_caster" in sam_bot.viz.frames.frames
     sam_bot.save("</rob>", "</robot>")
     sam_bot.wait_for(lambda: not sam_bot.failed)
-    assert sam_bot.reports.get(timeout=10) == ()
+    assert sam_bot.reports.get(timeout=patience(10.0)) == ()
 
 
 def test_an_sdf_file_is_followed_and_its_mistakes_have_their_lines(
@@ -399,14 +399,14 @@ def test_an_sdf_file_is_followed_and_its_mistakes_have_their_lines(
         sam_bot.wait_for(lambda: "rear_caster" in sam_bot.viz.frames.frames)
         assert sam_bot.viz.joint_positions[LEFT] == 1.25
         sam_bot.save('relative_to="caster_joint"', 'relative_to="castor_joint"')
-        (problem,) = sam_bot.reports.get(timeout=10)
+        (problem,) = sam_bot.reports.get(timeout=patience(10.0))
         lines = sam_bot.model.read_text("utf-8").splitlines()
         wrong = next(n for n, line in enumerate(lines, 1) if "castor" in line)
         assert problem.line == wrong
         assert problem.hint == "write caster_joint"
         assert "rear_caster" in sam_bot.viz.frames.frames
         sam_bot.save("castor_joint", "caster_joint")
-        assert sam_bot.reports.get(timeout=10) == ()
+        assert sam_bot.reports.get(timeout=patience(10.0)) == ()
     finally:
         sam_bot.viz.stop()
 

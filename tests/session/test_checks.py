@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from patience import patience
 from protocol_client import ProtocolClient, wait_for_workers
 
 from sambot_viz import Problem, Visualizer, checks, load_robot
@@ -117,7 +118,7 @@ def test_a_mesh_in_millimetres_is_reported_when_the_picture_has_read_it(
         '<mesh filename="p.obj"/></geometry></visual></link></robot>'
     )
     with Visualizer(model, port=0) as viz:
-        assert session_of(viz).scene.context.assets.wait(20)
+        assert session_of(viz).scene.context.assets.wait(patience(20.0))
         wait_for_workers()
         assert codes(viz) == ["mesh-size"]
 
@@ -144,7 +145,7 @@ def test_what_was_checked_late_does_not_replace_what_is_newer(
         if begun.is_set():
             return [new]
         begun.set()
-        assert newer.wait(10)
+        assert newer.wait(patience(10.0))
         return [old]
 
     with Visualizer(model, port=0) as viz:
@@ -154,7 +155,7 @@ def test_what_was_checked_late_does_not_replace_what_is_newer(
         session.show_robot(load_robot(model))
         thread = threading.Thread(target=session.checks.run)
         thread.start()
-        assert begun.wait(10)
+        assert begun.wait(patience(10.0))
         # A mesh has been read meanwhile.
         session.scene.context.assets.read_count += 1
         session.checks.run()

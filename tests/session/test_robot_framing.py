@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from camera_reports import report, told, vector3
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled
@@ -197,7 +198,7 @@ class Gated(MeshCache):
         self.gate = threading.Event()
 
     def read(self, asset: Asset) -> Content:
-        assert self.gate.wait(20)
+        assert self.gate.wait(patience(20.0))
         return super().read(asset)
 
 

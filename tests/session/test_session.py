@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from inside import session_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import FrameError, JointError, Visualizer, load_robot
@@ -143,7 +144,7 @@ def test_a_listener_may_stop_the_viewer(viz: Visualizer, session: Session) -> No
 
     connect([session.robot.positions], stop)
     session.worker.post(lambda: session.robot.set_positions({LEFT: 1.0}))
-    assert stopped.wait(10)
+    assert stopped.wait(patience(10.0))
     session.worker.join(10)
     assert not session.worker.is_alive()
 
@@ -160,12 +161,12 @@ def test_a_step_of_motion_that_fails_stops_the_motion_and_is_shown(
     with monkeypatch.context() as patch:
         patch.setattr(session.motion, "advance", broken)
         session.motion.turn(LEFT, 1.0)
-        assert shown.wait(10)
+        assert shown.wait(patience(10.0))
     assert not session.motion.moving
     moved = threading.Event()
     connect([session.robot.positions], moved.set)
     session.motion.turn(LEFT, 1.0)
-    assert moved.wait(10), "what is started later moves again"
+    assert moved.wait(patience(10.0)), "what is started later moves again"
 
 
 def test_private_sessions_are_independent(

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 
 import pytest
+from patience import patience
 from websockets.asyncio.client import connect
 from websockets.asyncio.server import ServerConnection, serve
 
@@ -43,7 +44,7 @@ def read(talk: Talk, count: int) -> tuple[list[bytes], Counted]:
             found = [await client.recv(decode=False) for _ in range(count)]
             return found, client
 
-    return asyncio.run(asyncio.wait_for(run(), 30.0))
+    return asyncio.run(asyncio.wait_for(run(), patience(30.0)))
 
 
 def test_small_messages_are_read_together(monkeypatch: pytest.MonkeyPatch) -> None:

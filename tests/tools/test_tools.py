@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import yaml
 from inside import session_of, viser_server
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_config, load_robot
@@ -638,7 +639,7 @@ def test_of_many_clicks_that_wait_only_the_last_is_followed(
 
     def slow(self: PickSnapshot, origin: Any, *rest: Any) -> Any:
         followed.append(float(origin[0]))
-        assert go_on.wait(20.0)
+        assert go_on.wait(patience(20.0))
         return first_hit(self, origin, *rest)
 
     monkeypatch.setattr(PickSnapshot, "first_hit", slow)

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import viser
+from patience import patience
 
 from sambot_viz.displays.display import Status
 from sambot_viz.displays.robot_model import robot_model
@@ -67,7 +68,7 @@ def move(session: Session, **positions: float) -> None:
     moved = threading.Event()
     disconnect = connect([session.robot.positions], moved.set)
     session.robot.set_positions(positions)
-    assert moved.wait(10)
+    assert moved.wait(patience(10.0))
     disconnect()
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import viser
+from patience import patience
 
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.frames import Transform
@@ -332,7 +333,7 @@ def test_a_file_of_another_machine_is_found_beside_the_robot_that_is_opened_late
     session.show_robot(replace(arm, files=(tmp_path / "opened.urdf",)))
     models = session.scene.context.models
     assert isinstance(models, ModelThread)
-    assert models.wait(20)
+    assert models.wait(patience(20.0))
     assert "b/tool" in session.frames.tree.frames
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from patience import patience
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.robot_display import ModelRequest
@@ -52,7 +53,7 @@ class Case:
 
     def set(self, path: str, value: object) -> None:
         self.session.display_edits.set_property(self.display, path, value)
-        assert self.models.wait(20)
+        assert self.models.wait(patience(20.0))
 
     def choose(self, file: Path | str) -> None:
         self.set("Description File", str(file))
@@ -72,7 +73,7 @@ class Loader:
         self.go_on.set()
 
     def __call__(self, path: Path, trusted: bool) -> Robot:
-        assert self.go_on.wait(20)
+        assert self.go_on.wait(patience(20.0))
         self.asked.append((path, trusted))
         return load_robot(path, trusted=trusted)
 
@@ -187,7 +188,7 @@ def test_a_copy_of_a_display_does_not_make_its_file_trusted(
     with case.session.change():
         case.session.document.config.duplicate(case.display.config)
         case.session.document.show()
-    assert case.models.wait(20)
+    assert case.models.wait(patience(20.0))
     assert [trusted for _, trusted in loader.asked] == [False, False]
 
 
@@ -222,7 +223,7 @@ def test_the_page_goes_on_while_a_model_is_being_read(
     assert case.status == "The model file is still being read"
     case.session.display_edits.set_property(case.display, "Alpha", 0.5)
     loader.go_on.set()
-    assert case.models.wait(20)
+    assert case.models.wait(patience(20.0))
     assert case.display.status.rows["b/own"].level == "Error"  # No transform to base.
     assert case.status == "URDF parsed OK"
 
@@ -240,7 +241,7 @@ def test_only_the_latest_of_several_files_is_read(
             case.display, "Description File", str(file)
         )
     loader.go_on.set()
-    assert case.models.wait(20)
+    assert case.models.wait(patience(20.0))
     assert len(loader.asked) <= 2
     assert "b/link_19" in case.session.frames.tree.frames
 
@@ -259,9 +260,9 @@ def test_a_reader_survives_an_internal_error_of_what_it_calls(tmp_path: Path) ->
     results: list[Robot | RobotError] = []
     try:
         reader.read(ModelRequest(1, file, True, broken))
-        assert reader.wait(20)
+        assert reader.wait(patience(20.0))
         reader.read(ModelRequest(1, file, True, results.append))
-        assert reader.wait(20)
+        assert reader.wait(patience(20.0))
     finally:
         threading.excepthook = before
     assert isinstance(results[0], Robot)
@@ -283,4 +284,4 @@ def test_a_second_robot_follows_its_file(package: Path) -> None:
         connect([session.scene.frames], look)
         second.write_text("<robot")
         second.write_text(urdf("changed"))
-        assert drawn.wait(20)
+        assert drawn.wait(patience(20.0))
