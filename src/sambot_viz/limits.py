@@ -124,11 +124,17 @@ WAITING = LimitRow(
     "",
     "the oldest of the topic are dropped; the status of the source says how many",
 )
+SESSION_WAITING = LimitRow(
+    "messages of transforms and joints that wait for a session",
+    20_000,
+    "",
+    "the oldest are dropped; the status of the source says how many",
+)
 WAITING_BYTES = LimitRow(
-    "what messages of a live robot that wait hold together",
+    "what such messages hold together, of a source and of a session",
     128 * 2**20,
     "bytes",
-    "the oldest of the topic are dropped; the status of the source says how many",
+    "the oldest are dropped; the status of the source says how many",
 )
 ASSET = LimitRow(
     "files of meshes that are kept of a live robot, together",

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from hand_clock import HandClock
 from inside import session_of
 from live_peers import WAIT, FoxglovePeer, eventually
 from panel_rows import data_of, edit, panel_of
-from protocol_client import CAMERA, ProtocolClient
+from protocol_client import CAMERA, ProtocolClient, wait_for_workers
 from robot_peer import RobotPeer
 
 from sambot_viz import JointError, UsageError, Visualizer, bundled, load_robot
@@ -19,9 +22,11 @@ from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.robot.load import expand
 from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.data import live_data
 from sambot_viz.session.data.live_clock import ClockState
 from sambot_viz.session.data.live_data import LiveData
 from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.message import Recorded
 
 LEFT = "drivewhl_l_joint"
 
@@ -350,3 +355,81 @@ def test_a_recording_needs_a_live_robot(peer: RobotPeer, tmp_path: Path) -> None
         Visualizer(source=peer.uri, record=there)
     with pytest.raises(UsageError, match="make it with mkdir -p"):
         Visualizer(source=peer.uri, record_dir=tmp_path / "none")
+
+
+def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
+    viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_data, "SLICE", 2000)
+    data, worker = session_of(viz).data, session_of(viz).worker
+    assert isinstance(data, LiveData)
+    came: list[str] = []
+    taken: list[int] = []
+    take = data.transforms.take
+
+    def counted(message: Recorded) -> None:
+        taken.append(len(message.payload))
+        take(message)
+
+    monkeypatch.setattr(data.transforms, "take", counted)
+    # What this one has got, the session has got before.
+    for topic in ("/tf", "/joint_states"):
+        data.live.source.subscribe(topic, lambda message: came.append(message.topic))
+    with worker.lock:
+        peer.play(9.05)
+        eventually(lambda: came.count("/tf") > 300)
+        before: list[int] = []
+        worker.post(lambda: before.append(sum(taken)), client=7)
+    eventually(lambda: before)
+    assert before[0] <= 2 * 2000 + 1000
+    eventually(lambda: place(viz) == (1.0, 1.0))
+
+
+def test_what_waits_for_a_session_is_limited_in_bytes(
+    viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_data, "MOST_BYTES", 10_000)
+    data, worker = session_of(viz).data, session_of(viz).worker
+    assert isinstance(data, LiveData)
+    came: list[str] = []
+    taken: list[int] = []
+    take = data.transforms.take
+
+    def counted(message: Recorded) -> None:
+        taken.append(len(message.payload))
+        take(message)
+
+    data.live.source.subscribe("/tf", lambda message: came.append(message.topic))
+    with worker.lock:
+        monkeypatch.setattr(data.transforms, "take", counted)
+        peer.play(9.05, topics=["/tf"])
+        eventually(lambda: came.count("/tf") > 300)
+    # The last ones are kept, so that the robot is where it is.
+    eventually(lambda: place(viz) == (1.0, 1.0))
+    assert 5000 < sum(taken) <= 10_000 + max(taken) * (len(peer.subscribed()) + 2)
+    assert data.lost > 0
+
+
+def test_drawing_takes_at_most_half_of_the_time(
+    hand_clock: HandClock, viz: Visualizer, peer: RobotPeer, monkeypatch: Any
+) -> None:
+    session = session_of(viz)
+    drawn: list[float] = []
+    draw = session.robot.draw_moved
+
+    def slow() -> None:
+        drawn.append(hand_clock.now())
+        draw()
+        hand_clock.advance(1.0)
+
+    peer.play(1.0)
+    hand_clock.advance(10.0)
+    wait_for_workers()
+    monkeypatch.setattr(session.robot, "draw_moved", slow)
+    for _ in range(40):
+        peer.play(9.05)
+        wait_for_workers()
+        hand_clock.advance(0.25)
+    # What comes while it is drawn, and for as long again, is drawn together.
+    assert len(drawn) > 2
+    assert all(b - a >= 2.0 for a, b in itertools.pairwise(drawn))

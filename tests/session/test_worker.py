@@ -116,6 +116,27 @@ def post_many(
         worker.post(action, client=client)
 
 
+def test_what_is_due_all_the_time_takes_turns_with_clients(worker: Worker) -> None:
+    ran: list[str] = []
+    done = threading.Event()
+
+    def draw() -> None:
+        ran.append("draws")
+        if len(ran) < 200:
+            worker.post_later(0.0, draw)
+        else:
+            done.set()
+
+    with worker.lock:
+        for _ in range(3):
+            worker.post_later(0.0, draw)
+        for client in (1, 2):
+            worker.post(partial(ran.append, f"joins {client}"), client=client)
+    assert done.wait(patience(10.0))
+    assert ran.index("joins 1") <= 2
+    assert ran.index("joins 2") <= 4
+
+
 def test_an_error_is_reported_with_the_client_that_has_caused_it(
     worker: Worker,
 ) -> None:

@@ -29,8 +29,10 @@ _MOST_TEMPLATES = 32
 _MOST_OF_A_LENGTH = 4
 _FEWEST_ROWS = 6
 """Fewer transforms are read field by field in less time."""
-_LARGEST_TEMPLATE = 1 << 18
+_LARGEST_TEMPLATE = 1 << 21
 """Bytes of a message; a template has twice as many."""
+_MOST_OF_TEMPLATES = 1 << 23
+"""Bytes of the messages of all templates."""
 _PADDING = 3
 _ZEROS = 8
 """As many zeros as rclpy.serialize_message leaves behind a message."""
@@ -52,6 +54,7 @@ class TransformDecoder:
         self._edges_kept = 0
         # Tuples that are replaced as a whole: several players may read at a time.
         self._templates: dict[tuple[int, int], tuple[_TransformTemplate, ...]] = {}
+        self._templates_size = 0
 
     def decode(self, payload: Payload) -> list[Transforms]:
         """Return the transforms of a message, one entry for each stamp in it.
@@ -77,10 +80,13 @@ class TransformDecoder:
         return self._split([row[0] for row in read], edges, poses)
 
     def _keep(self, key: tuple[int, int], template: _TransformTemplate) -> None:
-        if len(self._templates) >= _MOST_TEMPLATES:
+        held = self._templates_size
+        if len(self._templates) >= _MOST_TEMPLATES or held > _MOST_OF_TEMPLATES:
             self._templates = {}
+            self._templates_size = 0
         known = self._templates.get(key, ())
-        self._templates[key] = (template, *known)[:_MOST_OF_A_LENGTH]
+        kept = self._templates[key] = (template, *known)[:_MOST_OF_A_LENGTH]
+        self._templates_size += key[0] * (len(kept) - len(known))
 
     def _split(
         self, stamps: list[int], edges: Edges, poses: NDArray[np.float64]

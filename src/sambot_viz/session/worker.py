@@ -157,13 +157,22 @@ class Worker(threading.Thread):
         """Wait for the next action, and whose it is; None after `close`."""
         with self._changed:
             while not self._closed:
-                due = self._timers[0][0] if self._timers else None
-                if due is not None and due <= self.clock.now():
-                    return None, heapq.heappop(self._timers)[2]
+                self._take_due()
                 if self._inbox:
                     return self._next_turn()
+                due = self._timers[0][0] if self._timers else None
                 self.clock.wait(self._changed, due)
             return None
+
+    def _take_due(self) -> None:
+        """Let what is due wait with the rest of the program.
+
+        A stream that takes longer than its period is always due: whoever opens a page
+        must not wait until it ends.
+        """
+        while self._timers and self._timers[0][0] <= self.clock.now():
+            action = heapq.heappop(self._timers)[2]
+            self._inbox.setdefault(None, deque()).append((None, action))
 
     def _next_turn(self) -> tuple[int | None, Action]:
         """Take the oldest action of the one whose turn it is."""

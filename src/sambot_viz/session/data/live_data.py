@@ -7,6 +7,7 @@ import threading
 from collections import deque
 from functools import partial
 
+from sambot_viz import limits
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.session.data.display_topics import LiveDisplayTopics
@@ -25,8 +26,11 @@ from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.transforms import TransformTopics
 
-MOST_WAITING = 20_000
+MOST_WAITING = limits.SESSION_WAITING.value
 """So many messages of a live robot wait for a session; of more the oldest are lost."""
+MOST_BYTES = limits.WAITING_BYTES.value
+SLICE = 2**18
+"""So much of what waits is taken before clients get their turn [bytes]."""
 
 
 class LiveData(RobotData):
@@ -73,11 +77,14 @@ class LiveData(RobotData):
         self._doubted = ""
         self._live = live
         self._waiting: deque[Recorded] = deque()
+        self._size = 0
         self._subscribed: dict[str, None] = {}
         # The thread of the source adds, the worker takes.
         self._lock = threading.Lock()
         self._is_asked = False
         self._drawn = float("-inf")
+        self._took = 0.0
+        self._goes_on = False
         self._tell_status = partial(worker.post, self.status.touch)
         self._look = partial(worker.post, self._subscribe)
         live.on_topics.append(self._look)
@@ -152,10 +159,13 @@ class LiveData(RobotData):
     def _receive(self, message: Recorded) -> None:
         """Keep a message for the worker; runs in the thread of the source."""
         with self._lock:
-            if len(self._waiting) >= MOST_WAITING:
-                self._waiting.popleft()
-                self.lost += 1
             self._waiting.append(message)
+            self._size += len(message.payload)
+            while len(self._waiting) > MOST_WAITING or (
+                self._size > MOST_BYTES and len(self._waiting) > 1
+            ):
+                self._size -= len(self._waiting.popleft().payload)
+                self.lost += 1
         self._wake()
 
     def _wake(self) -> None:
@@ -164,26 +174,58 @@ class LiveData(RobotData):
             if self._is_asked:
                 return
             self._is_asked = True
-        left = self._drawn + self.period - self._worker.clock.now()
+        left = self._drawn + self._pause - self._worker.clock.now()
         if left > 0:
             self._worker.post_later(left, self._take)
         else:
             self._worker.post(self._take)
 
     def _take(self) -> None:
-        """Take what waits, and draw once; runs in the worker."""
+        """Take some of what waits, and draw at the end; runs in the worker.
+
+        However much waits, clients get their turn after a slice of it.
+        """
         with self._lock:
-            waiting, self._waiting = self._waiting, deque()
             self._is_asked = False
         # What waits may be of the time after it.
         self._look_back()
-        for message in waiting:
+        left = SLICE
+        while left > 0 and (message := self._next_waiting()) is not None:
+            left -= len(message.payload)
             if message.topic in self.transforms.topics:
                 self.transforms.take(message)
             else:
                 self._joint_states.take(message)
-        self._drawn = self._worker.clock.now()
+        if self._waiting and not self._goes_on:
+            self._goes_on = True
+            self._worker.post(self._go_on)
+        begin = self._worker.clock.now()
+        if begin - self._drawn < self._pause:
+            self._wake()
+            return
+        self._drawn = begin
         self._draw(False)
+        self._took = self._worker.clock.now() - begin
+
+    def _go_on(self) -> None:
+        self._goes_on = False
+        self._take()
+
+    @property
+    def _pause(self) -> float:
+        """The time from one drawing to the next [s].
+
+        Nothing goes out while it is drawn: as long again is for those who wait for it.
+        """
+        return max(self.period, 2 * self._took)
+
+    def _next_waiting(self) -> Recorded | None:
+        with self._lock:
+            if not self._waiting:
+                return None
+            message = self._waiting.popleft()
+            self._size -= len(message.payload)
+            return message
 
 
 def _without_times(doubt: TopicReason | None) -> str:
