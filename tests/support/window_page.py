@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import io
+from typing import cast
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -63,6 +64,17 @@ class WindowPage:
         # A page that is going away answers nothing.
         self.page.evaluate("window.isOld = true; setTimeout(() => location.reload())")
         self.user.until(lambda: not self.page.evaluate("window.isOld === true"))
+
+    def view_box(self) -> tuple[float, float, float, float]:
+        """Left, top, width and height of the view, or of the place for it."""
+        # It has the whole page until the window is there.
+        self.wait_for("document.getElementById('root').style.position === 'fixed'")
+        found = self.page.evaluate(
+            "(r => [r.x, r.y, r.width, r.height])"
+            "(document.getElementById('root').getBoundingClientRect())"
+        )
+        left, top, width, height = cast("list[float]", found)
+        return left, top, width, height
 
     def wait_for(self, condition: str, timeout: float = 10.0) -> None:
         """Wait until a JavaScript expression is true."""
