@@ -8,7 +8,7 @@ import pytest
 from patience import until
 from recorded_page import RecordedPage, open_page
 from user import User
-from viewer_page import ViewerPage
+from viewer_page import ViewerPage, viewer_url
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
@@ -25,7 +25,7 @@ def test_the_link_opens_the_page_and_a_reload_does_without(
         viewer.user.row("Joints", "drivewhl_l_joint")
         assert viewer.page.evaluate("location.href").partition("?")[0] == address
         assert token not in viewer.page.evaluate("document.cookie + location.href")
-        viewer.page.goto(address)
+        viewer.page.goto(viewer_url(address, view=False))
         viewer.user.row("Joints", "drivewhl_l_joint")
         assert viewer.errors() == []
         # The server is closed before the page is.

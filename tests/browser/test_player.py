@@ -11,7 +11,7 @@ from ax_tree import Thing
 from inside import session_of
 from recorded_page import open_page
 from user import User
-from viewer_page import ViewerPage
+from viewer_page import ViewerPage, viewer_url
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
@@ -78,7 +78,7 @@ def test_on_a_phone_the_time_bar_is_as_wide_as_the_screen_and_its_times_cover_no
     viz: Visualizer, chromium: Chromium
 ) -> None:
     page = open_page(chromium, 390, 844, touch=True)
-    page.goto(viz.url)
+    page.goto(viewer_url(viz.url, view=False))
     user = User(page, finger=True)
     left, _, width, _ = user.box(user.find("slider", "Time"))
     assert left < 20 and width > 350
@@ -98,7 +98,7 @@ def test_a_tap_on_a_line_that_is_cut_off_shows_all_of_it(
     # Nobody listens there.
     viz = make_viz(source="rosbridge://127.0.0.1:1")
     page = open_page(chromium, 390, 844, touch=True)
-    page.goto(viz.url)
+    page.goto(viewer_url(viz.url, view=False))
     user = User(page, finger=True)
 
     def line() -> Thing:

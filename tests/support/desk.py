@@ -92,7 +92,8 @@ class Desk:
         page.goto(viewer_url(url, self._resolution, self.has_view))
         page.take_downloads(self.downloads)
         page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
-        return ViewerPage(page, viewer_url(self.viz.url), touch, self.has_view)
+        url = viewer_url(self.viz.url, view=self.has_view)
+        return ViewerPage(page, url, touch, self.has_view)
 
     @property
     def user(self) -> User:

@@ -76,9 +76,9 @@ export function People() {
       ${!state.copy && html`<${PeopleList} now=${now} close=${close} />`}
       ${
         state.copy
-          ? html`<button onClick=${() => location.assign("../")}>Back to the shared robot</button>`
+          ? html`<button onClick=${() => location.assign(`../${location.search}`)}>Back to the shared robot</button>`
           : !me.presenter &&
-            html`<button onClick=${() => location.assign("copy/")}
+            html`<button onClick=${() => location.assign(`copy/${location.search}`)}
             title="Only you see what you change there. You can return at any time."
             >Make my own copy</button>`
       }
