@@ -6,15 +6,13 @@ import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
 from desk import Desk
 from inside import session_of
-from PIL import Image
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled, load_config
+from sambot_viz import Visualizer, bundled
 
 pytestmark = pytest.mark.browser
 
@@ -146,52 +144,6 @@ def test_opening_asks_about_changes_and_shows_what_was_saved(
     user.row("Displays", "TF", "Show Names")
     user.until(lambda: distance(user) == "3")
     assert session_of(viz).document.config.global_options.get("Frame Rate") == 12
-
-
-@pytest.mark.view
-def test_the_config_and_a_picture_are_downloaded_at_once(
-    user: User, viewer: ViewerPage, tmp_path: Path
-) -> None:
-    downloads = tmp_path / "downloads"
-    choose(user, "File", "Download Config")
-    config = downloads / "mine.rviz"
-    user.until(lambda: config.exists() and config.read_text("utf-8").endswith("\n"))
-    assert load_config(config).displays
-    # Lines of a coarse view are wide in a fine picture of it.
-    viewer.set_resolution(1.0)
-    choose(user, "File", "Save Image")
-    user.find("dialog", "Save Image")
-    user.type("800")
-    user.keys("Tab")
-    user.type("600")
-    user.keys("Enter")
-    user.gone("dialog")
-    picture = downloads / "sam_bot.png"
-    user.reads("Saved sam_bot.png, 800 × 600 pixels", timeout=30.0)
-    user.until(lambda: picture.exists() and picture.read_bytes()[-8:-4] == b"IEND")
-    drawn = np.asarray(Image.open(picture).convert("RGB"))
-    assert drawn.shape == (600, 800, 3)
-    assert tuple(drawn[5, 5]) == (48, 48, 48)
-    assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 20
-
-
-def test_a_new_display_is_selected_unfolded_and_named(desk: Desk) -> None:
-    user, viz = desk.user, desk.viz
-    user.unfold("Displays", "Grid")
-    user.click("button", "Add", ("region", "Displays"))
-    dialog = user.find("dialog", "Add Display")
-    assert "LaserScan" in dialog.text
-    user.keys("a", "x", "Tab")
-    user.type("Wheel axes, main")
-    user.keys("Enter")
-    user.gone("dialog")
-    for state in ("selected", "expanded"):
-        user.until(
-            lambda state=state: user.row("Displays", "Wheel axes, main").state(state)
-        )
-    user.until(lambda: user.can_see(user.row("Displays", "Wheel axes, main", "Radius")))
-    user.row("Displays", "Grid", "Cell Size")
-    assert session_of(viz).document.config.displays[-1].name == "Wheel axes, main"
 
 
 def test_panels_are_hidden_and_shown_again_from_the_menu(desk: Desk) -> None:

@@ -129,39 +129,3 @@ def test_dragging_a_wheel_slider_changes_pixels_at_the_wheel(desk: Desk) -> None
     after = viewer.pixels()
     assert changed(around(before, place, 80), around(after, place, 80)) > 20
     assert changed(before[:100, :100], after[:100, :100]) == 0
-
-
-def test_two_browsers_stay_in_step(desk: Desk, open_viewer: Open) -> None:
-    viz, first, second = desk.viz, desk.viewer, open_viewer(desk.viz.url)
-    second.wait_for_nodes(node_of(viz, LINK))
-    first.user.click("slider", LEFT)
-    first.user.keys("End")
-    second.user.until(lambda: slider(second, LEFT) == pytest.approx(np.pi))
-    second.user.click("slider", LEFT)
-    second.user.keys("Home")
-    first.user.until(lambda: slider(first, LEFT) == pytest.approx(-np.pi))
-    T = viz.frames.lookup("base_link", LINK).matrix
-    for viewer in (first, second):
-        viewer.wait_for_pose(node_of(viz, LINK), T, node_of(viz, "base_link"))
-
-
-def test_fifty_quick_steps_end_with_pose_and_slider_equal(desk: Desk) -> None:
-    viz, viewer = desk.viz, desk.viewer
-    viewer.user.click("slider", LEFT)
-    desk.settle()
-    start = slider(viewer, LEFT)
-    viewer.user.keys(*["ArrowRight"] * 50)
-    wait_for_turn(viz, viewer, round(start + 0.5, 6))
-    desk.settle()
-    assert slider(viewer, LEFT) == pytest.approx(start + 0.5, abs=0.011)
-    assert viz.joint_positions[LEFT] == slider(viewer, LEFT)
-
-
-def test_center_brings_the_wheels_back(desk: Desk) -> None:
-    viz, viewer = desk.viz, desk.viewer
-    viz.set_joint_positions({LEFT: 1.0, RIGHT: -1.0})
-    viewer.user.until(lambda: slider(viewer, LEFT) == 1.0)
-    viewer.user.click("button", "Center")
-    for joint in (LEFT, RIGHT):
-        viewer.user.until(lambda joint=joint: slider(viewer, joint) == 0.0)
-    assert viz.joint_positions[LEFT] == 0.0

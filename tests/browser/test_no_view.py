@@ -43,16 +43,3 @@ def test_the_window_is_the_same(
         seen.append([*viewer.page.evaluate(_WINDOW), viewer.page.evaluate(_PLACE)])
     assert len(seen[0]) > 100
     assert seen[0] == seen[1]
-
-
-def test_a_click_into_the_empty_place_gives_keys_to_the_tools(
-    make_viz: Callable[..., Visualizer], open_viewer: Callable[..., ViewerPage]
-) -> None:
-    user = open_viewer(make_viz().url).user
-    user.click_into(user.row("Joints", "drivewhl_l_joint").one("textbox"))
-    user.page.mouse.click(420.0, 300.0)
-    user.until(lambda: user.find("application", "3D view").state("focused"))
-    user.keys("n")
-    user.until(lambda: user.find("button", "Measure", ("toolbar", "Tools")).is_on)
-    user.keys("Escape")
-    user.until(lambda: user.find("button", "Interact", ("toolbar", "Tools")).is_on)

@@ -152,24 +152,6 @@ def test_a_key_looks_from_a_side_and_the_mouse_goes_on_without_perspective(
     viewer.wait_for("__viserMutable.camera.fov > 40")
 
 
-def test_the_mouse_moves_the_numbers_of_the_view_as_in_rviz(desk: Desk) -> None:
-    session, viewer = desk.session, desk.viewer
-    mouse = viewer.page.mouse
-    mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
-    until(viewer, lambda: abs(value(session, "Yaw") - 1.1) < 1e-4)
-    mouse.drag(SKY, (SKY[0], SKY[1] + 20))
-    until(viewer, lambda: abs(value(session, "Pitch") - 0.6) < 1e-4)
-    assert value(session, "Distance") == pytest.approx(2.0)
-    mouse.wheel(*SKY, dy=-100.0)
-    until(viewer, lambda: abs(value(session, "Distance") - 1.76) < 0.02)
-    assert not session.history.modified.value
-    view_of(session).store()
-    assert "Yaw: 1.1" in session.document.config.to_yaml()
-    viewer.page.keyboard.press("z")
-    until(viewer, lambda: value(session, "Distance") == 10.0)
-    viewer.wait_for("Math.abs(__viserMutable.cameraControl.distance - 10) < 1e-3")
-
-
 def test_moving_a_view_from_straight_above_keeps_its_yaw(desk: Desk) -> None:
     session, viewer = desk.session, desk.viewer
     view_of(session).set("Pitch", 2.0)
@@ -296,15 +278,6 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
         until(viewer, lambda: not tools.selection)
 
 
-def test_the_panels_can_be_hidden(desk: Desk) -> None:
-    viewer = desk.viewer
-    assert "Joints" in viewer.text
-    viewer.page.keyboard.press("h")
-    viewer.wait_for("!document.body.innerText.includes('Randomize')")
-    viewer.page.keyboard.press("h")
-    viewer.wait_for("document.body.innerText.includes('Randomize')")
-
-
 def differs(viewer: ViewerPage) -> tuple[list[int], float]:
     """The colour of a corner of the 3D view, and the part that has another colour."""
     pixels = viewer.pixels()[..., :3].astype(int)
@@ -340,12 +313,6 @@ def test_from_above_every_zoom_shows_the_scene_on_its_background(
     for scale in (1.0, 300.0):
         view_of(session).set("Scale", scale)
         until(viewer, shows_the_scene)
-
-
-def test_a_button_of_the_toolbar_leaves_select(desk: Desk) -> None:
-    for label in ("Select", "Measure", "Select", "Move Camera"):
-        desk.user.click("button", label)
-        chosen(desk.viz, desk.viewer, label)
 
 
 def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
@@ -391,7 +358,7 @@ def test_a_field_that_goes_with_its_view_type_is_left_without_an_error(
     make_viz: Callable[..., Visualizer], open_viewer: Open, typed: str
 ) -> None:
     viz = make_viz()
-    viewer = open_viewer(viz.url)
+    viewer = open_viewer(viz.url, view=False)
     user = viewer.user
     user.click_into(user.row("Views", "Yaw").one("textbox"))
     user.type(typed)

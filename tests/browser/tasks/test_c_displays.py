@@ -161,7 +161,6 @@ def test_task_25_add_axes_at_the_left_wheel(s: Desk) -> None:
         s.user.until(lambda name=name: row(s, name).state("expanded"))
 
 
-@pytest.mark.view
 @pytest.mark.parametrize("pause", [False, True])
 def test_task_26_rename_at_any_speed(s: Desk, pause: bool) -> None:
     add_axes(s)

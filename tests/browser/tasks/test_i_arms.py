@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 from ax_tree import Thing
 from desk import Desk
-from judge import changed, drawn, look_near, on_page
+from judge import on_page
 from PIL import Image
 from robots import ARM_LINKS
 from viewer_page import ViewerPage
@@ -17,7 +17,6 @@ from sambot_viz import FrameError
 
 pytestmark = pytest.mark.browser
 
-AT_ONCE = 12.0
 FIRST, SECOND = "upper_joint", "lower_joint"
 
 
@@ -41,7 +40,6 @@ def take_pose(desk: Desk, name: str) -> None:
     desk.user.click("button", name)
 
 
-@pytest.mark.view
 def test_task_61_two_poses_of_an_arm_while_another_watches(
     make_desk: Callable[[str], Desk],
 ) -> None:
@@ -52,18 +50,14 @@ def test_task_61_two_poses_of_an_arm_while_another_watches(
         enter(a.viewer, joint, str(value))
         other.user.until(lambda j=joint, v=value: number(other, j) == v)
     save_pose(a, "reach")
-    other.settle(a.viz)
-    reaching = other.pixels()
     take_pose(a, "home")
     for joint in (FIRST, SECOND):
         a.user.until(lambda j=joint: a.viz.joint_positions[j] == 0.0)
         other.user.until(lambda j=joint: number(other, j) == 0.0)
-    other.user.until(lambda: changed(reaching, other.pixels()) > 50, AT_ONCE)
     take_pose(a, "reach")
     for joint, value in ((FIRST, 0.5), (SECOND, -0.75)):
         a.user.until(lambda j=joint, v=value: a.viz.joint_positions[j] == v)
         other.user.until(lambda j=joint, v=value: number(other, j) == v)
-    other.user.until(lambda: changed(reaching, other.pixels()) < 20, AT_ONCE)
     # One undo for the whole of a pose.
     a.user.click("button", "Undo")
     a.user.until(lambda: set(a.viz.joint_positions.values()) == {0.0})
@@ -164,7 +158,6 @@ def test_task_63_measure_between_two_meshes(a: Desk) -> None:
     assert float(length[1]) == pytest.approx(0.6, abs=0.015)
 
 
-@pytest.mark.view
 def test_task_64_hide_all_links_but_one(a: Desk) -> None:
     def is_on(link: str) -> bool:
         return row(link).one("checkbox").is_on
@@ -172,9 +165,6 @@ def test_task_64_hide_all_links_but_one(a: Desk) -> None:
     def row(link: str) -> Thing:
         return a.user.row("Displays", "RobotModel", "Links", link)
 
-    a.user.click_on(a.user.row("Displays", "Grid").one("checkbox"))
-    look_near(a)
-    before = drawn(a)
     a.user.unfold("Displays", "RobotModel")
     a.user.unfold("Displays", "RobotModel", "Links")
     # Two clicks.
@@ -182,11 +172,9 @@ def test_task_64_hide_all_links_but_one(a: Desk) -> None:
     a.user.until(lambda: not is_on("hand"))
     a.user.click_on(row("hand").one("checkbox"))
     a.user.until(lambda: [n for n in ARM_LINKS if is_on(n)] == ["hand"])
-    a.user.until(lambda: 0.05 * before < drawn(a) < 0.4 * before, AT_ONCE)
     for _ in range(2):
         a.user.click("button", "Undo")
     a.user.until(lambda: all(map(is_on, ARM_LINKS)))
-    a.user.until(lambda: drawn(a) == pytest.approx(before, rel=0.02), AT_ONCE)
 
 
 def test_task_65_a_second_robot_from_a_file(a: Desk) -> None:
