@@ -12,7 +12,7 @@ from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
 
-pytestmark = [pytest.mark.browser, pytest.mark.view]
+pytestmark = pytest.mark.browser
 
 CASES = Path(__file__).parents[1] / "golden" / "images"
 WIDTH, HEIGHT = 342, 203
