@@ -210,6 +210,47 @@ def test_a_chunk_of_ros_1_above_the_limit_is_left_out(
         "the limit is 100" in one and "the chunk at byte" in one for one in found
     )
     assert "the recorder was stopped" not in " ".join(found)
+    with open_bag(path) as bag:
+        assert bag.problems[0].hint == "record again, with smaller messages or chunks"
     about = reasons(path)
     assert "left-out" in about["/a"]
     assert "left-out" in about["/b"]
+
+
+# Channels and definitions.
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_channel_too_many_is_left_out_alone(
+    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = [Given(f"/t{number}", [string(40)] * 2) for number in range(4)]
+    path = write_any(tmp_path, kind, given, 10**9)
+    limit(monkeypatch, "CHANNELS", 4)
+    assert warned(path) == []
+    assert len(reasons(path)) == 4
+    limit(monkeypatch, "CHANNELS", 3)
+    (one,) = warned(path)
+    assert "more than 3 channels" in one
+    about = reasons(path)
+    (missing,) = {f"/t{number}" for number in range(4)} - set(about)
+    assert missing in one
+    with open_bag(path) as bag:
+        assert sorted(m.topic for m in bag.messages()) == sorted([*about, *about])
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_definition_above_the_limit_costs_its_topic_alone(
+    kind: str, tmp_path: Path
+) -> None:
+    most = limits.DEFINITION.value
+    texts = ["string data\n".ljust(size, "#") for size in (most, most + 1)]
+    given = [
+        Given(f"/t{number}", [string(40)], f"a/msg/A{number}", text)
+        for number, text in enumerate(texts)
+    ]
+    path = write_any(tmp_path, kind, given, 10**9)
+    about = reasons(path)
+    said = f"longer than {most:,} characters"
+    assert said not in about["/t0"]
+    assert said in about["/t1"]

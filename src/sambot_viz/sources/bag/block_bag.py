@@ -63,6 +63,7 @@ class BlockBag(ABC):
         self._file = file
         self._blocks: list[Block] = []
         self._channels: dict[int, TopicChannel] = {}
+        self._too_many: set[int] = set()
         # By topic, and of those that are latched: there may be 65,535 of them.
         self._numbers_of: dict[str, set[int]] = {}
         self._latched_channels: dict[int, TopicChannel] = {}
@@ -121,16 +122,21 @@ class BlockBag(ABC):
 
     def _add_channel(self, number: int, channel: TopicChannel) -> None:
         with self._lock:
-            if number in self._channels:
+            if self._knows((number,)):
                 return
             self._changes += 1
             if len(self._channels) >= limits.CHANNELS.value:
+                self._too_many.add(number)
                 self.left_out.add_topic(channel.topic)
             else:
                 self._channels[number] = channel
                 self._numbers_of.setdefault(channel.topic, set()).add(number)
                 if channel.is_latched:
                     self._latched_channels[number] = channel
+
+    def _knows(self, channels: Iterable[int]) -> bool:
+        """Return whether all of some channels were met, also those too many."""
+        return all(one in self._channels or one in self._too_many for one in channels)
 
     def _count(self, counts: Mapping[int, int]) -> None:
         """Count messages by channel."""
@@ -324,8 +330,8 @@ class BlockBag(ABC):
         with self._lock:
             names = {number: one.topic for number, one in self._channels.items()}
             large = self.left_out.problems(self._file.path, names)
-            cause = self.left_out.cause
-            return (*self.damage.problems(self.start_ns, self.end_ns, cause), *large)
+            why = self.left_out.cause, self.left_out.remedy
+            return (*self.damage.problems(self.start_ns, self.end_ns, *why), *large)
 
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics, by log time."""

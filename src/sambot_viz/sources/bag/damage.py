@@ -83,7 +83,7 @@ class Damage:
             self._step_back = (high, low, known[2])
 
     def problems(
-        self, start: int | None, end: int | None, cause: str = ""
+        self, start: int | None, end: int | None, cause: str = "", remedy: str = ""
     ) -> tuple[Problem, ...]:
         """Return the sentences.
 
@@ -91,12 +91,13 @@ class Damage:
             start: log time of the first message [ns], or None.
             end: log time of the last message [ns], or None.
             cause: why nothing may be left to read; empty for no cause.
+            remedy: what to do about it.
         """
         found: list[Problem] = []
         if start is None or end is None:
             if self._unreadable and not cause:
                 cause = "bytes {:,} to {:,} make no sense".format(*self._unreadable[0])
-            found.append(no_messages(self.path, cause))
+            found.append(no_messages(self.path, cause, remedy))
         else:
             found += self._about_end(start, end)
             found += self._about_step_back(start)
@@ -195,12 +196,11 @@ class Damage:
         return [Problem("warning", "log-back", message, hint, str(self.path))]
 
 
-def no_messages(path: Path, cause: str) -> Problem:
+def no_messages(path: Path, cause: str, remedy: str) -> Problem:
     """Say that a recording has no message, or none that can be read for a cause."""
     if cause:
         message = f"{path.name} has no message that can be read: {cause}"
-        hint = "copy the file again if there is another one, or record again"
-        return Problem("error", "file-no-messages", message, hint, str(path))
+        return Problem("error", "file-no-messages", message, remedy, str(path))
     return Problem(
         "error",
         "file-no-messages",

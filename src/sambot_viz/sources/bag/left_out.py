@@ -94,6 +94,14 @@ class LeftOut:
         found = [chunk.sentence for chunk in self._chunks]
         return next(iter(found), _messages(sizes) if sizes else "")
 
+    @property
+    def remedy(self) -> str:
+        """What to do about the cause."""
+        is_large = all(chunk.is_large for chunk in self._chunks)
+        if is_large and (self._chunks or self._messages):
+            return "record again, with smaller messages or chunks"
+        return "copy the file again if there is another one, or record again"
+
     def problems(self, path: Path, names: Mapping[int, str]) -> Iterator[Problem]:
         """Yield the sentences about what is too large.
 

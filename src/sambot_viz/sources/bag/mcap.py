@@ -117,13 +117,12 @@ class McapBag(BlockBag):
                     self._define(opcode, content, in_summary=True)
         except BrokenPieceError:
             return {}
-        known = self._channels.keys()
         chunks.sort(key=lambda chunk: chunk.at)
         free = len(MAGIC)
         for chunk in chunks:
             behind = chunk.at + chunk.length + chunk.index_length
             fits = free <= chunk.at < behind <= at and chunk.start <= chunk.end
-            if not fits or not chunk.channels or not chunk.channels <= known:
+            if not fits or not chunk.channels or not self._knows(chunk.channels):
                 return {}
             free = behind
         if chunks and not self._is_small:
@@ -289,7 +288,7 @@ class McapBag(BlockBag):
             chunk.length,
             chunk.index_length,
         )
-        known = chunk.counts and chunk.counts.keys() <= self._channels.keys()
+        known = chunk.counts and self._knows(chunk.counts)
         must_read = self._is_small or not known
         if not must_read:
             block.is_counted = True
@@ -324,7 +323,7 @@ class McapBag(BlockBag):
         A writer may define a channel long before its first message.
         """
         cost = 0
-        while self._unsearched and not channels <= self._channels.keys():
+        while self._unsearched and not self._knows(channels):
             entries = self._read_or_none(self._unsearched.pop())
             cost += 1 if entries is None else entries.size // 1000
         return cost

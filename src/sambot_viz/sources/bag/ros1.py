@@ -109,8 +109,7 @@ class Ros1Bag(BlockBag):
             elif record.op == _CHUNK_INFO:
                 blocks.append(self._block(ahead, record))
             at = record.behind
-        known = self._channels.keys()
-        if len(blocks) != expected or not all(b.channels <= known for b in blocks):
+        if len(blocks) != expected or not all(self._knows(b.channels) for b in blocks):
             raise BrokenPieceError("the index does not name all")
         return sorted(blocks, key=lambda block: block.at)
 
