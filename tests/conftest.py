@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import secrets
 import sys
@@ -32,6 +33,11 @@ TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
 def pytest_configure() -> None:
     """Choose the order of the tasks, before workers start that all must have it."""
     os.environ.setdefault(TASK_SEED, str(secrets.randbelow(10**6)))
+
+
+def pytest_collection_finish() -> None:
+    """Leave tests and modules, which live to the end, out of garbage collections."""
+    gc.freeze()
 
 
 @pytest.hookimpl(optionalhook=True)
