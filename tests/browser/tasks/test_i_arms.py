@@ -196,7 +196,9 @@ def test_task_65_a_second_robot_from_a_file(a: Desk) -> None:
     # A file that is not there is refused, with the folders that count.
     field = user.row(*second, "Description File").one("textbox")
     user.enter(field, "nofile.urdf")
-    user.reads(f"the folders that were opened: {a.folder.name}")
+    said = f"the folders that were opened: {a.folder.name}"
+    # The status says so too, perhaps before the refusal is there.
+    user.until(lambda: said in user.row(*second, "Description File").one("alert").text)
     # Escape ends the refusal, which lies over the field.
     user.keys("Escape")
     user.until(lambda: not user.row(*second, "Description File").all("alert"))
