@@ -328,12 +328,12 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     until(viewer, lambda: [item.name for item in tools.selection] == ["base_link"])
     corners = [place(viewer, (x, y, 0.0)) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
     across, down = zip(*corners, strict=True)
-    before = view_of(session).camera
+    before = view_of(session).shown.camera
     touch.start((min(across), min(down)))
     touch.move((max(across), max(down)))
     touch.end()
     until(viewer, lambda: len(tools.selection) > 1)
-    assert view_of(session).camera == before
+    assert view_of(session).shown.camera is before
     # The page has drawn what the rectangle has selected before the next tap.
     viewer.user.reads(f"{len(tools.selection)} items selected")
     viewer.settle(own)

@@ -12,6 +12,7 @@ import msgspec.msgpack
 import numpy as np
 import pytest
 import viser
+from camera_reports import move
 from patience import patience
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed
@@ -265,15 +266,14 @@ def test_an_error_that_a_browser_causes_is_told_to_it_alone_and_logged_once(
     monkeypatch: pytest.MonkeyPatch,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    def fail(self: object, report: object) -> bool:
+    def fail(self: object, number: int, camera: object) -> bool:
         raise ZeroDivisionError("a camera of this kind")
 
     client = protocol(viz.viser.get_port())
     client.settle(viz.viser)
     monkeypatch.setattr(ClientCamera, "take", fail)
     for distance in range(1, 6):
-        at = {"position": (0.0, 0.0, float(distance))}
-        client.send("ViewerCameraMessage", **{**CAMERA, **at})
+        move(client, (0.0, float(distance), 0.0))
         client.settle(viz.viser)
     client.wait_until(lambda: "camera of this kind" in str(client.rows["notice"]))
     monkeypatch.undo()

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
-from camera_reports import report, told
+from camera_reports import FRESH, asked, confirm, follows, move, report_to_viser
 from inside import session_of, viser_server
 from protocol_client import ProtocolClient
 
@@ -17,7 +17,6 @@ from sambot_viz import UsageError, Visualizer
 from sambot_viz.errors import FrameError, SambotVizError, ServerError
 
 Protocol = Callable[..., ProtocolClient]
-FRESH = (3.0, 3.0, 3.0)
 
 
 @pytest.fixture
@@ -26,7 +25,7 @@ def join(protocol: Protocol) -> Callable[[Visualizer], ProtocolClient]:
 
     def open_page(viz: Visualizer) -> ProtocolClient:
         client = protocol(urlsplit(viz.url).port or 0, camera=False)
-        report(client, FRESH)
+        report_to_viser(client, FRESH)
         client.wait_until(lambda: "view/Distance" in client.rows)
         client.settle(viser_server(viz))
         return client
@@ -43,8 +42,9 @@ def numbers(client: ProtocolClient, *names: str) -> list[float]:
 
 
 def camera(client: ProtocolClient) -> tuple[list[float], list[float]]:
-    """Position and point in the middle, as they were sent last."""
-    return told(client)[-1], told(client, "LookAt")[-1]
+    """Position and point in the middle, as the page was asked for them last."""
+    newest = asked(client)[-1]["camera"]
+    return newest["position"], newest["look_at"]
 
 
 def test_a_camera_is_put_somewhere_in_all_pages_and_in_later_ones(
@@ -78,10 +78,10 @@ def test_the_panel_follows_the_mouse_after_a_program(
     page = join(viz)
     viz.camera.look_at((0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
     page.settle(viser_server(viz))
-    report(page, (2.0, 0.0, 0.0))
+    confirm(page)
     page.settle(viser_server(viz))
     assert numbers(page, "Distance", "Yaw") == [2.0, 0.0]
-    report(page, (0.0, 3.0, 0.0))
+    move(page, (0.0, 3.0, 0.0))
     page.settle(viser_server(viz))
     assert numbers(page, "Distance", "Yaw") == pytest.approx([3.0, math.pi / 2])
 
@@ -146,10 +146,11 @@ def test_the_camera_goes_with_a_frame(viz: Visualizer, join: Join) -> None:
     viz.camera.follow("arm")
     page.settle(viser_server(viz))
     assert page.row("view/Target Frame")["value"] == "arm"
-    assert camera(page)[0] == pytest.approx([2.0, 0.0, 0.0])
+    assert camera(page)[0] == pytest.approx([2.0, 0.0, -1.0])
+    assert follows(page)["at"] == [0.0, 0.0, 1.0, 0.0]
     viz.set_static_transform("base_link", "arm", (0.5, 0.0, 1.0))
     page.settle(viser_server(viz))
-    assert camera(page)[0] == pytest.approx([2.5, 0.0, 0.0])
+    assert camera(page)[0] == pytest.approx([2.0, 0.0, -1.0])
     viz.camera.follow(None)
     page.settle(viser_server(viz))
     assert page.row("view/Target Frame")["value"] == "<Fixed Frame>"
@@ -193,11 +194,11 @@ def test_what_is_wrong_is_said_and_changes_nothing(
     text: str,
 ) -> None:
     page = join(viz)
-    sent = told(page)
+    sent = asked(page)
     with pytest.raises(error, match=text):
         wrong(viz)
     page.settle(viser_server(viz))
-    assert told(page) == sent
+    assert asked(page) == sent
     assert page.row("view/type")["value"] == "Orbit (rviz_default_plugins)"
     assert session_of(viz).document.config.view.kind.endswith("/Orbit")
 

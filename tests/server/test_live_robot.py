@@ -20,8 +20,8 @@ from sambot_viz import JointError, UsageError, Visualizer, bundled, load_robot
 from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.robot.load import expand
-from sambot_viz.session.clients.camera import VISER_FIRST_POSITION
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.clients.viser_camera import VISER_FIRST_POSITION
 from sambot_viz.session.data import live_data
 from sambot_viz.session.data.live_clock import ClockState
 from sambot_viz.session.data.live_data import LiveData

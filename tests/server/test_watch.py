@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from inside import signals_of
 from patience import patience
-from protocol_client import ProtocolClient
+from protocol_client import CAMERA_ASKED, ProtocolClient
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.errors import Problem
@@ -500,7 +500,7 @@ def test_another_view_in_the_file_moves_the_cameras(
     client.settle(sam_bot.viz.viser)
     mark = client.mark()
     sam_bot.save("Value: Orbit (rviz)", "Yaw: 1.5", sam_bot.config)
-    client.wait_until(lambda: client.types(mark)["SetCameraPositionMessage"] > 0)
+    client.wait_until(lambda: client.types(mark)[CAMERA_ASKED] > 0)
     assert sam_bot.session.document.config.view.get("Yaw") == pytest.approx(
         1.5, abs=0.01
     )

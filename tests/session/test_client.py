@@ -167,7 +167,7 @@ def test_one_turns_the_camera_and_the_other_sees_nothing_of_it(
     session: Session, two: tuple[Person, Person]
 ) -> None:
     a, b = (person.browser for person in two)
-    before, camera = dict(b.view.values), b.view.camera
+    before, camera = dict(b.view.values), b.view.shown.camera
     heard: list[int] = []
     connect([b.tools.changed, b.view.changed], lambda: heard.append(1))
     a.view.set("Distance", 3.0)
@@ -176,7 +176,7 @@ def test_one_turns_the_camera_and_the_other_sees_nothing_of_it(
     a.tools.focus()
     assert a.view.view.kind == f"{PREFIX}TopDownOrtho"
     assert b.view.view.kind == f"{PREFIX}Orbit"
-    assert (b.view.values, b.view.camera) == (before, camera)
+    assert (b.view.values, b.view.shown.camera) == (before, camera)
     assert heard == []
     assert session.document.config.view.kind == f"{PREFIX}Orbit"
 

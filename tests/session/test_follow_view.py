@@ -76,6 +76,52 @@ def test_who_looks_elsewhere_is_left_alone(seen: FollowView, driver: Client) -> 
     assert looks_at(driver) == before
 
 
+def test_a_robot_that_is_out_of_sight_when_a_drive_begins_is_brought_back(
+    session: Session, driver: Client
+) -> None:
+    driver.view.pan(vector(-20, 0, 0))
+    seen = session.follow_view
+    with session.history.acting(driver.client_id):
+        seen.begin()
+    seen.follow(AWAY)
+    assert looks_at(driver) == (5, 2)
+
+
+def test_one_missed_moment_does_not_lose_the_robot(
+    seen: FollowView, driver: Client
+) -> None:
+    seen.follow(START)
+    # It has no place for a moment, and is far away when it has one again.
+    seen.follow(None)
+    seen.follow(AWAY)
+    seen.follow(FARTHER)
+    assert looks_at(driver) == (6, 2)
+
+
+def test_a_late_report_of_the_page_does_not_lose_the_robot(
+    seen: FollowView, driver: Client
+) -> None:
+    seen.follow(START)
+    before, number = driver.view.shown.camera, driver.view.shown.number
+    seen.follow(AWAY)
+    driver.view.take_report(number, before.placed(AWAY, START, before.up))
+    seen.follow(FARTHER)
+    assert looks_at(driver)[0] >= 5
+
+
+def test_who_turns_the_camera_a_little_goes_on_with_the_robot(
+    seen: FollowView, driver: Client
+) -> None:
+    seen.follow(START)
+    shown = driver.view.shown
+    aside = shown.camera.placed(
+        shown.camera.position + vector(0, 0, 0.1), shown.camera.look_at, vector(0, 0, 1)
+    )
+    driver.view.take_report(shown.number, aside)
+    seen.follow(AWAY)
+    assert looks_at(driver) == (5, 2)
+
+
 def test_the_cameras_of_others_stay(
     seen: FollowView, driver: Client, join: Callable[[], Client]
 ) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from camera_reports import report, told, vector3
+from camera_reports import FRESH, confirm, move, positions, report_to_viser
 from patience import patience
 from protocol_client import ProtocolClient
 
@@ -22,14 +22,13 @@ from sambot_viz.session import Session
 from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
 
-FRESH = (3.0, 3.0, 3.0)
 Protocol = Callable[..., ProtocolClient]
 
 
 def opened(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
     """A page of 640 x 480 pixels that was just opened."""
     client = protocol(viz.viser.get_port(), camera=False)
-    report(client, FRESH)
+    report_to_viser(client, FRESH)
     client.settle(viz.viser)
     return client
 
@@ -42,10 +41,9 @@ def view_of(viz: Visualizer) -> ClientView:
     return list(session_of(viz).clients.all.values())[-1].view
 
 
-def echo(client: ProtocolClient, size: tuple[int, int] = (640, 480)) -> None:
-    """Report the camera that the page was sent, from a window of some size."""
-    position, look_at = told(client)[-1], told(client, "LookAt")[-1]
-    report(client, vector3(position), vector3(look_at), size=size)
+def resize(client: ProtocolClient, size: tuple[int, int]) -> None:
+    """Give the window of a page another size."""
+    report_to_viser(client, FRESH, size=size)
 
 
 def filled(viz: Visualizer, size: tuple[int, int] = (640, 480)) -> tuple[float, float]:
@@ -81,7 +79,7 @@ def test_without_a_distance_the_whole_robot_fills_the_picture_and_nothing_is_cha
         across, above = filled(viz)
         assert above == pytest.approx(FILLED_HEIGHT, abs=0.01)
         assert across < FILLED_WIDTH
-        assert told(client)[-1] == pytest.approx(view_of(viz).camera.position)
+        assert positions(client)[-1] == pytest.approx(view_of(viz).camera.position)
         assert not session_of(viz).history.modified.value
 
 
@@ -128,7 +126,8 @@ def test_a_window_of_another_size_shows_the_whole_robot_again(
 ) -> None:
     with Visualizer() as viz:
         client = opened(viz, protocol)
-        echo(client, size=(200, 480))
+        confirm(client)
+        resize(client, (200, 480))
         client.settle(viz.viser)
         across, above = filled(viz, (200, 480))
         assert across == pytest.approx(FILLED_WIDTH, abs=0.01)
@@ -138,11 +137,10 @@ def test_a_window_of_another_size_shows_the_whole_robot_again(
 def test_a_camera_that_the_user_has_moved_stays(protocol: Protocol) -> None:
     with Visualizer() as viz:
         client = opened(viz, protocol)
-        echo(client)
+        confirm(client)
+        move(client, (4.0, 1.0, 2.0))
         client.settle(viz.viser)
-        report(client, (4.0, 1.0, 2.0))
-        client.settle(viz.viser)
-        report(client, (4.0, 1.0, 2.0), size=(200, 480))
+        resize(client, (200, 480))
         client.settle(viz.viser)
         assert view_of(viz).camera.position == pytest.approx((4.0, 1.0, 2.0))
 
@@ -151,7 +149,7 @@ def test_a_value_that_was_set_stays(protocol: Protocol) -> None:
     with Visualizer() as viz:
         client = opened(viz, protocol)
         view_of(viz).set("Distance", 7.0)
-        echo(client, size=(200, 480))
+        resize(client, (200, 480))
         client.settle(viz.viser)
         assert view_of(viz).values["Distance"] == 7.0
 
@@ -219,10 +217,10 @@ def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was
         with Visualizer(model) as viz:
             client = opened(viz, protocol)
             assert view_of(viz).values["Distance"] < 3.0
-            echo(client)
+            confirm(client)
             client.settle(viz.viser)
             if moved:
-                report(client, (4.0, 1.0, 2.0))
+                move(client, (4.0, 1.0, 2.0))
                 client.settle(viz.viser)
             cache.gate.set()
             viz.server.sessions.wait_for_meshes(20)

@@ -7,7 +7,8 @@ nothing is on its way any more: ``settle(viewer.page, viz)``.
 
 It lasts until
 
-1. the server has read what the page sent, and has the camera that the page shows;
+1. the page shows the camera that it was asked for, the server has read what the page
+   sent, and has the camera that the page shows;
 2. the sessions' workers have done what came of it, also what they put off;
 3. the page has got everything that was sent until then, by each way that leads to it;
 4. all of it is drawn, and none of it has moved the camera: or else once more.
@@ -134,6 +135,7 @@ def _wait_for_report(page: RecordedPage, viz: Visualizer, client: int) -> list[f
         same_shape = abs(across * height - down * width) <= width + height
         agree = np.abs(shown - known)
         is_there = agree[0].max() < near and agree[1].max() < 1e-5
+        is_there = is_there and _is_as_asked(page, viz, client)
         return numbers[:-1] if is_there and same_shape and numbers[-1] else []
 
     found = until(
@@ -144,6 +146,14 @@ def _wait_for_report(page: RecordedPage, viz: Visualizer, client: int) -> list[f
         loop = viz.viser.get_event_loop()
         asyncio.run_coroutine_threadsafe(asyncio.sleep(0), loop).result(patience(_TIME))
     return found
+
+
+def _is_as_asked(page: RecordedPage, viz: Visualizer, client: int) -> bool:
+    """Whether a page shows the camera that it was asked for, and has reported it."""
+    views = [s.clients.all.get(client) for s in viz.server.sessions.all()]
+    numbers = [client.view.shown.number for client in views if client is not None]
+    shown = page.evaluate("sambotVizCamera")
+    return bool(shown["reported"]) and numbers == [shown["number"]]
 
 
 def _pass_fence(page: RecordedPage, viz: Visualizer, client: int) -> None:

@@ -71,6 +71,8 @@ from sambot_viz.session.worker import Worker
 
 ROW_PATCH = "RowPatch"
 """The type in `messages` of what the channel brings: changes of rows."""
+CAMERA_ASKED = "CameraAsked"
+"""The same for the camera that the page is asked for, and the frame to follow."""
 ROWS_TIME = 5.0
 """How long the first rows are waited for [s]."""
 FENCE_REQUEST = "~fence request"
@@ -281,7 +283,7 @@ class ProtocolClient:
         self.send_edit(edit)
 
     def send_edit(self, edit: Any) -> None:
-        """Send anything through the channel, as the page sends edits."""
+        """Send anything through the channel, as the page sends edits and cameras."""
         self._channel.send(json.dumps(_as_in_a_page(edit)))
 
     def act(self, row_id: str, *values: Any) -> None:
@@ -386,12 +388,12 @@ class ProtocolClient:
             self._pongs += 1
             return
         patch = decode(frame)
-        self._page_rows.take(patch)
+        kind = CAMERA_ASKED if patch["of"] == "camera" else ROW_PATCH
+        if kind == ROW_PATCH:
+            self._page_rows.take(patch)
         size, on_wire = len(json.dumps(patch)), len(frame)
         now = time.perf_counter()
-        self._messages.append(
-            Received(ROW_PATCH, patch, size, self._frames, on_wire, now)
-        )
+        self._messages.append(Received(kind, patch, size, self._frames, on_wire, now))
         self._frames += 1
 
     def _record(self, message: Received) -> None:

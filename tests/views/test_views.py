@@ -144,8 +144,8 @@ def test_the_follower_turns_with_its_target(make_view: MakeView) -> None:
     assert behind.position[0] == pytest.approx(1.0)
     assert behind.position[1] < -5
     assert behind.forward[1] > 0.8
-    moved = view.moved(behind, Target(vector(1.0, 0.0, 0.0), math.pi / 2), WORLD)
-    assert same_picture(moved, view.camera())
+    local = view.in_target(behind, Target(vector(1.0, 0.0, 0.0), math.pi / 2))
+    assert same_picture(local, view.camera())
 
 
 def test_zero_is_what_rviz_resets_to(make_view: MakeView) -> None:

@@ -20,7 +20,7 @@ from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.joints import JointState
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
-from sambot_viz.session.clients.camera import ClientCamera
+from sambot_viz.session.clients import viser_camera
 from sambot_viz.session.robot.drive import ODOM
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.session_copy import SessionCopy
@@ -83,7 +83,7 @@ def recorded(
         player.jump(played[0])
         camera = _moved(camera, before, way.place())
         way.note(0.0)
-    ClientCamera(cast(Any, recorder)).point(camera)
+    viser_camera.point(cast(Any, recorder), camera)
     first = recorder.bytes()
     duration = 0.0
     if played is not None and player is not None:

@@ -14,7 +14,7 @@ from sambot_viz.errors import ServerError
 from sambot_viz.export.browser_page import BrowserPage
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.server.server import Server
-from sambot_viz.session.clients.camera import ClientCamera
+from sambot_viz.session.clients import viser_camera
 from sambot_viz.views.camera import Camera
 
 Picture = npt.NDArray[np.uint8]
@@ -122,7 +122,7 @@ def picture_in(
         if placed is None or not np.allclose(
             _place(client), placed, rtol=1e-4, atol=1e-3
         ):
-            ClientCamera(client).point(camera, ortho_fov=None)
+            viser_camera.point(client, camera, ortho_fov=None)
             placed, before = _place(client), None
         picture = render(client, width, height, longest)
         # Meshes and names appear some frames after their messages; two equal

@@ -4,4 +4,6 @@
 import "./view/rviz_look.js";
 import "./view/rviz_mouse.js";
 import "./wire/cell.js";
-import "./wire/retries.js";
+import { connect } from "./wire/channel.js";
+
+connect();

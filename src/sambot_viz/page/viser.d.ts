@@ -30,6 +30,8 @@ interface Window {
     changed: (state: "open" | "closed") => void;
   };
   sambotVizLook?: Record<string, number>;
+  /** Which camera is shown, and whether it is reported, for tests. */
+  sambotVizCamera?: { number: number | null; reported: boolean };
   /** The type of view that rviz_mouse.js follows, for tests. */
   sambotVizMouse?: { kind: string };
 }

@@ -43,7 +43,8 @@ class BrowserPanels:
 
     Attributes:
         store: the rows, for the page.
-        pictures: those of cameras, for the page.
+        camera: that of the page.
+        pictures: those of cameras in the scene, for the page.
         item: finds a row, data or command of this browser by its id.
         close: follows the browser no longer.
     """
@@ -64,7 +65,7 @@ class BrowserPanels:
         self._client = client
         self._sync: RowSync | None = None
         images = ImagesPanel(session.scene, session.document)
-        self.pictures = images.pictures
+        self.pictures, self.camera = images.pictures, client.view.shown
         panels = [images, *self._panels(session, files, ask_page)]
         if invite is not None:
             roles, number = session.roles, client.client_id

@@ -144,7 +144,8 @@ class Window:
         browser = self._browsers.get(client_id)
         if browser is None:
             return None
-        return ClientRows((self._shared.store, browser.store), (browser.pictures,))
+        others = (browser.camera, browser.pictures)
+        return ClientRows((self._shared.store, browser.store), others)
 
     # What browsers send
 

@@ -1,14 +1,15 @@
-"""The page's own websocket, beside viser's: rows out, edits in.
+"""The page's own websocket, beside viser's: rows and cameras, out and in.
 
 It is on the same port and behind the same checks as viser's connection, with a
 subprotocol of its own. `server.tickets` knows which connection to viser is the same
 page's.
 
 The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
-text or, when long, compressed in a binary frame. The page sends JSON lists: an edit, or
-what a button does (`panels.validation`). It may ask ``"ping"`` at any time and is
-answered ``"pong"`` behind everything that its edits before have changed so far; a page
-that gets no answer knows that its connection is lost.
+text or, when long, compressed in a binary frame, and the camera that it is asked for
+(`session.clients.camera`). The page sends JSON lists: an edit, or what a button does
+(`panels.validation`); and objects: where its camera is. It may ask ``"ping"`` at any
+time and is answered ``"pong"`` behind everything that its edits before have changed so
+far; a page that gets no answer knows that its connection is lost.
 
 A patch is made when the connection can take one. So a slow page gets the newest state,
 and no queue.
@@ -19,7 +20,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 from websockets.protocol import State
@@ -28,6 +29,7 @@ from sambot_viz.panels import validation
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
+from sambot_viz.server.protection.client_messages import CameraReport
 from sambot_viz.server.protection.inbound_filter import ClientHandler, report
 
 SUBPROTOCOL = "sambot-viz-1"
@@ -83,10 +85,20 @@ class Channel:
             edit = msgspec.json.decode(message) if isinstance(message, str) else None
         if self._client_id is None:
             report(None, "an edit before the first camera")
+        elif isinstance(edit, dict):
+            self._take_camera(self._client_id, cast("dict[str, Any]", edit))
         elif validation.read(edit) is None:
             report(self._client_id, "what is not an edit")
         else:
             self._handler().take_edit(self._client_id, edit)
+
+    def _take_camera(self, client_id: int, message: dict[str, Any]) -> None:
+        try:
+            camera = msgspec.convert(message, CameraReport)
+        except msgspec.ValidationError:
+            report(client_id, "what is not a camera")
+        else:
+            self._handler().take_camera(client_id, camera)
 
     async def write(self, client_id: int, rows: ClientRows) -> None:
         """Send what the page lacks of the rows, whenever the connection is free."""

@@ -8,6 +8,7 @@ from contextlib import suppress
 from functools import partial
 from typing import cast
 
+import numpy as np
 import viser
 
 from sambot_viz import viser_private
@@ -19,8 +20,10 @@ from sambot_viz.panels.window import Window
 from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.links import invite
 from sambot_viz.server.places import SessionPlace
+from sambot_viz.server.protection.client_messages import CameraReport
 from sambot_viz.server.sessions import Sessions
 from sambot_viz.session import Session
+from sambot_viz.session.clients.camera import reported
 from sambot_viz.session.session_copy import SessionCopy
 
 
@@ -95,10 +98,31 @@ class ClientSessions:
         if window is not None:
             window.receive(client_id, edit)
 
+    def take_camera(self, client_id: int, report: CameraReport) -> None:
+        """Give the camera of a page to its client; the last of those that wait."""
+        place = self._places.of(client_id)
+        camera = reported(
+            np.array(report.position),
+            np.array(report.look_at),
+            np.array(report.up),
+            report.fov,
+            report.scale,
+        )
+        if place is not None and place.session is not None and camera is not None:
+            take = partial(place.session.take_camera, client_id, report.camera, camera)
+            place.worker.post(take, latest_of=CameraReport, client=client_id)
+
     def rows_of(self, client_id: int) -> ClientRows | None:
-        """Return the rows that a client sees; None when it has none yet."""
-        window = self._window_of(client_id)
-        return None if window is None else window.rows_of(client_id)
+        """Return what a client sees beside the scene; None when it has none yet."""
+        place = self._places.of(client_id)
+        if place is None or place.session is None:
+            return None
+        if place.window is not None:
+            return place.window.rows_of(client_id)
+        client = place.session.clients.all.get(client_id)
+        if client is None or self._options.panels:
+            return None
+        return ClientRows((), (client.view.shown,))
 
     def may_edit(self, client_id: int) -> bool:
         """Return whether a client may use the widgets of a program, which all have."""

@@ -51,6 +51,7 @@ from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.views.camera import Camera
 
 
 class Session:
@@ -179,6 +180,12 @@ class Session:
             if self.data is not None:
                 self.data.begin()
             return self.clients.join(handle)
+
+    def take_camera(self, client_id: int, number: int, camera: Camera) -> None:
+        """Take what a page reports of its camera; see `ClientCamera.take`."""
+        client = self.clients.all.get(client_id)
+        if client is not None:
+            client.view.take_report(number, camera)
 
     def leave(self, client_id: int) -> None:
         """Forget what belongs to a client that has closed the page."""

@@ -55,11 +55,6 @@ class Target:
     position: Vector
     yaw: float = 0.0
 
-    def same_as(self, other: Target) -> bool:
-        """Return whether both are exactly the same pose."""
-        same_place = np.array_equal(self.position, other.position)
-        return same_place and self.yaw == other.yaw
-
 
 WORLD = Target(vector(0.0, 0.0, 0.0))
 """The fixed frame as its own target."""
@@ -173,11 +168,11 @@ class View:
 
     def camera(self, target: Target = WORLD) -> Camera:
         """Return the camera of the present properties, in the fixed frame."""
-        return to_fixed(self.local_camera(), self._turned(target))
+        return self.in_fixed(self.local_camera(), target)
 
     def read(self, camera: Camera, target: Target = WORLD) -> Values:
         """Return the properties of a camera given in the fixed frame."""
-        return self.read_local(to_target(camera, self._turned(target)))
+        return self.read_local(self.in_target(camera, target))
 
     def look_at(self, point: Vector, target: Target = WORLD) -> Values:
         """The properties with which it looks at a point of the fixed frame [m]."""
@@ -205,9 +200,13 @@ class View:
         ]
         return self.fit_local(np.array(corners), width, height)
 
-    def moved(self, camera: Camera, before: Target, now: Target) -> Camera:
-        """Move a camera of the fixed frame after its target has moved."""
-        return to_fixed(to_target(camera, self._turned(before)), self._turned(now))
+    def in_fixed(self, camera: Camera, target: Target) -> Camera:
+        """Return a camera of the target frame, in the fixed frame."""
+        return to_fixed(camera, self._turned(target))
+
+    def in_target(self, camera: Camera, target: Target) -> Camera:
+        """Return a camera of the fixed frame, in the target frame."""
+        return to_target(camera, self._turned(target))
 
     @property
     def gives_nearness(self) -> bool:

@@ -2,6 +2,7 @@
 /* The way between the rows and the server: rows arrive, and edits leave, on the page's own
  * websocket. Edits wait here while there is no connection. */
 
+import { loseCamera, reportCamera, takeCamera } from "../view/camera.js";
 import { pictures } from "./pictures.js";
 import { Rows, same } from "./rows.js";
 import { Socket } from "./socket.js";
@@ -141,9 +142,17 @@ export function mayChange() {
 /** Take rows from now on. @param {string} [address] of the server */
 export function connect(address = window.sambotSocket || "") {
   socket = new Socket(address, {
-    take: (part) => (part.picture ? pictures.take(part.picture) : rows.take(part.of, part)),
-    // Who hears it notes how things were, and holds edits back.
-    lost: () => rows.notify(CUT),
+    take: (part) => {
+      if (part.picture) pictures.take(part.picture);
+      else if (part.of === "camera") takeCamera(part);
+      else rows.take(part.of, part);
+    },
+    lost: () => {
+      loseCamera();
+      // Who hears it notes how things were, and holds edits back.
+      rows.notify(CUT);
+    },
     removed: () => rows.notify(REMOVED),
   });
+  reportCamera((report) => socket?.send(report));
 }

@@ -43,6 +43,28 @@ class CameraMoved(_Message, tag="ViewerCameraMessage"):
         return away > shortest and math.hypot(*self.up_direction) > SHORTEST
 
 
+class CameraReport(msgspec.Struct, forbid_unknown_fields=True):
+    """Where a page's camera is, relative to the frame that its view follows.
+
+    It comes on the page's own channel, in JSON.
+
+    Attributes:
+        camera: the number of the camera that the page was asked for last.
+        position: of the camera [m].
+        look_at: the point in the middle of its picture [m].
+        up: up in the picture.
+        fov: vertical field of view [rad].
+        scale: pixels per metre of one that looks straight down; None for others.
+    """
+
+    camera: int
+    position: _Vector
+    look_at: _Vector
+    up: _Vector
+    fov: Annotated[float, msgspec.Meta(gt=0.0, lt=math.pi)]
+    scale: Annotated[float, msgspec.Meta(gt=0.0, le=1e9)] | None
+
+
 class SetValue(_Message, tag="GuiUpdateMessage"):
     """A widget was moved, or a button pressed."""
 

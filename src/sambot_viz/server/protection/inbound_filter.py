@@ -33,6 +33,7 @@ from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
 from sambot_viz.server.protection.client_messages import (
     CameraMoved,
+    CameraReport,
     ClientMessage,
     Point,
     SetValue,
@@ -60,6 +61,10 @@ class ClientHandler(Protocol):
         """Take an edit of a row, on the event loop; it is checked who may do what."""
         ...
 
+    def take_camera(self, client_id: int, report: CameraReport) -> None:
+        """Take what a page reports of its camera, on the event loop."""
+        ...
+
     def may_edit(self, client_id: int) -> bool:
         """Return whether a client may set the widgets of a program, which all have."""
         ...
@@ -78,6 +83,9 @@ class NoSessions:
 
     def take_edit(self, client_id: int, edit: object) -> None:
         """Drop an edit."""
+
+    def take_camera(self, client_id: int, report: CameraReport) -> None:
+        """Drop a report."""
 
     def may_edit(self, client_id: int) -> bool:
         """Return that a client may set widgets."""

@@ -1,172 +1,217 @@
-"""The camera of one client: sent to it, and read back when a mouse has moved it.
+"""The camera of one client, as its page and the server agree on it.
 
-viser's camera turns about a point in front of it, with a fixed up direction, and in
-perspective. An orthographic view is drawn by a far camera with a small field of view
-(`Camera.as_perspective`); that of TopDownOrtho looks almost straight down.
+The page owns it: a hand moves it, and it moves by itself with the frame that the view
+follows. So all that is said of it, either way, is relative to that frame, whose motion
+changes nothing in it. The server says what the frame is, and asks for a camera when
+somebody wants one: a view, a value, an undo, a presenter who leads, a program. Each of
+these has a number, which the page's reports carry from then on; a report with an
+earlier number is of a camera that has been replaced since.
 """
 
 from __future__ import annotations
 
-import time
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
-import viser
 
-from sambot_viz.geometry import rotation_from_xyzw
+from sambot_viz.session.document.document_view import has_target
+from sambot_viz.session.scene.scene import Scene
 from sambot_viz.views.camera import (
     FIELD_OF_VIEW,
     ORTHO_FIELD_OF_VIEW,
+    ORTHO_HEIGHT,
     UP,
-    WIDEST_ORTHO,
     Camera,
     Vector,
     components,
     length,
 )
+from sambot_viz.views.view import Target, View
 
-VISER_FIRST_POSITION = (3.0, 3.0, 3.0)
-"""Position of the camera in a page that viser has just opened [m]."""
-ECHO_TIME = 8.0
-"""A page answers a new camera within this time, also while it loads [s]."""
 POLE = 1e-5
 """A camera that looks down leans by this angle, which defines "up" in its picture
 [rad]."""
-CLOSE = 0.1
-"""For a nearer target, viser may ignore a small change of direction [m]."""
-SAME_WAY = 1e-6
-"""A camera at rest looks at its target, with at most this deviation [rad]."""
-FARTHEST = 1e12
-"""A camera with larger numbers is not taken from a browser [m]."""
-STRAIGHT_DOWN = 2e-3
-"""A camera that leans by less looks straight down: a page that has just been told of
-TopDownOrtho still keeps its camera 0.001 away from the pole [rad]."""
 
-Report = tuple[int, Camera | None]
-"""The height of a browser's picture [pixels], and its camera."""
-_START = Camera(np.array(VISER_FIRST_POSITION), np.zeros(3), UP)
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """The frame that a page's camera moves with.
+
+    Attributes:
+        node: the name of its node; "" for a frame that does not move, or has no place.
+        has_place: whether it has one; else the page leaves it where it was.
+        turns: whether the camera turns with it about the vertical.
+        at: x, y and z of its origin in the fixed frame [m], and how far it is turned
+            about the vertical [rad], for a page that does not know it better.
+    """
+
+    node: str
+    has_place: bool
+    turns: bool
+    at: tuple[float, float, float, float]
+
+    def is_as(self, other: Followed) -> bool:
+        """Return whether both are the same frame; where it is, the page knows."""
+        return self == replace(other, at=self.at)
+
+
+def followed_of(scene: Scene, view: View, target: Target) -> Followed:
+    """Return the frame that the camera of a page moves with.
+
+    Args:
+        scene: has the nodes.
+        view: whose target frame it is.
+        target: where that is now.
+    """
+    at = (*components(target.position), target.yaw)
+    if not has_target(scene, view):
+        return Followed("", True, view.follows_yaw, at)
+    name, nodes = str(view.config.get("Target Frame")), scene.context.nodes
+    node = (nodes.path(name) or "") if nodes.connected(name) else ""
+    return Followed(node, bool(node), view.follows_yaw, at)
 
 
 class ClientCamera:
-    """One client's camera.
+    """What a client's page shows, as far as is known, and what it was asked for.
+
+    It is one of the `Versioned` parts that a page is sent: the page that lacks it gets
+    the newest.
+
+    Args:
+        camera: what the page shows at first, relative to `followed`.
+        followed: the frame that the view follows.
 
     Attributes:
-        client: the browser.
-        camera: its camera in the fixed frame.
+        camera: relative to the followed frame; another object as soon as somebody has
+            asked for another one, or a hand has moved it.
+        number: of the camera that was asked for last; 0 before the first.
+        confirmed: whether the page has shown that one.
+        version: counts what is to be sent.
+        listeners: called when there is something to send.
     """
 
-    def __init__(self, client: viser.ClientHandle) -> None:
-        self.client = client
-        self._height = max(1, client.camera.image_height)
-        self.camera = self.report()[1] or _START
-        self._answered_by: float | None = None
-
-    @property
-    def is_fresh(self) -> bool:
-        """Whether the page was just opened, and its camera has not been moved."""
-        return np.allclose(self.client.camera.position, VISER_FIRST_POSITION, atol=1e-3)
-
-    def point(
-        self, camera: Camera, ortho_fov: float | None = ORTHO_FIELD_OF_VIEW
-    ) -> None:
-        """Send the browser a camera of the fixed frame.
-
-        Args:
-            camera: where to look from.
-            ortho_fov: the field of view that an orthographic camera is drawn with
-                [rad]; None draws it from 500 m above (`Camera.as_perspective`).
-        """
-        same = not camera.orthographic and same_picture(camera, self.camera)
+    def __init__(self, camera: Camera, followed: Followed) -> None:
         self.camera = camera
-        if not same or self._answered_by is not None:
-            # A page that shows that picture already reports nothing.
-            self._answered_by = time.monotonic() + ECHO_TIME
-        drawn = camera.as_perspective(self._height, ortho_fov)
-        position, up = drawn.position, drawn.up
-        if camera.orthographic:
-            position = position - POLE * drawn.distance * drawn.image_up
-            up = UP
-        handle = self.client.camera
-        with self.client.atomic():
-            handle.min_orbit_distance = 0.001
-            handle.max_orbit_distance = float("inf")
-            handle.up_direction = components(up)
-            handle.position = components(position)
-            if drawn.distance < CLOSE:
-                handle.look_at = components(drawn.look_at + 1.0)
-            handle.look_at = components(drawn.look_at)
-            handle.near = drawn.near
-            handle.far = drawn.far
-            handle.fov = drawn.fov
-        self.client.flush()
+        self.number = 0
+        self.confirmed = False
+        self.version = 0
+        self.listeners: list[Callable[[], object]] = []
+        self._followed = followed
+        self._asked: Camera | None = None
+        # Of its version; it is read on the event loop, which takes no lock.
+        self._message = (0, "")
+        self._tell()
 
-    def take(self, report: Report) -> bool:
-        """Take over what the browser has reported.
+    def ask(self, camera: Camera, followed: Followed) -> None:
+        """Have the page show a camera.
 
         Args:
-            report: what `report` has returned.
+            camera: relative to the followed frame.
+            followed: that frame.
+        """
+        self.camera = self._asked = camera
+        self._followed = followed
+        self.number += 1
+        self.confirmed = False
+        self._tell()
+
+    def follow(self, followed: Followed) -> None:
+        """Have the page's camera keep its place relative to another frame, or node."""
+        if not followed.is_as(self._followed):
+            self._followed = followed
+            self._tell()
+
+    def take(self, number: int, camera: Camera) -> bool:
+        """Take what the page reports.
+
+        Args:
+            number: of the camera that the page was asked for when it showed this one.
+            camera: relative to the followed frame.
 
         Returns:
-            Whether a user moved the camera. False for the echo of `point`, for a new
-            size of the window, and for numbers that are not a camera.
+            Whether somebody has moved it there. False for the camera that was asked
+            for, and for one that was replaced since.
         """
-        height, reported = report
-        resized, self._height = height != self._height, height
-        if resized and self.camera.orthographic:
-            # As many pixels per metre as before.
-            self.point(self.camera)
+        if number != self.number:
             return False
-        if reported is None:
+        self.confirmed = True
+        if same_picture(camera, self.camera):
             return False
-        if same_picture(reported, self.camera):
-            self._answered_by = None
-            return False
-        if self._answered_by is not None and time.monotonic() < self._answered_by:
-            return False
-        self.camera = reported
+        self.camera = camera
         return True
 
-    def report(self) -> Report:
-        """Return the height of the picture, and the camera in the fixed frame.
+    def since(self, version: int) -> tuple[int, str | None]:
+        """Return the present version, and what a page lacks that has another one."""
+        now, message = self._message
+        return now, None if version == now else message
 
-        That is what the browser has reported last only until `point` is called, which
-        gives viser's handle the new camera at once. The camera is None for nonsense:
-        viser does not check what a browser sends. Any number may be NaN or missing, and
-        the camera may be in the point that it looks at.
-        """
-        height = max(1, self.client.camera.image_height)
-        return height, self._reported(height)
+    def _tell(self) -> None:
+        self.version += 1
+        camera = None if self._asked is None else _as_sent(self._asked)
+        followed = self._followed
+        message = {
+            "of": "camera",
+            "number": self.number,
+            "follows": {
+                "node": followed.node,
+                "place": followed.has_place,
+                "turns": followed.turns,
+                "at": followed.at,
+            },
+            "camera": camera,
+        }
+        self._message = self.version, json.dumps(message)
+        for listener in tuple(self.listeners):
+            listener()
 
-    def _reported(self, height: int) -> Camera | None:
-        handle = self.client.camera
-        position, look_at, up = (
-            _numbers(values, 3)
-            for values in (handle.position, handle.look_at, handle.up_direction)
-        )
-        wxyz, fov = _numbers(handle.wxyz, 4), _numbers([handle.fov], 1)
-        if position is None or look_at is None or up is None:
-            return None
-        if wxyz is None or fov is None or length(wxyz) < 1e-3:
-            return None
-        away = length(look_at - position)
-        if away < 1e-9:
-            return None
-        forward = _rotation(wxyz)[:, 2]
-        if length(look_at - position - away * forward) > SAME_WAY * away:
-            # A camera that moves reports where its target will be when it stops. At
-            # the pole the yaw between the two would be anything.
-            look_at = position + away * forward
-        angle = float(fov[0]) if 0.0 < fov[0] < np.pi else FIELD_OF_VIEW
-        aside = length((position - look_at)[:2])
-        from_above = angle < WIDEST_ORTHO and aside < STRAIGHT_DOWN * away
-        if from_above:
-            # It leans a little; TopDownOrtho looks straight down.
-            position = look_at + length(look_at - position) * UP
-        if length(np.cross(look_at - position, up)) < 1e-9 * length(up):
-            up = -_rotation(wxyz)[:, 1]
-            if length(np.cross(look_at - position, up)) < 1e-9:
-                return None
-        camera = Camera(position, look_at, up, fov=angle)
-        return camera.as_orthographic(height) if from_above else camera
+
+def _as_sent(camera: Camera) -> dict[str, object]:
+    """Return a camera as a page gets it, which knows how high its picture is."""
+    drawn = leaning(camera) if camera.orthographic else camera
+    return {
+        "position": components(drawn.position),
+        "look_at": components(drawn.look_at),
+        "up": components(drawn.up),
+        "fov": ORTHO_FIELD_OF_VIEW if camera.orthographic else drawn.fov,
+        "near": drawn.near,
+        "far": drawn.far,
+        "scale": drawn.scale,
+    }
+
+
+def leaning(camera: Camera) -> Camera:
+    """Return a camera that looks down with "up" in its picture, for viser's page.
+
+    There, the vertical is always up.
+    """
+    lean = POLE * camera.distance * camera.image_up
+    return camera.placed(camera.position - lean, camera.look_at, UP)
+
+
+def reported(
+    position: Vector, look_at: Vector, up: Vector, fov: float, scale: float | None
+) -> Camera | None:
+    """Return a camera that a page reports.
+
+    Args:
+        position: relative to the followed frame, as the others are [m].
+        look_at: in the middle of the picture [m].
+        up: up in the picture.
+        fov: vertical field of view [rad].
+        scale: pixels per metre of one that looks straight down without perspective.
+
+    Returns:
+        None for numbers that are no camera.
+    """
+    away = length(look_at - position)
+    if away < 1e-9 or length(np.cross(look_at - position, up)) < 1e-9 * away:
+        return None
+    if scale is None:
+        return Camera(position, look_at, up, fov=fov)
+    above = look_at + ORTHO_HEIGHT * UP
+    return Camera(above, look_at, up, fov=FIELD_OF_VIEW, scale=scale)
 
 
 def same_picture(one: Camera, two: Camera) -> bool:
@@ -183,19 +228,3 @@ def same_picture(one: Camera, two: Camera) -> bool:
         pixel = 2e-5 * two.with_fov(FIELD_OF_VIEW).distance + 1e-6
     looking = one.look_at - two.look_at
     return near and length(looking) < pixel and length(one.right - two.right) < 1e-3
-
-
-def _rotation(wxyz: Vector) -> Vector:
-    """The (3, 3) rotation of a quaternion (w, x, y, z)."""
-    w, x, y, z = wxyz.tolist()
-    return np.array(rotation_from_xyzw((x, y, z, w)))
-
-
-def _numbers(values: object, count: int) -> Vector | None:
-    """Numbers of a browser as an array; None when they are not that, or too large."""
-    try:
-        array = np.asarray(values, np.float64)
-    except (TypeError, ValueError):
-        return None
-    good = array.shape == (count,) and bool((np.abs(array) < FARTHEST).all())
-    return array if good else None

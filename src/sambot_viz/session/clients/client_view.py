@@ -2,8 +2,9 @@
 
 A client begins with a copy of the document's view, which is its own from then on.
 Where the file does not say how near the camera is, it shows the whole robot until the
-user takes another view. The mouse moves the camera, and the numbers follow. The
-document takes over the view of the client that saves it (`store`).
+user takes another view. The mouse moves the camera, and the numbers follow; with the
+target frame it moves by itself, and they stay. The document takes over the view of the
+client that saves it (`store`).
 """
 
 from __future__ import annotations
@@ -20,12 +21,17 @@ from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import short_name
-from sambot_viz.session.clients.camera import ClientCamera, Report, same_picture
+from sambot_viz.session.clients import viser_camera
+from sambot_viz.session.clients.camera import (
+    ClientCamera,
+    Followed,
+    followed_of,
+    same_picture,
+)
 from sambot_viz.session.clients.robot_framing import RobotFraming, window_of
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import (
     as_kind,
-    has_target,
     require_kind,
     target_of,
     view_of,
@@ -34,14 +40,14 @@ from sambot_viz.session.document.saved_views import SavedViews
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import Change, Listening, Signal, connect
+from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Camera, Vector, length, on_sphere
 from sambot_viz.views.orbit import ORTHOGRAPHIC, SIDES, OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
-from sambot_viz.views.view import WORLD, Values, View, rounded
+from sambot_viz.views.view import WORLD, Target, Values, View, rounded
 
 READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
@@ -81,6 +87,7 @@ class ClientView:
     Attributes:
         changed: the type or the numbers of the view.
         client_id: the number of the client.
+        shown: what the page shows, as it reports.
         saved: the saved views of the document.
         view: the view; one of an unknown type is shown as Orbit.
     """
@@ -111,38 +118,43 @@ class ClientView:
         self._history = history
         self._owner = ViewOwner(self)
         self._tell_others = lead
-        self._camera = ClientCamera(client)
-        self._target = WORLD
+        self._last_target = WORLD
         self._framing = RobotFraming(client, scene, robot, picker)
         self._take(document.config.detached_view())
+        self.shown = ClientCamera(self.view.local_camera(), self._followed)
         self._reader = Throttle(worker, READ_PERIOD, self._read)
-        if self._camera.is_fresh:
+        kept = viser_camera.camera_of(client.camera)
+        if kept is None or viser_camera.is_fresh(client.camera):
             self._begin()
         else:
-            self._keep_camera()
-
-        async def moved(handle: viser.CameraHandle) -> None:
-            del handle
-            # Read here: until the worker comes to it, the camera may be another one,
-            # which would be taken for the page's own.
-            moved = partial(self._moved, self._camera.report())
-            worker.post(moved, latest_of=self, client=client.client_id)
-
-        client.camera.on_update(moved)
-        self._positions = robot.positions
-        self._moving = Listening(self._follow_target)
+            self._keep(kept)
+        self._follow_window(worker)
         self._disconnect = (
             connect([robot.changed, scene.frames], self._follow_target),
-            connect([scene.frames, self.changed], self._listen),
             connect([robot.changed, scene.statuses], self._frame_robot),
         )
-        self._listen()
+
+    def _follow_window(self, worker: Worker) -> None:
+        """Show the robot whole in a window of another size, where that is wanted."""
+        size = window_of(self._client)
+
+        async def reported(handle: viser.CameraHandle) -> None:
+            nonlocal size
+            del handle
+            before, size = size, window_of(self._client)
+            if size != before:
+                worker.post(self._resized, latest_of=self, client=self.client_id)
+
+        self._client.camera.on_update(reported)
+
+    def _resized(self) -> None:
+        with self._change.lock:
+            self._frame_robot()
 
     def close(self) -> None:
         """Follow the session no longer: the page was closed."""
         for disconnect in self._disconnect:
             disconnect()
-        self._moving.to()
         self._reader.close()
 
     # Asking
@@ -158,9 +170,14 @@ class ClientView:
         return self._config.kind in VIEWS
 
     @property
+    def confirmed(self) -> bool:
+        """Whether the page has shown the camera that it was asked for last."""
+        return self.shown.confirmed
+
+    @property
     def camera(self) -> Camera:
         """The camera as it is now, in the fixed frame."""
-        return self._camera.camera
+        return self.view.in_fixed(self.shown.camera, self._target)
 
     @property
     def waits_for_robot(self) -> bool:
@@ -176,9 +193,10 @@ class ClientView:
             UsageError: there is no such value, or it cannot be that.
         """
         with self._edit(f"View: {path}", merge=("view", path)):
+            before = self._target
             self.view.config.set(path, value)
             if path == "Target Frame":
-                before, now = self._target, target_of(self._scene, self.view)
+                now = target_of(self._scene, self.view)
                 # The picture stays as it is, except for a turn of the target.
                 self._apply(self.view.shifted(before.position - now.position))
 
@@ -298,15 +316,27 @@ class ClientView:
     def _take(self, config: ViewConfig) -> None:
         self._config = config
         self.view = view_of(config)
-        self._target = target_of(self._scene, self.view, self._target)
 
-    def _keep_camera(self) -> None:
-        """Take over the camera of a page that came back."""
-        if self.camera.orthographic != self.view.from_above:
-            kind = TopDownOrthoView if self.camera.orthographic else OrbitView
+    @property
+    def _target(self) -> Target:
+        """The target frame now; where it was, while it has no place."""
+        self._last_target = target_of(self._scene, self.view, self._last_target)
+        return self._last_target
+
+    @property
+    def _followed(self) -> Followed:
+        return followed_of(self._scene, self.view, self._target)
+
+    def _keep(self, camera: Camera) -> None:
+        """Take over the camera of a page that came back, given in the fixed frame."""
+        if camera.orthographic != self.view.from_above:
+            kind = TopDownOrthoView if camera.orthographic else OrbitView
             self._take(self._document.config.new_view(kind.kind, self.view.config))
         if ORTHOGRAPHIC in self.view.config.declared:
-            self.view.config.set(ORTHOGRAPHIC, self.camera.is_parallel)
+            self.view.config.set(ORTHOGRAPHIC, camera.is_parallel)
+        self.shown = ClientCamera(
+            self.view.in_target(camera, self._target), self._followed
+        )
         self._take_camera()
 
     @contextmanager
@@ -316,7 +346,6 @@ class ClientView:
         self._framing.stop()
         with self._change(self.changed):
             yield
-            self._target = target_of(self._scene, self.view, self._target)
             self._point()
         self._tell_others(self)
         after = dict(self.values)
@@ -368,7 +397,6 @@ class ClientView:
             if config is not shown:
                 self._take(config)
             self._apply(values)
-            self._target = target_of(self._scene, self.view, self._target)
             self._point()
         self._tell_others(self)
 
@@ -386,19 +414,18 @@ class ClientView:
         self._tell_others(self)
 
     def _point(self) -> None:
-        self._camera.point(self.view.camera(self._target))
+        self.shown.ask(self.view.local_camera(), self._followed)
 
     def _take_camera(self) -> None:
         """The numbers take over the camera, unless they describe it already."""
-        if not same_picture(self.camera, self.view.camera(self._target)):
-            self._apply(rounded(self.view.read(self.camera, self._target)))
+        shown = self.shown.camera
+        if not same_picture(shown, self.view.local_camera()):
+            self._apply(rounded(self.view.read_local(shown)))
 
-    def _moved(self, report: Report) -> None:
-        """The browser reports its camera; most reports are echoes of what we sent."""
+    def take_report(self, number: int, camera: Camera) -> None:
+        """Take what the page reports of its camera; see `ClientCamera.take`."""
         with self._change.lock:
-            if not self._camera.take(report):
-                # The window may have another size now.
-                self._frame_robot()
+            if not self.shown.take(number, camera):
                 return
             self._framing.stop()
         self._reader.request()
@@ -406,7 +433,7 @@ class ClientView:
     def _read(self) -> None:
         """The numbers take over the camera."""
         with self._change.lock:
-            if same_picture(self.camera, self.view.camera(self._target)):
+            if same_picture(self.shown.camera, self.view.local_camera()):
                 return
             with self._change(self.changed):
                 self._take_camera()
@@ -419,20 +446,11 @@ class ClientView:
             if self._config.class_id != presenter._config.class_id:
                 self._take(self._document.config.detached_view(presenter._config))
             self._apply(presenter.values)
-            self._target = presenter._target
-            self._camera.point(presenter.camera)
-
-    def _listen(self) -> None:
-        """Follow motions only while the camera has a frame to follow."""
-        follows = has_target(self._scene, self.view)
-        self._moving.to(*([self._positions] if follows else []))
+            self.shown.ask(presenter.shown.camera, self._followed)
 
     def _follow_target(self) -> None:
-        """Move the camera with the target frame."""
-        before, now = self._target, target_of(self._scene, self.view, self._target)
-        if not now.same_as(before):
-            self._target = now
-            self._camera.point(self.view.moved(self.camera, before, now))
+        """Tell the page when the frame that it follows is another node."""
+        self.shown.follow(self._followed)
 
 
 def _opposite(side: str) -> str:

@@ -14,7 +14,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Listening
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
-from sambot_viz.views.camera import Vector, vector
+from sambot_viz.views.camera import Camera, Vector, vector
 
 PERIOD = 0.2
 """The robot is looked after at most this often [s]."""
@@ -26,8 +26,9 @@ _NOWHERE = vector(0.0, 0.0, 0.0)
 class FollowView:
     """Follows the robot with the view of the client that drives.
 
-    The camera stays where its user has put it, and moves only when the robot drives out
-    of the picture; it never goes nearer or farther.
+    The camera stays where its user has put it, and moves only when the robot drives
+    while it is out of the picture; it never goes nearer or farther. It follows from the
+    beginning of a drive on, until a hand, or another view, turns away from the robot.
 
     Args:
         drive: the robot that is driven.
@@ -58,6 +59,8 @@ class FollowView:
         self._history = history
         self._driver: int | None = None
         self._before: Vector | None = None
+        self._following = False
+        self._shown: Camera | None = None
         self._panned = _NOWHERE
         self._fixed_before: tuple[RvizConfig, str] | None = None
         self._looking = Throttle(worker, PERIOD, self._look_after)
@@ -106,6 +109,8 @@ class FollowView:
             self._panned = _NOWHERE
         self._driver = self._history.actor
         self._before = self._place()
+        self._following = True
+        self._shown = self._camera
         self._around = self._robot_around()
         self._driving.to(self._drive.pose_changed, self._frames)
 
@@ -125,7 +130,7 @@ class FollowView:
                     self._document.set_option("Fixed Frame", fixed)
 
     def follow(self, place: Vector | None) -> None:
-        """Bring the robot back when it leaves the picture by its own motion.
+        """Bring the robot back when it moves and is not in the picture.
 
         Args:
             place: of the robot in the fixed frame [m]; None when it has none.
@@ -134,7 +139,12 @@ class FollowView:
         client = self._client
         if client is None or before is None or place is None:
             return
-        if self._is_seen(client, before) and not self._is_seen(client, place):
+        if self._camera is not self._shown:
+            # Somebody has moved it: to the robot, or away from it.
+            self._shown, self._following = self._camera, _shows(client, before)
+        if self._is_seen(client, place):
+            self._following = True
+        elif self._following and not np.array_equal(place, before):
             self._pan(place - client.view.camera.look_at)
 
     def _pan(self, away: Vector) -> None:
@@ -143,6 +153,7 @@ class FollowView:
         if client is not None and level.any():
             client.view.pan(level)
             self._panned = self._panned + level
+            self._shown = self._camera
 
     def _robot_around(self) -> tuple[Vector, ...]:
         """Return points around the robot however it turns, from its root link [m]."""
@@ -181,6 +192,12 @@ class FollowView:
         if not root or not tree.can_lookup(fixed, root):
             return None
         return tree.lookup(fixed, root).matrix[:3, 3]
+
+    @property
+    def _camera(self) -> Camera | None:
+        """The camera of the client that drives; another object once it was moved."""
+        client = self._client
+        return None if client is None else client.view.shown.camera
 
     @property
     def _client(self) -> Client | None:
