@@ -30,6 +30,30 @@ SLOW = """(() => {
 })()"""
 """Work that leaves the page about three pictures a second."""
 
+WATCH_NAMES = """(() => {
+  const { scene, nodeRefFromName } = __viserMutable;
+  const draw = scene.onBeforeRender;
+  window.nameGaps = [];
+  scene.onBeforeRender = function (...args) {
+    let places = [];
+    scene.traverse(({ material }) => {
+      const texture = material?.uniforms?.uLabelData?.value;
+      if (texture) places = texture.image.data;
+    });
+    const names = Object.entries(__viserSceneTree.getState())
+      .filter(([, node]) => node?.message?.type === "LabelMessage");
+    const gaps = names.map(([name]) => {
+      const frame = nodeRefFromName[name.slice(0, name.lastIndexOf("/"))];
+      const [x, y, z] = frame.matrixWorld.elements.slice(12);
+      return Math.min(...names.map((_, i) =>
+        Math.hypot(places[4 * i] - x, places[4 * i + 1] - y, places[4 * i + 2] - z)));
+    });
+    window.nameGaps.push(Math.max(...gaps));
+    draw.apply(this, args);
+  };
+})()"""
+"""Note for each picture how far a name is from its frame at most [m]."""
+
 
 def config() -> str:
     """sam_bot in odom, with a view that follows it."""
@@ -89,3 +113,10 @@ def test_wheel_and_drag_do_the_same_as_when_it_stands(desk: Desk, kind: str) -> 
     # The camera has gone with the robot, and not in its own time.
     assert view.values["Yaw"] == pytest.approx(1.5, abs=1e-4)
     assert view.values["Focal Point"] == pytest.approx(focal, abs=1e-4)
+
+
+def test_names_are_drawn_where_their_frames_are(desk: Desk) -> None:
+    desk.page.evaluate(WATCH_NAMES)
+    desk.viewer.wait_for("window.nameGaps.length > 4")
+    desk.user.until(lambda: has_moved(desk))
+    assert max(desk.page.evaluate("window.nameGaps")) < 1e-5

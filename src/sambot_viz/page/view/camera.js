@@ -19,9 +19,6 @@
  * @typedef {{camera: number, position: Vector, look_at: Vector, up: Vector, fov: number, scale: number | null}} Report
  */
 
-/** Behind viser's poses of nodes (-1000), before its pictures for others (-500), its controls (-1) and
- * its names (0). */
-const PRIORITY = -900;
 /** So often is the camera reported at most [ms]. */
 const PERIOD = 40;
 /** What differs by less than this part of the distance is the same. */
@@ -221,7 +218,7 @@ function tell() {
 }
 
 /** Called before each picture, when viser has placed the nodes in it. */
-function beforePicture() {
+export function moveCamera() {
   const viser = page();
   const root = viser?.nodeRefFromName?.[""];
   if (!viser?.cameraControl || !root || !told) return;
@@ -237,20 +234,4 @@ function beforePicture() {
   tell();
 }
 
-/** @type {any} */
-let hooked = null;
-
-/** viser's scene is there some time after this script, and again after a lost WebGL context. */
-function hook() {
-  const scene = page()?.scene;
-  const store = scene?.__r3f?.root;
-  if (!store || scene === hooked) return;
-  hooked = scene;
-  store.getState().internal.subscribe({ current: beforePicture }, PRIORITY, store);
-  page()?.requestRender?.();
-}
-if (globalThis.window) {
-  window.sambotVizCamera = shown;
-  setInterval(hook, 50);
-  hook();
-}
+if (globalThis.window) window.sambotVizCamera = shown;

@@ -14,6 +14,7 @@
  * transform).
  */
 
+import { moveCamera } from "./camera.js";
 import { others } from "./cameras.js";
 import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
@@ -253,8 +254,21 @@ const hook = () => {
     look.geometries = renderer.info.memory.geometries;
     look.frames += 1;
   };
+  const store = scene.__r3f?.root;
+  store?.getState().internal.subscribe({ current: () => prepare(scene) }, PRIORITY, store);
   if (mutable.requestRender) mutable.requestRender();
 };
+
+/** Behind viser's poses of nodes (-1000), before its pictures for others (-500), its controls (-1) and
+ * its names (0). */
+const PRIORITY = -900;
+/** Called before each picture, when viser has placed the nodes in it. @param {any} scene */
+const prepare = (scene) => {
+  moveCamera();
+  // viser writes its names to where their frames were when the scene was drawn last.
+  if (look.labels) scene.updateMatrixWorld();
+};
+
 // viser's notice about software rendering covers the picture, and a machine without a
 // GPU, where this program is often used, cannot change it. What was downloaded is said
 // by the browser and in the status bar.
