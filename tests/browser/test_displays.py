@@ -239,7 +239,9 @@ def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
     count = user.find("button", "No problems")
     assert not count.state("expanded")
     model.write_text(MODEL.replace("</link>", "</lnk>"), "utf-8")
-    row = user.row("Problems", "Showing the last valid version")
+    row = user.row(
+        "Problems", "Your file has an error; showing the last version that worked."
+    )
     user.until(lambda: user.can_see(row))
     user.until(lambda: user.find("button", "Problems: 1 error").state("expanded"))
     user.reads("robot.urdf:4")
@@ -247,7 +249,12 @@ def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
     user.gone("treegrid", "Problems")
     user.click("button", "Problems: 1 error")
     user.until(
-        lambda: user.can_see(user.row("Problems", "Showing the last valid version"))
+        lambda: user.can_see(
+            user.row(
+                "Problems",
+                "Your file has an error; showing the last version that worked.",
+            )
+        )
     )
     model.write_text(MODEL, "utf-8")
     user.find("button", "No problems")

@@ -22,7 +22,7 @@ Open = Callable[..., ViewerPage]
 def copied(viewer: ViewerPage) -> str:
     viewer.page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
     viewer.user.menu("Edit", "Copy permalink")
-    viewer.user.reads("Copied: the permalink")
+    viewer.user.reads("Link copied")
     return viewer.user.clipboard
 
 

@@ -105,4 +105,4 @@ def test_a_point_of_a_scan_is_clicked_on_and_measured(
     mouse.click(*place(1.0, 0.0))
     user.until(lambda: "second point" in client.tools.status)
     mouse.click(*place(-3.0, 0.0))
-    user.reads("[Length: 4m]")
+    user.reads("4 m. Click")

@@ -18,7 +18,7 @@ from sambot_viz import Visualizer, bundled
 pytestmark = pytest.mark.browser
 
 LINK = "drivewhl_l_link"
-NOTE = "Showing the last valid version"
+NOTE = "showing the last version that worked"
 
 
 @pytest.fixture

@@ -100,12 +100,12 @@ def test_a_private_copy_and_back(
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     user.enter(user.row("Joints", LEFT).one("textbox"), "-2")
     user.until(lambda: len(viz.server.sessions.all()) == 2)
-    teacher.user.reads("You are in control, no viewers")
+    teacher.user.reads("You control the robot")
     assert "new private copy" not in user.see().text
     guest.page.goto(viewer_url(f"{viz.url}/copy/", view=False))
     user.reads("This is a new private copy of the shared robot as it is now")
     people(user, "Back to the shared robot")
-    user.reads("Presenter is in control, 1 viewer")
+    user.reads("Presenter controls the robot, 1 viewer")
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     assert viz.joint_positions[LEFT] == 1.0
 
@@ -120,7 +120,7 @@ def test_a_viewer_who_is_removed_may_join_again_with_the_name_of_its_page(
     viz: Visualizer, guest: ViewerPage, teacher: ViewerPage
 ) -> None:
     user, driving = guest.user, teacher.user
-    user.click("button", "View only · Request control")
+    user.click("button", re.compile("^People: "))
     user.click("button", re.compile("Rename Viewer|Rename Ann"))
     user.enter(user.find("textbox", re.compile("New name of")), "Bob")
     driving.click("button", re.compile("^People: "))
@@ -128,12 +128,12 @@ def test_a_viewer_who_is_removed_may_join_again_with_the_name_of_its_page(
     driving.enter(driving.find("textbox", "New name of Bob"), "Robert")
     user.reads("The presenter has renamed you: Robert")
     driving.click("button", "Remove Robert", ("dialog", "People"))
-    user.reads("The presenter has removed you from this robot.")
+    user.reads("The presenter has removed you.")
     driving.until(lambda: len(session_of(viz).clients.all) == 1)
     user.click("button", "Join again")
     driving.find("button", "Give control to Bob")
     driving.click("button", "Give control to Bob")
-    user.reads("You are in control. Everyone sees what you change")
+    user.reads("You can now change the robot. Everyone sees it.")
     user.until(lambda: not user.see().all("button", "View only · Request control"))
     driving.click("button", "Take back control from Bob")
     user.find("button", "View only · Request control")
@@ -146,7 +146,7 @@ def test_the_presenter_invites_with_the_link_of_viewers(
     user = teacher.user
     people(user, "Invite…")
     user.reads(f"{viz.url}/")
-    user.reads("This link works on this machine only.")
+    user.reads("Only works on this computer.")
     dialog = user.find("dialog", "Invite")
     assert dialog.all("image", "QR code of the link")
     user.click("button", "Close")
@@ -160,7 +160,7 @@ def test_everyone_is_brought_to_a_view_once(
 ) -> None:
     teacher.user.enter(teacher.user.row("Views", "Yaw").one("textbox"), "2.5")
     people(teacher.user, "Bring everyone to my view")
-    guest.user.reads("has brought you to this view")
+    guest.user.reads("moved your view")
     guest.user.until(lambda: "2.5" in guest.user.row("Views", "Yaw").text)
     teacher.user.keys("Escape")
 
@@ -182,10 +182,10 @@ def test_many_requests_leave_the_view_free(
     assert covered < 120
     user.click("button", "Show them")
     user.click("button", "Give control to Pupil 7", ("dialog", "People"))
-    user.reads("You and Pupil 7 are in control")
+    user.reads("You and Pupil 7 control the robot")
     user.keys("Escape")
     user.click("button", "Not now, all 11")
     user.until(lambda: "request control" not in user.see().text)
     assert not any(p.requests for p in session_of(viz).roles.people.values())
-    people(user, "Take back control")
+    people(user, "Take back control from Pupil 7")
     user.keys("Escape")

@@ -8,7 +8,7 @@ import { outside, withinTurn } from "../../src/sambot_viz/page/cells/units.js";
 const LIMITED = { id: "a", in: "", kind: "slider", unit: "rad", min: -1, max: 1 };
 const WHEEL = { ...LIMITED, min: -Math.PI, max: Math.PI, wheel: true };
 
-test("a joint that turns without limits takes the same angle within a turn", () => {
+test("a joint without limits takes the same angle within a turn", () => {
   for (const [typed, shown] of [
     [9, 9 - 2 * Math.PI],
     [-9, 2 * Math.PI - 9],

@@ -22,9 +22,7 @@ from sambot_viz.session.robot.drive import Drive
 from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
-IN_ODOM = Answer(
-    "Fixed Frame set to odom to show the motion; Undo or Back to start reverts it"
-)
+IN_ODOM = Answer("Fixed Frame is now odom. Undo puts it back.")
 
 
 @pytest.fixture

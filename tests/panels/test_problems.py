@@ -154,7 +154,7 @@ def test_a_mistake_in_a_save_is_added_to_what_is_known(
     session.problems.set_saves("model", [ERROR, WARNING])
     values = [row.value for row in listed(panel)]
     assert values == [
-        "Showing the last valid version: the saved file has an error.",
+        "Your file has an error; showing the last version that worked.",
         "no",
         "hm",
         "worth knowing",

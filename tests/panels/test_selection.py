@@ -68,7 +68,7 @@ def test_a_motion_changes_the_values_only(
     viz.set_joint_positions({"drivewhl_l_joint": 1.0})
     values = panel.values()
     joint = row_named(panel, "Joint position").id
-    assert values[joint] == "1 rad, turns without limits"
+    assert values[joint] == "1 rad, no limits"
     assert values[joint] != before[joint].value
     assert set(values) <= set(before)
 

@@ -85,7 +85,7 @@ def test_each_topic_has_its_facts_and_its_reason(opened: Opened) -> None:
     ] + ["topic:/tf", "topic:/tf_static"]
     assert shown["topic:/scan/type"] == "sensor_msgs/msg/LaserScan"
     assert shown["topic:/scan/count"] == "100"
-    assert shown["topic:/scan/reason"] == "No display LaserScan is there: add one."
+    assert shown["topic:/scan/reason"] == "Not shown: add a LaserScan display."
     assert "topic:/tf/reason" not in shown
     assert shown["topic:/tf"].startswith("50 Hz")
 
@@ -131,7 +131,7 @@ def test_a_display_that_is_off_or_missing_is_the_reason(opened: Opened) -> None:
     assert opened.values()["topic:/tf/reason"] == "The display TF is off: tick its box."
     with opened.session.lock:
         opened.session.display_edits.remove_display(tf.config)
-    assert "add one" in opened.values()["topic:/tf/reason"]
+    assert "add a" in opened.values()["topic:/tf/reason"]
 
 
 def test_of_thousands_of_topics_some_are_shown_and_the_search_finds_all(
@@ -216,7 +216,7 @@ def test_a_live_topic_is_listened_to_while_its_row_is_on_the_screen(
     live.until_shown(lambda shown: shown["topic:/scan/count"] == "46")
     shown = live.values()
     assert shown["topic:/scan/type"] == "sensor_msgs/msg/LaserScan"
-    assert shown["topic:/scan/reason"] == "No display LaserScan is there: add one."
+    assert shown["topic:/scan/reason"] == "Not shown: add a LaserScan display."
     assert shown["topic:/scan"].endswith("s ago")
     assert shown["topic:/robot_description/count"] == "1"
     live.run("topics/find", "tf")

@@ -173,7 +173,7 @@ def test_a_recording_without_a_robot_says_so_in_the_joints(
     recording = shared / "data" / "bags" / "made" / "no_description.mcap"
     with Visualizer(recording, port=0) as viz:
         page = protocol(viz.viser.get_port())
-        assert "The recording has no robot" in page.row("joints/none")["value"]
+        assert "This recording has no robot model" in page.row("joints/none")["value"]
         # The view goes with it all the same.
         config = session_of(viz).document.config
         assert config.global_options.get("Fixed Frame") == "odom"

@@ -290,7 +290,7 @@ def test_each_hears_what_the_other_does_about_control(
     teacher.act("role/decline", ask())
     assert heard(guest) == "The presenter declined your request"
     teacher.act("role/give", ask())
-    assert heard(guest).startswith("You are in control")
+    assert heard(guest).startswith("You can now change the robot")
     teacher.act("role/take-back")
     assert heard(guest).endswith("the presenter has taken back control")
     teacher.act("role/give", ask())
@@ -498,7 +498,7 @@ def test_a_presenter_brings_everyone_to_a_view_once(
     teacher.act("views/bring")
     settle(teacher, guest)
     assert guest.row("view/Distance")["value"] == 7.0
-    sentence = "Ms Weber has brought you to this view"
+    sentence = "Ms Weber moved your view"
     assert guest.row("notice")["value"]["text"] == sentence
     assert teacher.row("notice")["value"]["text"] == "1 other page shows your view"
     teacher.edit("view/Distance", 3.0)

@@ -649,7 +649,7 @@ def test_what_is_not_a_file_in_place_of_the_model_ends_nothing(
 def test_a_model_that_is_deleted_is_said_to_be_gone(sam_bot: Followed) -> None:
     content = sam_bot.model.read_text("utf-8")
     sam_bot.model.unlink()
-    gone = "Showing the last valid version: sam_bot.urdf.xacro is gone."
+    gone = "sam_bot.urdf.xacro is gone; showing the last version that worked."
     sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == gone)
     replace(sam_bot.model, content)
     sam_bot.wait_for(lambda: sam_bot.session.problems.shown.value.note == "")

@@ -97,7 +97,7 @@ def test_one_measures_while_the_other_selects(two: tuple[Person, Person]) -> Non
     a.click_down(2.0, 1.0)
     a.settle()
     b.settle()
-    assert a.browser.tools.status.startswith("[Length: 1m] ")
+    assert a.browser.tools.status.startswith("1 m. ")
     assert b.browser.tools.status == ""
     assert (a.selected, b.selected) == ([], ["base_link"])
     assert a.drawn() == {f"/~measure{of}" for of in (".start", ".rim", "", ".length")}

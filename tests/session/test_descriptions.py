@@ -177,7 +177,7 @@ def test_without_a_robot_the_status_says_how_to_give_one(tmp_path: Path) -> None
     path = write_recording(tmp_path / "none.mcap", {}, MOVES)
     with Visualizer(path, port=0) as viz:
         (display,) = models(session_of(viz))
-        assert "There is no topic /robot_description" in say(display)
+        assert "no robot model in none.mcap" in say(display)
         assert "--model ROBOT.urdf.xacro" in say(display)
 
 

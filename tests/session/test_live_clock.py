@@ -135,8 +135,8 @@ def test_only_a_clock_that_is_told_goes_back(clocks: Clocks) -> None:
             WALL + 40_000.0,
             False,
             False,
-            "/tf is stamped 1750000000.0, the robot's clock says 1750040000.0: where a "
-            "recording is played, let it tell its time (ros2 bag play --clock)",
+            "/tf is stamped 1750000000.0, the robot's clock says 1750040000.0: "
+            "playing a bag? Use ros2 bag play --clock",
         ),
         (WALL, WALL + 1.0, False, False, ""),
         (12.0, 12.3, True, True, ""),

@@ -47,7 +47,7 @@ def test_a_note_says_what_is_shown_instead(session: Session) -> None:
     assert session.problems.shown.value.note == ""
     session.problems.set_saves("model", [MISTAKE])
     assert session.problems.shown.value.note.startswith(
-        "Showing the last valid version"
+        "Your file has an error; showing the last version that worked"
     )
     session.problems.set_saves("config", [MISTAKE])
     assert "config has an error" in session.problems.shown.value.note

@@ -19,6 +19,8 @@ from sambot_viz.outlet import write_code, write_err, write_out
 from sambot_viz.problems import write_problems
 
 EPILOG = """\
+NAME:=VALUE, anywhere on the line, is an argument for xacro, as in ros2 launch.
+
 commands:
   sambot-viz [MODEL]           show a robot in the browser
   sambot-viz check MODEL       report what is wrong with a model, and how to fix it

@@ -156,10 +156,7 @@ class DrivePanel(Panel):
         self._drive.set_velocity(v, w, **how_long)
         if not shown:
             return None
-        return Answer(
-            f"Fixed Frame set to {ODOM} to show the motion; "
-            "Undo or Back to start reverts it"
-        )
+        return Answer(f"Fixed Frame is now {ODOM}. Undo puts it back.")
 
 
 def _measures(wheels: WheelPair) -> Iterator[Row]:

@@ -149,7 +149,7 @@ class OwnRolePanel(Panel):
         if before is None or not self._roles.presented:
             return
         if person.has_control and not before.has_control:
-            self._say("You are in control. Everyone sees what you change", "ok")
+            self._say("You can now change the robot. Everyone sees it.", "ok")
         elif before.has_control and not person.has_control:
             taken = f"View only: {_list(self._helpers.values())} now in control"
             taken = taken if self._helpers else _TAKEN_BACK

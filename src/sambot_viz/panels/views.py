@@ -148,7 +148,7 @@ class ViewsPanel(Panel):
         if self._brought not in (None, before) and self._brought[0] != client_id:
             people = self._roles.people
             who = people[self._brought[0]].name if self._brought[0] in people else ""
-            self._say(f"{who or 'Someone'} has brought you to this view", "ok")
+            self._say(f"{who or 'Someone'} moved your view", "ok")
         if self._roles.may_edit(client_id):
             camera = "you show, while you have control"
             if not self._roles.presented:

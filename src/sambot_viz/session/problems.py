@@ -159,7 +159,7 @@ class Problems:
             notes.append(
                 "The model has an error. The robot appears once it is fixed."
                 if self._robot.model is None
-                else f"Showing the last valid version: {self._what_is_wrong()}."
+                else f"{self._what_is_wrong()}; showing the last version that worked."
             )
         if self._has_error("config"):
             notes.append(
@@ -173,8 +173,8 @@ class Problems:
             if fault.code == "model-not-found" and fault.file is not None:
                 return f"{Path(fault.file).name} is gone"
             if fault.file is not None and "://" in fault.file:
-                return "the new description has an error"
-        return "the saved file has an error"
+                return "The new description has an error"
+        return "Your file has an error"
 
     def _has_error(self, of: Reloaded) -> bool:
         return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))

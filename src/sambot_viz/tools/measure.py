@@ -28,7 +28,7 @@ class MeasureTool(Tool):
     kind = "rviz_default_plugins/Measure"
     label = "Measure"
     key = "N"
-    help = "Click on two points. Right click or Esc: start again."
+    help = "Click two points; Esc or a right click starts again."
     touch = "Tap two points; a third one starts again."
     clicks = True
     properties = (
@@ -96,10 +96,10 @@ class MeasureTool(Tool):
         elif self._end is None:
             self._clear()
             self._dot = self._add_dot(self._start)
-            self.context.show_status("Click on the second point.")
+            self.context.show_status("Click the second point.")
         else:
             self._draw_line(self._start, self._end)
-            self.context.show_status(f"[Length: {self.length:.6g}m] {self.help}")
+            self.context.show_status(f"{self.length:.6g} m. {self.help}")
 
     def _draw_line(self, start: Array, end: Array) -> None:
         points = np.array([[start, end]], np.float32)

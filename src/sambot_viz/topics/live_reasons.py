@@ -162,8 +162,7 @@ def wrong_clock(
             return TopicReason(
                 "two-clocks",
                 f"/tf is stamped {stamp:.1f}, the robot's clock says {clock:.1f}: "
-                "where a recording is played, let it tell its time (ros2 bag play "
-                "--clock)",
+                "playing a bag? Use ros2 bag play --clock",
             )
         return TopicReason(
             "two-clocks",

@@ -119,13 +119,12 @@ class RecordedRobot:
         more = ", …" if len(topics) > _NAMED else ""
         told = f"topics: {', '.join(topics[:_NAMED])}{more}" if topics else "no topic"
         frames = any(True for _ in self._told.pairs())
-        shown = "its frames are shown" if frames else "it has no transforms either"
+        shown = "showing frames only" if frames else "no transforms either"
         missing = Problem(
             "warning",
             "no-description",
-            f"there is no /robot_description in {self.name} ({told}), so there is "
-            f"no robot to draw; {shown}",
-            "give the robot beside it: --model ROBOT.urdf.xacro",
+            f"no robot model in {self.name} ({told}); {shown}",
+            "add --model ROBOT.urdf.xacro",
         )
         return (*found, missing)
 

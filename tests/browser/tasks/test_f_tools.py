@@ -54,7 +54,7 @@ def test_task_45_measure_the_height_of_the_body(s: Desk) -> None:
         s.user.reads("second point")
         s.page.mouse.click(*on_page(s, 0.209, 0.1, -0.088))
         length = s.user.until(
-            lambda: re.search(r"Length: ([\d.]+) ?m", s.user.see().text)
+            lambda: re.search(r"([\d.]+) m\. Click", s.user.see().text)
         )
         assert float(length[1]) == pytest.approx(0.18, abs=0.012)
         s.user.keys("Escape")

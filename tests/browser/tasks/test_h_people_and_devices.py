@@ -67,7 +67,7 @@ def test_task_55_one_measures_while_another_turns(
     assert "second point" not in other.user.see().text
     assert yaw(s.viewer) == mine
     s.page.mouse.click(*on_page(s, 0.1, 0.1, 0.09))
-    s.user.reads("Length:")
+    s.user.reads(" m. ")
 
 
 @pytest.mark.parametrize("size", [(390, 844), (844, 390)])

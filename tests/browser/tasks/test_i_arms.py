@@ -154,7 +154,7 @@ def test_task_63_measure_between_two_meshes(a: Desk) -> None:
     a.page.mouse.click(*on_page(a, 0.0, 0.05, 0.3))
     a.user.reads("second point")
     a.page.mouse.click(*on_page(a, 0.0, 0.05, 0.9))
-    length = a.user.until(lambda: re.search(r"Length: ([\d.]+) ?m", a.user.see().text))
+    length = a.user.until(lambda: re.search(r"([\d.]+) m\. Click", a.user.see().text))
     assert float(length[1]) == pytest.approx(0.6, abs=0.015)
 
 

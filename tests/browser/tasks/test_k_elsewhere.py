@@ -122,5 +122,7 @@ def test_task_76_a_viewer_of_a_class_requests_control(
     pupil.user.enter(pupil.user.row("Joints", LEFT).one("textbox"), "0.5")
     teacher.user.until(lambda: number(teacher) == "0.5")
     teacher.user.click("button", re.compile("^People: "))
-    teacher.user.click("button", "Take back control", ("dialog", "People"))
+    teacher.user.click(
+        "button", re.compile("^Take back control from"), ("dialog", "People")
+    )
     pupil.user.until(is_off)

@@ -216,7 +216,7 @@ def test_two_points_are_measured(page: Callable[..., Page]) -> None:
     # Beside the middles, but on the squares.
     one.click(-0.51, -0.49)
     one.click(0.49, 0.51)
-    assert one.tools.status.startswith("[Length: 1.41421m]")
+    assert one.tools.status.startswith("1.41421 m. ")
 
 
 def test_the_camera_looks_at_the_selected_points(page: Callable[..., Page]) -> None:

@@ -154,7 +154,7 @@ function LeadButton({ row, tab }) {
 export function CopyButton({ row, tab }) {
   return html`<button class="flat copy" tabindex=${tab} aria-label=${`Copy ${row.name}`}
     title=${`Copy ${row.name}`}
-    onClick=${() => copy(String(row.value), row.name || "the text")}><${Icon} name="copy" />
+    onClick=${() => copy(String(row.value), `Copied: ${row.name || "the text"}`)}><${Icon} name="copy" />
       </button>`;
 }
 

@@ -24,12 +24,12 @@ export function Invite({ close }) {
       <p class="link">${made?.link || "…"}</p>
       ${
         made?.only_here &&
-        html`<p class="l-warn">This link works on this machine only. Start the program with
-          --host, or behind a web server, to let others in.</p>`
+        html`<p class="l-warn">Only works on this computer. Start with --host 0.0.0.0 to let
+          others in.</p>`
       }
       <div class="buttons end">
         <button type="button" class="main" data-first disabled=${!made}
-          onClick=${() => made && copy(made.link, "the link")}>Copy the link</button>
+          onClick=${() => made && copy(made.link, "Link copied")}>Copy the link</button>
         <button type="button" onClick=${close}>Close</button>
       </div>
     </div>

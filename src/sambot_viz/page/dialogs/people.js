@@ -17,7 +17,6 @@ import { useCommand } from "../state.js";
 /** @param {{now: Now, close: () => void}} props */
 export function PeopleList({ now, close }) {
   const { state, me, people, requests } = now;
-  const given = people.some(({ control, presenter }) => control && !presenter);
   const canInvite = useCommand("people/invite");
   return html`
     ${state.presented && !me.presenter && html`<${Control} now=${now} close=${close} />`}
@@ -28,12 +27,6 @@ export function PeopleList({ now, close }) {
       me.presenter &&
       requests.length > 1 &&
       html`<button onClick=${() => act("role/decline-all")}>Not now, all requests</button>`
-    }
-    ${
-      state.presented &&
-      me.presenter &&
-      given &&
-      html`<button onClick=${() => act("role/take-back")}>Take back control</button>`
     }
     ${
       me.control &&

@@ -180,6 +180,6 @@ function Help() {
     html`<b>${row.name}</b>${followed && html`<br />${followed}`}<br />
     ${row.help}<br />
     ${row.follows ? `position ${formula(row)}; ` : ""}
-      ${row.wheel ? `turns without limits, shown as ${limits(row)}` : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
+      ${row.wheel ? `no limits (shown from ${degrees.value ? "−180° to 180°" : "−π to π"})` : row.min === undefined ? "no limits" : `limits ${limits(row)}`}`
   }</div>`;
 }

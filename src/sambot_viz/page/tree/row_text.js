@@ -43,5 +43,5 @@ function allBelow(id) {
 /** @param {Row} row */
 export function copyRow(row) {
   const one = row.kind === "status" ? "the status" : valueText(row) ? "the value" : "the name";
-  copy(copyText(row, allBelow(row.id)), one);
+  copy(copyText(row, allBelow(row.id)), `Copied: ${one}`);
 }

@@ -4,15 +4,15 @@
 import { rows } from "../wire/channel.js";
 import { tell } from "./notices.js";
 
-/** @param {string} text @param {string} what how the status bar calls it */
-export async function copy(text, what) {
+/** @param {string} text @param {string} said what the status bar then says */
+export async function copy(text, said) {
   try {
     // Only pages from this machine or with https may use it.
     await navigator.clipboard.writeText(text);
   } catch {
     if (!copyMarked(text)) return offer(text);
   }
-  tell(`Copied: ${what}`);
+  tell(said);
 }
 
 /** @param {string} text @returns {boolean} whether it is copied */

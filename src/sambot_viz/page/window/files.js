@@ -68,13 +68,14 @@ const LONG = 24,
 
 /** The name of the file, with a star after an edit; also the title of the page. */
 export function FileName() {
-  const { name, own, modified } = useData("file/state") || {};
+  const state = useData("file/state");
+  const { name, own, modified } = state || {};
   const shown = (name || "no file yet") + (modified ? "*" : "");
   useEffect(() => {
     document.title = `${shown} - sambot-viz`;
   }, [shown]);
   // Of a long name the middle is left out: its end has the star, or room for it.
-  const text = name || "no file yet";
+  const text = name || (state ? "no file yet" : "");
   const tail = text.length > LONG ? text.slice(-TAIL) : "";
   const star = html`<span class=${modified ? "star" : "star none"}>*</span>`;
   const where = own

@@ -174,7 +174,7 @@ function Palette({ close }) {
     </ul>
     <p class="soft" role="status">${
       found.length > MOST
-        ? `${found.length} found: type more letters`
+        ? `${found.length} results. Type to narrow down.`
         : found.length
           ? `${found.length} found`
           : "Nothing found"

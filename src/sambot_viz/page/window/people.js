@@ -94,7 +94,8 @@ function short(now) {
   if (state.copy) return "Private copy";
   if (!state.presented) return `${people.length} browsers`;
   const asking = me.presenter && requests.length ? `, ${count(requests.length, "request")}` : "";
-  return `${inControl(now)}, ${count(viewers, "viewer")}${asking}`;
+  const seen = viewers ? `, ${count(viewers, "viewer")}` : "";
+  return `${inControl(now)}${seen}${asking}`;
 }
 
 /** @param {Now} now */
@@ -102,10 +103,10 @@ function inControl({ me, people }) {
   const others = people.filter(({ control, client }) => control && client !== me.client);
   const names = others.map(({ name }) => name).sort();
   const who = me.control ? ["You", ...names] : names;
-  const verb = me.control || who.length > 1 ? "are" : "is";
+  const verb = me.control || who.length > 1 ? "control" : "controls";
   const list =
     who.length > 2 ? `${who.slice(0, -1).join(", ")} and ${who.at(-1)}` : who.join(" and ");
-  return `${list || "Nobody"} ${verb} in control`;
+  return `${list || "Nobody"} ${verb} the robot`;
 }
 
 /** @param {Now} now */
@@ -143,8 +144,10 @@ export function Asking() {
     }</div>`;
 }
 
-/** @param {{me: Me}} props */
+/** One click requests control; what has been requested is cancelled in the dialog.
+ * @param {{me: Me}} props */
 function ViewOnly({ me }) {
-  return html`<button class="chip" onClick=${() => peopleOpen.set(true)}>
+  const click = () => (me.requests ? peopleOpen.set(true) : act("role/request", [ownName.value]));
+  return html`<button class="chip" onClick=${click}>
     ${me.requests ? "View only · Control requested" : "View only · Request control"}</button>`;
 }

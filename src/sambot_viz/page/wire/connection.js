@@ -228,7 +228,7 @@ export function Connection() {
 const isState = (now) => Boolean(now && typeof now === "object" && "tries" in now);
 
 function Removed() {
-  return html`<p class="l-error">The presenter has removed you from this robot.
+  return html`<p class="l-error">The presenter has removed you.
     <button onClick=${() => location.reload()}>Join again</button></p>`;
 }
 

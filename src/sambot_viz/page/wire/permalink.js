@@ -68,7 +68,7 @@ export function followPermalinks() {
     const now = rows.data("permalink/made");
     if (!now || now.number === made) return;
     made = now.number;
-    void copy(addressOf(now.parts, location), "the permalink");
+    void copy(addressOf(now.parts, location), "Link copied");
   });
   rows.listen("whole:browser", open);
   rows.listen("joints/untouched", open);

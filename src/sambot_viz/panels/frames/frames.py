@@ -310,4 +310,4 @@ def pasted_arguments(pasted: str) -> str:
     return arguments
 
 
-_NONE_ADDED = "None yet. New transforms appear at once for everyone."
+_NONE_ADDED = "None yet. Everyone sees a new one at once."

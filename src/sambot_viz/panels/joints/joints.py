@@ -288,7 +288,9 @@ _NO_ROBOT = "No robot loaded. If its file has an error, Problems shows it."
 _NOT_HERE_YET = (
     "No robot has come yet: the line below the view says what is waited for."
 )
-_NOT_RECORDED = "The recording has no robot: give it with --model ROBOT.urdf.xacro."
+_NOT_RECORDED = (
+    "This recording has no robot model. To add one: --model ROBOT.urdf.xacro"
+)
 _NOTHING_TO_MOVE = (
     "This robot has no joint to move: all its joints are fixed, or follow others."
 )

@@ -86,7 +86,7 @@ def _joint(robot: RobotState, joint: Joint) -> Iterator[Fact]:
     lower, upper = joint.range
     limits = f"{lower:.5g} … {upper:.5g}"
     if joint.endless:
-        limits = "turns without limits"
+        limits = "no limits"
     yield "Joint position", f"{position:.5g} {unit}, {limits}"
     yield "Joint axis", shown_numbers(joint.axis)
 

@@ -165,7 +165,8 @@ class TopicsPanel(Panel):
         if drawn:
             return reasons.off(drawn[0].name)
         short = kind.rpartition("/")[2]
-        return TopicReason("no-display", f"no display {short} is there: add one")
+        article = "an" if short[0] in "AEIOU" else "a"
+        return TopicReason("no-display", f"not shown: add {article} {short} display")
 
     def _rate_and_age(self, name: str) -> str:
         rate, age = self._topics.rate(name), self._topics.age(name)

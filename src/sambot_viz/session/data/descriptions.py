@@ -236,8 +236,7 @@ def not_there(
 
 def _missing_in(name: str, topic: str) -> str:
     return (
-        f"no robot is in {name}; give it beside it: --model ROBOT.urdf.xacro, or "
-        f"record {topic} too"
+        f"no robot model in {name}; add --model ROBOT.urdf.xacro, or record {topic} too"
     )
 
 

@@ -64,7 +64,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
         default=0.0,
         minimum=0.0,
         unit="s",
-        help="How long points stay; 0 shows the newest message alone.",
+        help="How long points stay; 0 = only the newest message.",
     ),
     EditableEnumProperty(
         PLACING,

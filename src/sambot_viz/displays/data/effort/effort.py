@@ -57,10 +57,7 @@ class EffortDisplay(KeptReadingsDisplay):
     """
 
     kind = "rviz_default_plugins/Effort"
-    help = (
-        "How hard each revolute joint turns, as a circle; as in RViz, it turns the "
-        "wrong way for an axis along x, y or −z."
-    )
+    help = "Torque of each revolute joint, as a circle."
     types = frozenset({"sensor_msgs/msg/JointState"})
     length = "History Length"
     properties = (
