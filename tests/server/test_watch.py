@@ -580,7 +580,7 @@ def test_each_private_session_follows_and_a_later_one_shows_the_mistake(
     content = model.read_text("utf-8")
 
     def told(client: ProtocolClient) -> bool:
-        return any("last valid version" in str(m.fields) for m in client.messages)
+        return any("last version that worked" in str(m.fields) for m in client.messages)
 
     with Visualizer(model, watch=True, session="private") as viz:
         port = int(viz.url.rsplit(":", 1)[1])
