@@ -266,7 +266,7 @@ def test_task_30_a_fixed_frame_that_does_not_exist(s: Desk) -> None:
 
 def test_task_31_change_ten_times_and_undo_ten_times(s: Desk) -> None:
     def marked() -> bool:
-        return "urdf_config.rviz*" in s.user.see().text
+        return s.user.see().name.startswith("urdf_config.rviz*")
 
     s.user.until(lambda: not marked())
     s.user.unfold("Displays", "Grid")
