@@ -211,7 +211,7 @@ def test_keys_choose_tools_and_clicks_select_and_measure(desk: Desk) -> None:
     mouse.drag(SKY, (SKY[0] - 20, SKY[1]))
     until(viewer, lambda: abs(value(session, "Yaw") - yaw - 0.1) < 1e-4)
     mouse.click(*place(viewer, (0.3, 0.0, 0.0)))
-    until(viewer, lambda: "Length" in tools.status)
+    until(viewer, lambda: " m. " in tools.status)
     measured = float(tools.status.partition(" m. ")[0])
     assert measured == pytest.approx(0.3, abs=0.02)
     viewer.wait_for("document.body.innerText.includes(' m. Click')")
@@ -340,7 +340,7 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     viewer.user.click("button", "Measure", tools_bar)
     chosen(own, viewer, "Measure")
     touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
-    until(viewer, lambda: tools.status == "Click on the second point.")
+    until(viewer, lambda: tools.status == "Click the second point.")
     touch.tap(*place(viewer, (0.1, 0.0, 0.09)))
     until(viewer, lambda: " m. " in tools.status)
 

@@ -145,7 +145,7 @@ def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     desk.model.write_text(good.replace("</robot>", "</rob>"), "utf-8")
     user.until(lambda: user.there("button", re.compile("Problems: 1 error")), AT_ONCE)
     user.reads(f"{desk.model.name}:")
-    user.reads("last valid")
+    user.reads("last version that worked")
     extra = good.replace(
         "</robot>",
         '<link name="flag"/><joint name="pole" type="fixed"><parent link="base_link"/>'

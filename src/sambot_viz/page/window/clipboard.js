@@ -60,5 +60,5 @@ function textArea(text) {
 // What the server has written for the clipboard.
 rows.listen("notice", () => {
   const said = rows.data("notice");
-  if (said?.copy) void copy(said.copy, said.text);
+  if (said?.copy) void copy(said.copy, `Copied: ${said.text}`);
 });
