@@ -111,7 +111,7 @@ def test_a_sentence_about_several_recordings_is_about_several(
     one = made / "no_description.mcap"
     words = ["--source", f"bag:{one}", "--source", f"bag:{one}"]
     assert main(["topics", *words]) == 0
-    assert "no /robot_description in 2 recordings" in capsys.readouterr().err
+    assert "no robot model in 2 recordings" in capsys.readouterr().err
 
 
 def test_thousands_of_topics_are_listed(made: Path, capsys: Capture) -> None:

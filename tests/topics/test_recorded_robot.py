@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -261,10 +260,9 @@ def test_a_source_that_is_none_is_refused_with_the_right_form(uri: str) -> None:
         Options(source=uri)
 
 
-@pytest.mark.parametrize("at", [1.0, math.nan])
-def test_a_time_needs_a_recording(at: float) -> None:
+def test_a_time_needs_a_recording() -> None:
     with pytest.raises(UsageError, match="needs a recording"):
-        Options(at=at)
+        Options(at=1.0)
 
 
 def test_a_recording_without_a_robot_names_what_it_has(shared: Path) -> None:

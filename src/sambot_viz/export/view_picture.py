@@ -174,7 +174,8 @@ def _too_slow(longest: float) -> ServerError:
 
 def page_address(url: str) -> str:
     """Return the address of a page whose pixels are those of its picture."""
-    return f"{url}&fixedDpr=1" if "?" in url else f"{url}/?fixedDpr=1"
+    query = "fixedDpr=1&channel=none"
+    return f"{url}&{query}" if "?" in url else f"{url}/?{query}"
 
 
 def png(picture: Picture) -> bytes:

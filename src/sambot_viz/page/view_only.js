@@ -6,4 +6,5 @@ import "./view/rviz_mouse.js";
 import "./wire/cell.js";
 import { connect } from "./wire/channel.js";
 
-connect();
+// A page of a picture is asked for its camera by viser, and its server may know no sessions.
+if (new URLSearchParams(location.search).get("channel") !== "none") connect();
