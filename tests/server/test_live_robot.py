@@ -357,13 +357,8 @@ def test_a_recording_needs_a_live_robot(peer: RobotPeer, tmp_path: Path) -> None
         Visualizer(source=peer.uri, record_dir=tmp_path / "none")
 
 
-def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
-    viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(live_data, "SLICE", 2000)
-    data, worker = session_of(viz).data, session_of(viz).worker
-    assert isinstance(data, LiveData)
-    came: list[str] = []
+def bytes_taken(data: LiveData, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The size of each message of transforms that a session takes from now on."""
     taken: list[int] = []
     take = data.transforms.take
 
@@ -372,6 +367,17 @@ def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
         take(message)
 
     monkeypatch.setattr(data.transforms, "take", counted)
+    return taken
+
+
+def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
+    viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live_data, "SLICE", 2000)
+    data, worker = session_of(viz).data, session_of(viz).worker
+    assert isinstance(data, LiveData)
+    came: list[str] = []
+    taken = bytes_taken(data, monkeypatch)
     # What this one has got, the session has got before.
     for topic in ("/tf", "/joint_states"):
         data.live.source.subscribe(topic, lambda message: came.append(message.topic))
@@ -392,16 +398,9 @@ def test_what_waits_for_a_session_is_limited_in_bytes(
     data, worker = session_of(viz).data, session_of(viz).worker
     assert isinstance(data, LiveData)
     came: list[str] = []
-    taken: list[int] = []
-    take = data.transforms.take
-
-    def counted(message: Recorded) -> None:
-        taken.append(len(message.payload))
-        take(message)
-
     data.live.source.subscribe("/tf", lambda message: came.append(message.topic))
     with worker.lock:
-        monkeypatch.setattr(data.transforms, "take", counted)
+        taken = bytes_taken(data, monkeypatch)
         peer.play(9.05, topics=["/tf"])
         eventually(lambda: came.count("/tf") > 300)
     # The last ones are kept, so that the robot is where it is.

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import pytest
 from any_recording import FORMATS, STRING, TEXT, Given, write_any
 from made_recording import store_of_all
+from work import steps
 
 from sambot_viz.commands.topics import topics_text
 from sambot_viz.messages import MessageTypes
@@ -21,24 +19,6 @@ from sambot_viz.topics.survey import Survey
 
 FEW, MANY = 100, 400
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
-
-
-def steps(action: Callable[[], object]) -> int:
-    """How many lines run, each turn of a loop in one line counted."""
-    count = 0
-
-    def note(frame: FrameType, event: str, argument: Any) -> Any:
-        nonlocal count
-        count += event == "line"
-        return note
-
-    before = sys.gettrace()
-    sys.settrace(note)
-    try:
-        action()
-    finally:
-        sys.settrace(before)
-    return count
 
 
 def topics(path: Path, at: float | None) -> str:
