@@ -44,7 +44,7 @@ def open_live(options: Options) -> LiveRobot | None:
         check_folder(folder)
     if options.record is not None:
         check_file(Path(options.record))
-    return LiveRobot(open_source(options.live_sources[0]), types, folder)
+    return LiveRobot(open_source(options.live_sources[0].uri), types, folder)
 
 
 def refuse_time_of_live(options: Options) -> None:
@@ -71,7 +71,7 @@ def open_recorded(options: Options) -> RecordedRobot | None:
     from sambot_viz.sources.bag import open_recording
     from sambot_viz.topics.recorded_robot import RecordedRobot
 
-    paths = [Path(uri.removeprefix("bag:")) for uri in options.source]
+    paths = [Path(given.path) for given in options.sources]
     types = MessageTypes([Path(folder) for folder in options.msg_path])
     name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
     recording = open_recording(paths)

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from sambot_viz.joints.presets import StartPose
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
+    from sambot_viz.sources.given import GivenSource
 
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
@@ -53,10 +54,12 @@ def _is_live(uri: str) -> bool:
     return is_live(uri)
 
 
-def _check_live(uri: str) -> None:
-    from sambot_viz.sources.registry import live_address
+def _given_sources(words: Sequence[str]) -> tuple[GivenSource, ...]:
+    if not words:
+        return ()
+    from sambot_viz.sources.given import given_source
 
-    live_address(uri)
+    return tuple(given_source(one) for one in words)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,12 +115,12 @@ class Options:
     )
     source: Sequence[str] | str = option(
         (),
-        "what moves the robot: bag:PATH of a recording (an mcap, db3 or bag file, or a "
-        f"folder with them{AGAIN}), foxglove://HOST:8765 or rosbridge://HOST:9090 of a "
-        "live robot",
+        "what moves the robot: a recording (an mcap, db3 or bag file, or a folder with "
+        f"them{AGAIN}), foxglove://HOST:8765 or rosbridge://HOST:9090 of a live robot; "
+        "NAME=URI gives it a name",
         "--source",
         group="source",
-        metavar="URI",
+        metavar="[NAME=]URI",
         read=words_of,
     )
     at: float | None = option(
@@ -320,6 +323,7 @@ class Options:
     notes: Sequence[Problem] = option(
         (), "findings that the page shows with those of the model"
     )
+    sources: tuple[GivenSource, ...] = field(init=False, repr=False, compare=False)
     recorded: Mapping[str, float] = field(init=False, repr=False, compare=False)
     transforms: tuple[StaticTransform, ...] = field(
         init=False, repr=False, compare=False
@@ -364,12 +368,10 @@ class Options:
             )
         if self.at is not None and not source:
             raise UsageError(
-                f"--at {self.at:g} needs a recording: give its file, or --source "
-                "bag:FILE"
+                f"--at {self.at:g} needs a recording: give its file, or --source FILE"
             )
         object.__setattr__(self, "source", source)
-        for uri in self.live_sources:
-            _check_live(uri)
+        object.__setattr__(self, "sources", _given_sources(source))
         for flag, given in (
             ("--record", self.record),
             ("--record-dir", self.record_dir),
@@ -399,9 +401,9 @@ class Options:
         return changed
 
     @property
-    def live_sources(self) -> tuple[str, ...]:
-        """The addresses of live robots among the sources."""
-        return tuple(uri for uri in self.source if not uri.startswith("bag:"))
+    def live_sources(self) -> tuple[GivenSource, ...]:
+        """The live robots among the sources."""
+        return tuple(one for one in self.sources if one.is_live)
 
     @property
     def waits_for_robot(self) -> bool:

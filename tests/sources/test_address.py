@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from sambot_viz.errors import UsageError
@@ -58,10 +56,13 @@ def test_what_is_shown_has_no_secret() -> None:
         ("foxglove://robot:port", "write foxglove://HOST:8765"),
         ("foxglove+tcp://robot", "unknown kind of source 'foxglove\\+tcp'"),
         ("foxglove://[::1", "write foxglove://HOST:8765"),
-        ("dds:", "dds comes later; known: bag:PATH, foxglove://HOST:8765"),
+        (
+            "dds:",
+            "dds comes later; known: FILE or folder of a recording, foxglove://HOST:8765",
+        ),
         ("zenoh://robot:7447", "zenoh comes later"),
         ("rclpy:", "rclpy comes later"),
-        ("http://robot", "unknown kind of source; known: bag:PATH"),
+        ("http://robot", "unknown kind of source; known: FILE"),
         ("robot", "unknown kind of source"),
         ("", "unknown kind of source"),
     ],
@@ -69,15 +70,6 @@ def test_what_is_shown_has_no_secret() -> None:
 def test_an_address_that_makes_no_sense_is_refused(uri: str, words: str) -> None:
     with pytest.raises(UsageError, match=words):
         open_source(uri)
-
-
-def test_a_recording_without_the_kind_of_source_is_named_with_it(
-    tmp_path: Path,
-) -> None:
-    path = tmp_path / "run.mcap"
-    path.write_bytes(b"\x89MCAP0\r\n")
-    with pytest.raises(UsageError, match=f"for a recording write bag:{path}"):
-        open_source(str(path))
 
 
 def test_a_name_that_nobody_knows_costs_one_sentence() -> None:

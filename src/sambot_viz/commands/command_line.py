@@ -111,9 +111,7 @@ class Parser(argparse.ArgumentParser):
         near = nearest(unknown[1], flags) if unknown else None
         meant = f"; did you mean {near}?" if near else ""
         if re.match(r"unrecognized arguments: .*\.(mcap|db3|bag)\b", message):
-            meant = (
-                "; name each recording with --source bag:FILE, a model with --model."
-            )
+            meant = "; name each recording with --source FILE, a model with --model."
         help_is = f"{' ' if meant else '; '}see {self.prog} --help"
         self.exit(2, line(f"{self.prog}: error: {message}{meant}{help_is}") + "\n")
 

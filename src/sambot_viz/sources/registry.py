@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from sambot_viz.errors import UsageError
-from sambot_viz.files import is_recording
 from sambot_viz.sources.source import Source
 from sambot_viz.sources.websocket.address import Address, parse_address
 from sambot_viz.text import text
 
-KNOWN = "bag:PATH, foxglove://HOST:8765, rosbridge://HOST:9090"
+KNOWN = "FILE or folder of a recording, foxglove://HOST:8765, rosbridge://HOST:9090"
 """What `--source` takes, for help and messages."""
 _LATER = ("dds", "zenoh", "rclpy")
 _LIVE = ("foxglove", "rosbridge", "ws", "wss")
@@ -33,10 +32,7 @@ def live_address(uri: str) -> Address:
     if scheme in _LATER:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
-        meant = f"known: {KNOWN}"
-        if uri and is_recording(uri):
-            meant = f"for a recording write bag:{text(uri)}"
-        raise UsageError(f"{text(uri)}: unknown kind of source; {meant}")
+        raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
     return parse_address(uri)
 
 

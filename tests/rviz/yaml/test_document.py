@@ -387,7 +387,7 @@ def test_a_recording_is_said_to_be_one(tmp_path: Path, size: int):
         Document.load(path)
     assert str(caught.value) == (
         f"{path}: error[config-not-rviz]: this is a recording, not a display config; "
-        f"show it with --source bag:{path}, and give an .rviz file as the config"
+        f"show it with --source {path}, and give an .rviz file as the config"
     )
 
 

@@ -16,7 +16,7 @@ MOST_SHOWN = 200
 """So many topics have rows; the search finds the others."""
 NO_SOURCE = (
     "There are no topics without a source: start again with a recording or a live "
-    "robot, as in sambot-viz --source bag:FILE.mcap"
+    "robot, as in sambot-viz --source FILE.mcap"
 )
 NOT_SHOWN = "No display shows any of these topics: tick the box below to see them"
 

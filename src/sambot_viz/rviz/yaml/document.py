@@ -186,7 +186,7 @@ def _reads_as(text: str, root: Node) -> bool:
 def _refuse_recording(name: str) -> None:
     """Raise ConfigError for a file that cannot be read because it is a recording."""
     if is_recording(name):
-        hint = f"show it with --source bag:{name}, and give an .rviz file as the config"
+        hint = f"show it with --source {name}, and give an .rviz file as the config"
         message = "this is a recording, not a display config"
         raise _error("config-not-rviz", message, hint, name) from None
 

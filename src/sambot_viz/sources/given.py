@@ -1,0 +1,65 @@
+"""What ``--source`` was given: the name of a source, and where it is."""
+
+from __future__ import annotations
+
+import os.path
+import re
+from dataclasses import dataclass
+
+from sambot_viz.errors import UsageError
+from sambot_viz.files import RECORDING_ENDINGS
+from sambot_viz.sources.registry import KNOWN, live_address
+from sambot_viz.text import text
+
+_RECORDING = "bag:"
+_NAMED = re.compile(r"([A-Za-z][\w-]*)=(.*)", re.DOTALL)
+_PLACE = re.compile(r"(\[[0-9a-fA-F:]+\]|[\w.-]+):\d+(/.*)?")
+"""A host with a port, and no kind of source before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class GivenSource:
+    """A source that a user has named, not opened yet.
+
+    Attributes:
+        uri: the address of a live robot, or bag:PATH.
+        name: what the user calls it; "" for none.
+    """
+
+    uri: str
+    name: str = ""
+
+    @property
+    def is_live(self) -> bool:
+        """Whether it is a robot on the network, and not a recording."""
+        return not self.uri.startswith(_RECORDING)
+
+    @property
+    def path(self) -> str:
+        """The file or folder of a recording."""
+        return self.uri.removeprefix(_RECORDING)
+
+
+def given_source(words: str) -> GivenSource:
+    """Read ``URI`` or ``NAME=URI``; a file or folder needs no ``bag:`` before it.
+
+    Raises:
+        UsageError: it is neither a file nor the address of a live robot.
+    """
+    named = None if os.path.exists(words) else _NAMED.fullmatch(words)
+    name, uri = (named[1], named[2]) if named else ("", words)
+    if uri.startswith(_RECORDING):
+        return GivenSource(uri, name)
+    # That a recording does not exist is said where it is opened.
+    is_named_so = ":" not in uri and uri.lower().endswith(RECORDING_ENDINGS)
+    if uri and (is_named_so or os.path.exists(uri)):
+        return GivenSource(f"{_RECORDING}{uri}", name)
+    if _PLACE.fullmatch(uri):
+        raise UsageError(
+            f"{text(uri)}: say what is spoken there: foxglove://{text(uri)} of a "
+            f"foxglove_bridge, or rosbridge://{text(uri)} of a rosbridge_server"
+        )
+    if ":" not in uri:
+        raise UsageError(f"{text(uri)}: no such file or folder; known: {KNOWN}")
+    live_address(uri)
+    return GivenSource(uri, name)
