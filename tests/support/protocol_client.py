@@ -479,16 +479,20 @@ def wait_for_workers(timeout: float = 10.0, put_off: float = 0.0) -> None:
         put_off: wait also for what was put off for so long before [s].
     """
     for delay in (put_off, PERIOD):
+        # All of them at the same time: a browser test has several sessions open.
+        waited: list[tuple[Worker, threading.Event]] = []
         for thread in threading.enumerate():
             if isinstance(thread, Worker):
                 done = threading.Event()
                 thread.post_later(delay, partial(_behind_all, thread, done.set))
                 if isinstance(thread.clock, HandClock):
                     thread.clock.advance(delay)
-                end = time.monotonic() + patience(timeout)
-                # A worker that is closed meanwhile drops what was posted to it.
-                while not done.wait(0.02) and thread.is_alive():
-                    assert time.monotonic() < end, "a session hangs"
+                waited.append((thread, done))
+        end = time.monotonic() + patience(timeout)
+        for thread, done in waited:
+            # A worker that is closed meanwhile drops what was posted to it.
+            while not done.wait(0.02) and thread.is_alive():
+                assert time.monotonic() < end, "a session hangs"
 
 
 def _behind_all(worker: Worker, action: Callable[[], None]) -> None:
