@@ -270,6 +270,9 @@ class FrameTree(FrameHierarchy):
         Raises:
             LookupRefused: as `lookup`.
         """
+        if self.history is not None:
+            time_ns = self.history.latest_common_time(target, source, self)
+            return (time_ns or 0) * 1e-9
         below, above = self._path(target, source)
         return min((e.stamp for e in (*below, *above) if not e.static), default=0.0)
 

@@ -159,13 +159,15 @@ class FrameHistory:
         way = _Way(target, source, time_ns)
         frame, pose, found = source, _HERE, {source: _HERE}
         sample = self._at(frame, time_ns, beside)
-        while isinstance(sample, Sample):
+        # As in tf2, a target on the way is found although a ring is above it.
+        while isinstance(sample, Sample) and frame != target:
             frame, pose = sample.parent, _product(sample.pose, pose)
             way.step(frame)
             found[frame] = pose
             sample = self._at(frame, time_ns, beside)
         # There may be a way below the frame of which nothing is known at this time.
-        gap, frame, pose = sample, target, _HERE
+        gap = None if isinstance(sample, Sample) else sample
+        frame, pose = target, _HERE
         while frame not in found:
             sample = self._at(frame, time_ns, beside)
             if not isinstance(sample, Sample):
@@ -186,7 +188,7 @@ class FrameHistory:
         self._require(target, source, beside)
         way = _Way(target, source, None)
         frame, low, found = source, _NEVER, {source: _NEVER}
-        while (sample := self._latest(frame, beside)) is not None:
+        while frame != target and (sample := self._latest(frame, beside)) is not None:
             frame, low = sample.parent, min(low, sample.stamp)
             way.step(frame)
             found[frame] = low

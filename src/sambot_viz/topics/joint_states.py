@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,11 @@ from numpy.typing import NDArray
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages import JointStateTemplate
 from sambot_viz.sources.message import Recorded, TopicChannel
+from sambot_viz.topics.subscriber import newest_until
+
+# A page without a recording does without what opens one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
 
 _MOST_TEMPLATES = 8
 """So many parts of a robot are known by their names, in each channel."""
@@ -33,7 +38,6 @@ class JointStateTopics:
     """
 
     depth_ns = 1_000_000_000
-    base = ""
     always: Collection[str] = ()
 
     def __init__(
@@ -95,17 +99,14 @@ class JointStateTopics:
         for template, positions in newest.items():
             self._set(template.names, positions.tolist())
 
-    def take_older(self, message: Recorded) -> None:
-        """Do nothing: what is older than `depth_ns` counts for nothing."""
+    def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
+        """Return the messages of the last seconds, or the last one of a topic."""
+        return newest_until(recording, self.topics, at_ns, self.depth_ns)
 
     def clear(self) -> None:
         """Forget what was not asked for."""
         self._spread()
         self._changed.clear()
-
-    def lacks(self) -> bool:
-        """Return False: a joint without a message stays where it is."""
-        return False
 
     def changed(self) -> Mapping[str, float]:
         """Return joint → position since the last call [rad or m]."""

@@ -27,6 +27,7 @@ from sambot_viz.topics.robot_topics import (
     top_frame,
 )
 from sambot_viz.topics.subscriber import jump
+from sambot_viz.topics.transform_index import TransformIndex
 from sambot_viz.topics.transforms import (
     Transforms,
     TransformTopics,
@@ -102,6 +103,8 @@ class RecordedRobot:
         self.topics = topics
         self._descriptions = self._read_descriptions()
         self.description = self.description_of(self.topics.description or "")
+        decode = self.transform_decoder()
+        self._index = TransformIndex(self.recording, topics.moving, decode)
         # What the begin tells of frames; every session starts from it.
         self._told = self._make_transforms(FrameHistory())
         self._told.expect(self._first_transforms())
@@ -157,8 +160,10 @@ class RecordedRobot:
         """The XML text of a robot of a single link, at the top of the frames."""
         pairs = list(self._told.pairs())
         children = {child for _, child in pairs}
-        roots = (parent for parent, _ in pairs if parent not in children)
-        return stand_in_model(next(roots, STAND_IN_LINK))
+        roots = [parent for parent, _ in pairs if parent not in children]
+        # Frames that form a loop have no root, and none is invented for them.
+        frames = (*roots, *(parent for parent, _ in pairs), STAND_IN_LINK)
+        return stand_in_model(frames[0])
 
     @property
     def label(self) -> str:
@@ -238,7 +243,9 @@ class RecordedRobot:
 
     def _make_transforms(self, history: FrameHistory) -> TransformTopics:
         topics, decode = self.topics, self.transform_decoder()
-        return TransformTopics(history, topics.moving, topics.static, decode)
+        return TransformTopics(
+            history, topics.moving, topics.static, decode, self._index
+        )
 
     def _first_transforms(self) -> Iterator[Recorded]:
         recording, moving = self.recording, self.topics.moving

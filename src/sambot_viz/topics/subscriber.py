@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from sambot_viz.sources.message import Recorded
@@ -10,9 +10,6 @@ from sambot_viz.sources.message import Recorded
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
-
-MOST_OLDER = 400
-"""After a jump so many messages before its depth are looked through."""
 
 
 class Subscriber(Protocol):
@@ -28,87 +25,66 @@ class Subscriber(Protocol):
         """Those of its topics whose messages hold for ever, also after a jump back."""
         ...
 
-    @property
-    def depth_ns(self) -> int:
-        """How far back messages count after a jump [ns].
-
-        Of a topic without one in this time the last one before counts.
-        """
-        ...
-
-    @property
-    def base(self) -> str:
-        """The topic whose last message changes are made to; "" for none.
-
-        All that has come since it counts.
-        """
+    def until(self, recording: Bag, at_ns: int) -> Iterable[Recorded]:
+        """Return the messages that count at a log time [ns], in their order."""
         ...
 
     def take(self, message: Recorded) -> None:
         """Take a message; one that cannot be decoded is counted, and no error."""
         ...
 
-    def take_older(self, message: Recorded) -> None:
-        """Take what a message, older than those before, has that is new."""
-        ...
-
     def clear(self) -> None:
         """Forget what was taken: the time has jumped."""
-        ...
-
-    def lacks(self) -> bool:
-        """Return whether older messages could still tell something."""
         ...
 
 
 def jump(recording: Bag, at_ns: int, subscribers: Iterable[Subscriber]) -> None:
     """Bring subscribers to a time of a recording, as if it had been played to there.
 
-    What was taken is forgotten, but for what holds for ever. Then come the latched
-    messages, those of the depth of a subscriber up to the time, and of what is rarer
-    the last one.
+    What was taken is forgotten, but for what holds for ever.
 
     Args:
         recording: the messages.
         at_ns: the log time; messages of that time are taken [ns].
         subscribers: are cleared and filled.
     """
-    latched = recording.latched()
     for one in subscribers:
         one.clear()
-        rest = [topic for topic in one.topics if topic in recording.topics]
-        for message in latched:
-            if message.topic in one.topics and message.log_ns <= at_ns:
-                one.take(message)
-        rest = [topic for topic in rest if topic not in one.always]
-        begin = at_ns - one.depth_ns
-        base = recording.last(one.base, at_ns) if one.base in rest else None
-        if base is not None:
-            begin = min(begin, base.log_ns)
-        recent = list(recording.messages(begin, at_ns, rest)) if rest else []
-        seen = {message.topic for message in recent}
-        before = [recording.last(topic, begin - 1) for topic in rest]
-        older = [m for m in before if m is not None and m.topic not in seen]
-        for message in sorted(older, key=lambda m: m.log_ns):
+        for message in one.until(recording, at_ns):
             one.take(message)
-        for message in recent:
-            one.take(message)
-        if one.lacks():
-            _look_further(recording, begin, rest, one)
 
 
-def _look_further(
-    recording: Bag, before_ns: int, topics: Sequence[str], one: Subscriber
-) -> None:
-    """Give a subscriber what is older than its depth, the newest first."""
-    looked = 0
-    for topic in topics:
-        time = before_ns
-        while one.lacks() and looked < MOST_OLDER:
-            message = recording.last(topic, time - 1)
-            if message is None:
-                break
-            time = message.log_ns
-            for same_time in recording.messages(time, time, (topic,)):
-                one.take_older(same_time)
-                looked += 1
+def latched_until(
+    recording: Bag, topics: Collection[str], at_ns: int
+) -> list[Recorded]:
+    """Return the latched messages of some topics up to a log time [ns]."""
+    latched = recording.latched()
+    return [m for m in latched if m.topic in topics and m.log_ns <= at_ns]
+
+
+def newest_until(
+    recording: Bag, topics: Collection[str], at_ns: int, depth_ns: int, base: str = ""
+) -> list[Recorded]:
+    """Return the newest messages of some topics up to a log time, in their order.
+
+    Args:
+        recording: the messages.
+        topics: names, of which some may not be in the recording.
+        at_ns: the log time [ns].
+        depth_ns: how far back messages count [ns]. Of a topic without one in this time
+            the last one before counts.
+        base: the topic whose last message changes are made to; all that has come since
+            it counts. "" for none.
+    """
+    there = [topic for topic in topics if topic in recording.topics]
+    if not there:
+        return []
+    begin = at_ns - depth_ns
+    base_message = recording.last(base, at_ns) if base in there else None
+    if base_message is not None:
+        begin = min(begin, base_message.log_ns)
+    recent = list(recording.messages(begin, at_ns, there))
+    seen = {message.topic for message in recent}
+    before = [recording.last(name, begin - 1) for name in there if name not in seen]
+    older = sorted((m for m in before if m is not None), key=lambda m: m.log_ns)
+    return [*latched_until(recording, there, at_ns), *older, *recent]

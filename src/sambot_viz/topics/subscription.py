@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Collection
-from typing import Any
+from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.subscriber import newest_until
+
+# A page without a recording does without what opens one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
 
 _NS = 1_000_000_000
 
@@ -66,7 +71,6 @@ class Subscription:
         self.has_older = False
         self.given_way = 0
         self._minds_older = minds_older
-        self._looked_for_older = 0
         self._waiting: deque[Recorded] = deque(maxlen=size)
         self._last: dict[str, Recorded] = {}
         self._begin_ns: int | None = None
@@ -96,11 +100,12 @@ class Subscription:
                     del self._waiting[1]
             self._waiting.append(message)
 
-    def take_older(self, message: Recorded) -> None:
-        """Leave out what is older than what counts, but note that it is there."""
-        with self._lock:
-            self.has_older = not any(_is_same(one, message) for one in self._waiting)
-            self._looked_for_older += 1
+    def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
+        """Return the messages of the display's depth, or the last one of a topic."""
+        found = newest_until(recording, self.topics, at_ns, self.depth_ns, self.base)
+        if self._minds_older:
+            self.has_older = _is_any_older(recording, found)
+        return found
 
     def clear(self) -> None:
         """Forget all messages: the time has jumped."""
@@ -110,14 +115,7 @@ class Subscription:
             self._begin_ns = None
             self.count = dict.fromkeys(self.topics, 0)
             self.has_older = False
-            self._looked_for_older = 0
             self.is_outdated = True
-
-    def lacks(self) -> bool:
-        """Return whether it is not yet known that there are older messages."""
-        # The first older message may be the last one of a topic, which was taken.
-        looks = self._looked_for_older <= len(self.topics)
-        return self._minds_older and not self.has_older and looks
 
     def drain(self) -> list[Recorded]:
         """Return the messages that wait, the oldest first; they wait no longer."""
@@ -137,6 +135,21 @@ class Subscription:
         if self._begin_ns is None or now_ns <= self._begin_ns:
             return 0.0
         return self.count[topic] * _NS / (now_ns - self._begin_ns)
+
+
+def _is_any_older(recording: Bag, found: Sequence[Recorded]) -> bool:
+    """Return whether a recording has older messages of a topic than those found."""
+    first: dict[str, int] = {}
+    for message in found:
+        first.setdefault(message.topic, message.log_ns)
+    for topic, time in first.items():
+        if recording.last(topic, time - 1) is not None:
+            return True
+        times = [message.log_ns for message in found if message.topic == topic]
+        of_time = recording.messages(time, time, (topic,))
+        if sum(1 for _ in of_time) > times.count(time):
+            return True
+    return False
 
 
 def _is_same(one: Recorded, other: Recorded) -> bool:

@@ -12,12 +12,13 @@ from collections.abc import (
     Sequence,
 )
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.frames.history import DURATION, FrameHistory
+from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import (
     FramePair,
     Poses,
@@ -27,11 +28,19 @@ from sambot_viz.frames.samples import (
 )
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.frame_limit import FrameLimit, Transforms, too_many_frames
+from sambot_viz.topics.subscriber import latched_until
+from sambot_viz.topics.transform_index import (
+    TURNED_BACK,
+    HoldingMessages,
+    TransformIndex,
+    taken_children,
+)
+
+# A page without a recording does without what opens one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
 
 Decode = Callable[[Recorded], Transforms]
-
-TURNED_BACK = 1_000_000_000
-"""A stamp that is older than the newest of its frames by more is of a new time [ns]."""
 
 
 @dataclass(slots=True)
@@ -51,6 +60,7 @@ class TransformTopics:
         moving: the topics whose transforms hold at their stamps.
         static: the topics whose transforms hold at all times.
         decode: the transforms of a message; raises DecodeError.
+        index: of the recording whose messages they are; None for a live robot.
 
     Attributes:
         history: as given.
@@ -58,15 +68,13 @@ class TransformTopics:
         always: the static ones: they hold for ever.
         faults: topic and tf2's name of a fault → how often a transform was ignored.
         undecoded: topic → how many messages could not be decoded.
-        parents: child → its parents, and the topic that names each.
+        parents: child → its parents, and the topic that names each; the last one told
+            of is the last.
         first: child → its first sample in the messages that were expected, stamped
             with the log time [ns].
         turned_back_by: by how much the stamps went back the last time [ns]; 0: never.
         limit: which frames are taken.
     """
-
-    depth_ns = round(DURATION * 1e9)
-    base = ""
 
     def __init__(
         self,
@@ -74,6 +82,7 @@ class TransformTopics:
         moving: Collection[str],
         static: Collection[str],
         decode: Decode,
+        index: TransformIndex | None = None,
     ) -> None:
         self.history = history
         self.topics = (*moving, *static)
@@ -85,6 +94,8 @@ class TransformTopics:
         self.turned_back_by = 0
         self.limit = FrameLimit()
         self._decode = decode
+        self._index = index
+        self._holding = HoldingMessages()
         # All that has ever moved, and what has a place since the last jump.
         self._moving: dict[str, None] = {}
         self._placed: set[str] = set()
@@ -103,17 +114,32 @@ class TransformTopics:
         is_static = message.topic in self.always
         for stamp, edges, poses in self._transforms_of(message):
             if is_static:
-                self._take_static(message.topic, edges, poses)
+                self._take_static(message, edges, poses)
             else:
                 self._take_moving(message.topic, stamp, edges, poses)
 
-    def take_older(self, message: Recorded) -> None:
-        """Take the frames of an older message that have no place yet."""
-        for stamp, edges, poses in self._transforms_of(message):
-            for row, (parent, child) in enumerate(edges):
-                if plain_name(child) not in self._placed:
-                    pair = ((parent, child),)
-                    self._take_moving(message.topic, stamp, pair, poses[row : row + 1])
+    def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
+        """Return the messages that hold at a log time [ns], in their order.
+
+        Taken one after the other, they leave the frames as all messages up to that
+        time do.
+        """
+        fixed = latched_until(recording, self.always, at_ns)
+        last = {
+            child: message.log_ns
+            for message in fixed
+            for _, edges, poses in self._read(message)
+            for child in taken_children(edges, poses)
+        }
+        index, topics = self._index, [n for n in self.topics if n not in self.always]
+        if index is not None:
+            self._holding = index.holding(at_ns, last, self._moving)
+        moving = [
+            message
+            for begin, end in self._holding.spans
+            for message in recording.messages(begin, end, topics)
+        ]
+        return sorted((*fixed, *moving), key=lambda message: message.log_ns)
 
     @property
     def newest_ns(self) -> int:
@@ -130,10 +156,6 @@ class TransformTopics:
         self.history.clear()
         self._groups.clear()
         self._placed.clear()
-
-    def lacks(self) -> bool:
-        """Return whether a frame that has moved before has no place yet."""
-        return len(self._placed) < len(self._moving)
 
     def expect(self, messages: Iterable[Recorded]) -> None:
         """Learn from messages, without taking them, which frames there will be."""
@@ -178,10 +200,21 @@ class TransformTopics:
             self.undecoded[message.topic] += 1
             return ()
 
+    def _read(self, message: Recorded) -> Transforms:
+        """Return the transforms of a message that is not taken, and not counted."""
+        try:
+            return self._decode(message)
+        except DecodeError:
+            return ()
+
     def _take_static(
-        self, topic: str, edges: Sequence[FramePair], poses: Poses
+        self, message: Recorded, edges: Sequence[FramePair], poses: Poses
     ) -> None:
+        topic, holding = message.topic, self._holding
+        is_before = message.log_ns < holding.begin_ns
         for (parent, child), row in zip(edges, poses.tolist(), strict=True):
+            if is_before and plain_name(child) in holding.were_moving:
+                continue
             x, y, z, qx, qy, qz, qw = row
             pose = ((x, y, z), (qx, qy, qz, qw))
             fault = self.history.add_static(parent, child, pose)
@@ -235,9 +268,10 @@ class TransformTopics:
             self.first[name] = Sample(log_ns, plain_name(parent), at)
 
     def _note_parent(self, topic: str, parent: str, child: str) -> None:
-        self.parents.setdefault(plain_name(child), {}).setdefault(
-            plain_name(parent), topic
-        )
+        parents = self.parents.setdefault(plain_name(child), {})
+        parent = plain_name(parent)
+        # The topic that named it first stays.
+        parents[parent] = parents.pop(parent, topic)
 
 
 def problems_of_transforms(
@@ -255,6 +289,8 @@ def problems_of_transforms(
         for child, parents in transforms.parents.items()
         if len(parents) > 1
     ]
+    if loop := _loop(transforms.parents):
+        found.append(_of_loop(loop, transforms.parents))
     if transforms.limit.left_out:
         found.append(too_many_frames(transforms.limit.left_out, name))
     if transforms.turned_back_by:
@@ -273,6 +309,38 @@ def problems_of_transforms(
             )
         )
     return tuple(found)
+
+
+def _loop(parents: Mapping[str, Mapping[str, str]]) -> list[str]:
+    """Return the frames of a loop, each the parent of the next; empty without one."""
+    above = {child: [*named][-1] for child, named in parents.items()}
+    done: set[str] = set()
+    for frame in above:
+        way: dict[str, None] = {}
+        while frame in above and frame not in done and frame not in way:
+            way[frame] = None
+            frame = above[frame]
+        if frame in way:
+            names = list(way)
+            return names[names.index(frame) :][::-1]
+        done.update(way)
+    return []
+
+
+def _of_loop(loop: Sequence[str], parents: Mapping[str, Mapping[str, str]]) -> Problem:
+    """Say which transforms form a loop, and which of them to stop."""
+    arrows = " -> ".join((*loop, loop[0]))
+    pairs = zip(loop, (*loop[1:], loop[0]), strict=True)
+    said = " and ".join(
+        f"{parent} -> {child} on {parents[child][parent]}" for parent, child in pairs
+    )
+    return Problem(
+        "warning",
+        "tf-loop",
+        f"the transforms form a loop, {arrows}: tf2 finds no way through it, and what "
+        "is in it and below it has no place",
+        f"stop one of those that publish {said}",
+    )
 
 
 def _two_parents(

@@ -1,0 +1,297 @@
+"""Which messages of a recording say where its frames are at a time.
+
+tf2 keeps of each frame what is not more than ten seconds older than its newest
+transform. Which messages that are follows from all messages before: a frame may have
+been told of once, an hour ago. So a recording is looked through once, a second at a
+time and from the time that is asked for back to the start, and what was seen is kept as
+a few numbers of each second.
+"""
+
+from __future__ import annotations
+
+import threading
+from array import array
+from collections.abc import (
+    Callable,
+    Collection,
+    Iterable,
+    Iterator,
+    Mapping,
+    Sequence,
+)
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sambot_viz import limits
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.history import DURATION
+from sambot_viz.frames.samples import FramePair, Poses, name_fault, number_faults
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.frame_limit import Transforms
+
+# A page without a recording does without what opens one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
+
+TURNED_BACK = 1_000_000_000
+"""A stamp that is older than the newest of its frames by more is of a new time [ns]."""
+BLOCK = 1_000_000_000
+"""The length of a block of log time [ns]."""
+DEPTH = round(DURATION * 1e9)
+"""How long a transform is kept after the newest of its frame [ns]."""
+FEW = 5_000
+"""So many messages are looked at in any case, before the time that is asked for."""
+MOST = 20_000
+"""So many are looked at while a frame that must be there was not found."""
+
+Span = tuple[int, int]
+"""The first and the last log time [ns]."""
+
+
+@dataclass(frozen=True, slots=True)
+class HoldingMessages:
+    """Which messages hold at a time.
+
+    Attributes:
+        spans: when they were written. Played in their order, and none between them,
+            they leave what moves as all messages up to that time do.
+        begin_ns: the log time at which the clock last went back; all that moved was
+            forgotten then [ns].
+        were_moving: frames with a static transform of before which had moved after it,
+            and before that time: they have no place.
+    """
+
+    spans: Sequence[Span] = ()
+    begin_ns: int = 0
+    were_moving: frozenset[str] = frozenset()
+
+
+@dataclass(slots=True)
+class _Block:
+    """The transforms of a second: which group of frames came when, with which stamp.
+
+    Attributes:
+        logs: the log times [ns], ascending.
+        groups: the number of the frames that came together.
+        stamps: of these [ns].
+        lows: group → its oldest stamp.
+        highs: group → its newest stamp.
+        turns: whether the time goes back between messages of the block.
+    """
+
+    logs: array[int] = field(default_factory=lambda: array("q"))
+    groups: array[int] = field(default_factory=lambda: array("q"))
+    stamps: array[int] = field(default_factory=lambda: array("q"))
+    lows: dict[int, int] = field(default_factory=dict[int, int])
+    highs: dict[int, int] = field(default_factory=dict[int, int])
+    turns: bool = False
+
+    def add(self, log: int, group: int, stamp: int) -> None:
+        self.logs.append(log)
+        self.groups.append(group)
+        self.stamps.append(stamp)
+        high = self.highs.get(group, stamp)
+        self.turns = self.turns or stamp < high - TURNED_BACK
+        self.highs[group] = max(high, stamp)
+        self.lows[group] = min(self.lows.get(group, stamp), stamp)
+
+    def events(self) -> Iterator[tuple[int, int, int]]:
+        """Yield log time, group and stamp in the order of the log."""
+        return zip(self.logs, self.groups, self.stamps, strict=True)
+
+    def until(self, at_ns: int) -> _Block:
+        """Return what there is of it up to a log time."""
+        if not self.logs or self.logs[-1] <= at_ns:
+            return self
+        return _Block.of(event for event in self.events() if event[0] <= at_ns)
+
+    def since(self, begin_ns: int) -> _Block:
+        """Return what there is of it from a log time on."""
+        if not self.logs or self.logs[0] >= begin_ns:
+            return self
+        return _Block.of(event for event in self.events() if event[0] >= begin_ns)
+
+    @classmethod
+    def of(cls, events: Iterable[tuple[int, int, int]]) -> _Block:
+        block = cls()
+        for event in events:
+            block.add(*event)
+        return block
+
+
+class TransformIndex:
+    """Finds the messages that hold at a time. Threads may share it.
+
+    Args:
+        recording: its messages.
+        topics: the topics whose transforms hold at their stamps.
+        decode: the transforms of a message; raises DecodeError.
+    """
+
+    def __init__(
+        self,
+        recording: Bag,
+        topics: Collection[str],
+        decode: Callable[[Recorded], Transforms],
+    ) -> None:
+        self._recording = recording
+        self._topics = tuple(name for name in topics if name in recording.topics)
+        self._decode = decode
+        self._blocks: dict[int, _Block] = {}
+        self._numbers: dict[tuple[tuple[FramePair, ...], tuple[str, ...]], int] = {}
+        self._children: list[tuple[str, ...]] = []
+        self._lock = threading.Lock()
+
+    def holding(
+        self, at_ns: int, fixed: Mapping[str, int], expected: Collection[str]
+    ) -> HoldingMessages:
+        """Return which messages hold at a log time [ns].
+
+        Args:
+            at_ns: the log time.
+            fixed: frame → the log time of its last static transform, which makes all
+                before it forgotten.
+            expected: frames for which it is looked further back.
+        """
+        if self._recording.start_ns is None or not self._topics:
+            return HoldingMessages()
+        with self._lock:
+            known = self._known_until(at_ns, expected)
+            begin = self._turn(known)
+            blocks = [part for block in known if (part := block.since(begin)).logs]
+            spans = _joined(self._needed(blocks, fixed))
+            return HoldingMessages(spans, begin, self._moved(known, fixed, begin))
+
+    # Looking through the recording
+
+    def _known_until(self, at_ns: int, expected: Collection[str]) -> list[_Block]:
+        """Return the blocks up to a time of which all after the first are known."""
+        start = self._recording.start_ns or 0
+        last = (at_ns - start) // BLOCK
+        nearest = last - DEPTH // BLOCK - 1
+        missing, looked = set(expected), 0
+        found: list[_Block] = []
+        for number in range(last, -1, -1):
+            block = self._blocks.get(number)
+            if block is None:
+                if number < nearest and looked >= (MOST if missing else FEW):
+                    break
+                block = self._blocks[number] = self._look(start + number * BLOCK)
+                looked += len(block.logs)
+            block = block.until(at_ns) if number == last else block
+            found.append(block)
+            if missing:
+                missing.difference_update(*(self._children[g] for g in block.highs))
+        found.reverse()
+        return found
+
+    def _look(self, begin: int) -> _Block:
+        block = _Block()
+        end = begin + BLOCK - 1
+        for message in self._recording.messages(begin, end, self._topics):
+            try:
+                transforms = self._decode(message)
+            except DecodeError:
+                continue
+            for stamp, edges, poses in transforms:
+                group = self._group(edges, taken_children(edges, poses))
+                if group is not None:
+                    block.add(message.log_ns, group, stamp)
+        return block
+
+    def _group(self, edges: Sequence[FramePair], names: tuple[str, ...]) -> int | None:
+        """Return the number of frames that come together; None for one too many."""
+        key = tuple(edges), names
+        number = self._numbers.get(key)
+        if number is None and len(self._numbers) < limits.FRAMES.value:
+            number = self._numbers[key] = len(self._children)
+            self._children.append(names)
+        return number
+
+    # What of it holds
+
+    def _turn(self, blocks: Sequence[_Block]) -> int:
+        """Return the log time at which the time last went back; 0 for never [ns]."""
+        turn = 0
+        newest: dict[int, int] = {}
+        for block in blocks:
+            goes_on = all(
+                low >= newest.get(group, low) - TURNED_BACK
+                for group, low in block.lows.items()
+            )
+            if goes_on and not block.turns:
+                for group, high in block.highs.items():
+                    newest[group] = max(newest.get(group, high), high)
+                continue
+            for log, group, stamp in block.events():
+                if stamp < newest.get(group, stamp) - TURNED_BACK:
+                    newest.clear()
+                    turn = log
+                newest[group] = max(newest.get(group, stamp), stamp)
+        return turn
+
+    def _needed(
+        self, blocks: Sequence[_Block], fixed: Mapping[str, int]
+    ) -> Iterator[Span]:
+        """Yield the times of the blocks that have what tf2 would still keep."""
+        newest = self._newest(blocks, fixed)
+        oldest: dict[int, int] = {}
+        for group, names in enumerate(self._children):
+            stamps = [newest[name] for name in names if name in newest]
+            if stamps:
+                oldest[group] = min(stamps) - DEPTH
+        for block in blocks:
+            if any(
+                high >= oldest.get(group, high + 1)
+                for group, high in block.highs.items()
+            ):
+                yield block.logs[0], block.logs[-1]
+
+    def _moved(
+        self, blocks: Sequence[_Block], fixed: Mapping[str, int], begin: int
+    ) -> frozenset[str]:
+        """Return what moved after its static transform, and before a time [ns]."""
+        return frozenset(
+            name
+            for block in blocks
+            for log, group, _ in block.events()
+            if log < begin and fixed
+            for name in self._children[group]
+            if fixed.get(name, begin) < log
+        )
+
+    def _newest(
+        self, blocks: Sequence[_Block], fixed: Mapping[str, int]
+    ) -> dict[str, int]:
+        """Return the newest stamp of each frame since its last static transform."""
+        newest: dict[str, int] = {}
+        for block in blocks:
+            for group, high in block.highs.items():
+                for name in self._children[group]:
+                    if block.logs[-1] >= fixed.get(name, 0):
+                        newest[name] = max(newest.get(name, high), high)
+        return newest
+
+
+def taken_children(edges: Sequence[FramePair], poses: Poses) -> tuple[str, ...]:
+    """Return the children of transforms that tf2 does not ignore."""
+    bad = number_faults(np.array(poses, dtype=np.float64))
+    return tuple(
+        plain_name(child)
+        for row, (parent, child) in enumerate(edges)
+        if row not in bad and not name_fault(plain_name(parent), plain_name(child))
+    )
+
+
+def _joined(spans: Iterator[Span]) -> list[Span]:
+    """Return spans with those that follow each other within a block made one."""
+    joined: list[Span] = []
+    for begin, end in spans:
+        if joined and begin - joined[-1][1] <= BLOCK:
+            joined[-1] = joined[-1][0], end
+        else:
+            joined.append((begin, end))
+    return joined

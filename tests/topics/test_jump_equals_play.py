@@ -1,0 +1,207 @@
+"""A jump shows what playing to that time shows, whatever was recorded."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import made_recording
+import pytest
+
+from sambot_viz.frames import FrameHistory, FrameTree
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.subscriber import jump
+
+SECONDS = 60
+FRAMES = ("map", "odom", "base", "arm", "hand", "wheel", "laser")
+TFMESSAGE = "tf2_msgs/msg/TFMessage"
+Sent = tuple[str, float, float, dict[str, str]]
+"""Topic, log time and stamp [s], and the parent of each child."""
+
+
+class AnyRecording:
+    """Publishers that begin, stop, lose their clock and disagree, by chance."""
+
+    def __init__(self, seed: int) -> None:
+        self._chance = random.Random(seed)
+
+    def messages(self) -> list[Sent]:
+        """Return what they send, in the order of the log."""
+        chance = self._chance
+        sent = [one for _ in range(chance.randint(1, 5)) for one in self._moving()]
+        sent += [one for _ in range(chance.randint(0, 3)) for one in self._fixed()]
+        sent.sort(key=lambda one: one[1])
+        # As when a simulation is reset.
+        back = chance.choice((0.0, 0.0, 0.5, 20.0, 1000.0))
+        turn = chance.uniform(0, SECONDS)
+        return [
+            (topic, log, stamp - (back if log > turn else 0.0), frames)
+            for topic, log, stamp, frames in sent
+        ]
+
+    def _moving(self) -> Iterator[Sent]:
+        chance = self._chance
+        frames = self._edges()
+        period = chance.choice((0.1, 0.3, 1.0, 7.0, 30.0))
+        late, log = chance.choice((0.0, 0.0, 0.2, 3.0)), chance.uniform(0, 20)
+        while log < SECONDS:
+            yield "/tf", log, log - late, frames
+            pause = chance.choice((11.0, 25.0)) if chance.random() < 0.02 else 0.0
+            log += period + pause
+            if chance.random() < 0.01:
+                frames = self._edges()
+
+    def _fixed(self) -> Iterator[Sent]:
+        log = self._chance.choice((0.0, self._chance.uniform(0, SECONDS)))
+        yield "/tf_static", log, log, self._edges()
+
+    def _edges(self) -> dict[str, str]:
+        """Return the parents of some frames, which may form a ring."""
+        count = self._chance.randint(1, 3)
+        children = self._chance.sample(FRAMES, count)
+        return {child: self._chance.choice(FRAMES) for child in children}
+
+
+def written(path: Path, sent: list[Sent]) -> Path:
+    store = made_recording.store_of_all()
+    start = made_recording.START
+    return made_recording.write_messages(
+        path,
+        [
+            (
+                topic,
+                TFMESSAGE,
+                round((start + log) * 1e9),
+                made_recording.transforms_message(store, stamp, frames),
+            )
+            for topic, log, stamp, frames in sent
+        ],
+    )
+
+
+def state(history: FrameHistory, frames: tuple[str, ...]) -> dict[str, Any]:
+    """All that a look-up could find."""
+    return {
+        name: (
+            history.is_static(name),
+            tuple(history.stamps(name)),
+            sample and (sample.stamp, sample.parent, sample.pose),
+        )
+        for name in frames
+        if (sample := history.latest(name)) is not None
+    }
+
+
+def played(recorded: RecordedRobot, at_ns: int) -> dict[str, Any]:
+    history = FrameHistory()
+    transforms = recorded.transforms(history)
+    for message in recorded.recording.messages(None, at_ns, transforms.topics):
+        transforms.take(message)
+    return state(history, FRAMES)
+
+
+def jumped(recorded: RecordedRobot, at_ns: int) -> dict[str, Any]:
+    history = FrameHistory()
+    jump(recorded.recording, at_ns, (recorded.transforms(history),))
+    return state(history, FRAMES)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_a_jump_leaves_the_frames_as_playing_to_it_does(
+    tmp_path: Path, seed: int
+) -> None:
+    path = written(tmp_path / "any.mcap", AnyRecording(seed).messages())
+    chance = random.Random(seed)
+    with Inputs(Options(path)) as inputs:
+        recorded = inputs.recorded
+        assert recorded is not None
+        start, end = recorded.recording.start_ns, recorded.recording.end_ns
+        assert start is not None and end is not None
+        for at_ns in (end, *(chance.randint(start, end) for _ in range(5))):
+            assert jumped(recorded, at_ns) == played(recorded, at_ns)
+
+
+def test_a_second_jump_reads_only_what_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sent: list[Sent] = [("/tf", 0.0, 0.0, {"odom": "map"})]
+    sent += [("/tf", n / 10, n / 10, {"base": "odom"}) for n in range(1, 600)]
+    read: list[Recorded] = []
+    with Inputs(Options(written(tmp_path / "long.mcap", sent))) as inputs:
+        recorded = inputs.recorded
+        assert recorded is not None
+        end = recorded.recording.end_ns
+        assert end is not None
+        whole = jumped(recorded, end)
+        monkeypatch.setattr(
+            recorded.recording, "messages", counted(recorded.recording.messages, read)
+        )
+        assert jumped(recorded, end) == whole
+    assert len(read) < 130
+
+
+def counted(
+    messages: Callable[..., Iterator[Recorded]], read: list[Recorded]
+) -> Callable[..., Iterator[Recorded]]:
+    def through(*wanted: Any) -> Iterator[Recorded]:
+        for message in messages(*wanted):
+            read.append(message)
+            yield message
+
+    return through
+
+
+@pytest.fixture
+def reported(shared: Path) -> Path:
+    return shared / "data" / "reported"
+
+
+def frames_of(path: Path, at: float | None = None) -> FrameTree:
+    with Inputs(Options(source=f"bag:{path}", at=at)) as inputs:
+        robot, recorded = inputs.robot(), inputs.recorded
+        assert recorded is not None
+        return recorded.frames(robot, inputs.options.start_pose.state(robot))
+
+
+@pytest.mark.parametrize(("at", "along_x"), [(14.5, 5.9), (20.0, 5.9)])
+def test_two_publishers_have_a_common_time_after_a_gap(
+    reported: Path, at: float, along_x: float
+) -> None:
+    """tf2 keeps ten seconds of each frame, however long ago they were."""
+    tree = frames_of(reported / "recordings" / "tf_gap.mcap", at)
+    assert tree.lookup("odom", "arm").translation[0] == pytest.approx(along_x)
+
+
+def test_the_direct_parent_is_found_below_a_loop(reported: Path) -> None:
+    tree = frames_of(reported / "recordings" / "tf_ring_direct.mcap")
+    assert tree.lookup("odom", "map").translation[0] == 2.0
+    assert tree.lookup("map", "odom").translation[0] == 1.0
+    assert tree.latest_common_time("odom", "map") > 0.0
+
+
+def test_a_loop_is_a_problem_of_the_recording_and_no_frame_is_invented(
+    reported: Path,
+) -> None:
+    path = reported / "bags" / "c13_loop"
+    with Inputs(Options(source=f"bag:{path}")) as inputs:
+        (loop,) = (p for p in inputs.problems() if p.code == "tf-loop")
+    assert "odom -> body -> odom" in loop.message
+    assert "body -> odom on /tf" in loop.hint
+    assert "base_link" not in frames_of(path).frames
+
+
+def test_what_is_newer_than_a_clock_that_went_back_is_forgotten(
+    reported: Path,
+) -> None:
+    path = reported / "recordings" / "tf_clock_back.mcap"
+    for at, newest in ((1.0, 1_700_000_101), (2.5, 1_700_000_002.5)):
+        history = frames_of(path, at).history
+        assert history is not None
+        stamps = history.stamps("base")
+        assert stamps[-1] == pytest.approx(newest * 1e9)
+        assert stamps[-1] - stamps[0] < 4e9
