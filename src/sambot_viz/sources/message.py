@@ -22,7 +22,7 @@ class TopicChannel:
         schema: the definition of the messages, as it was given.
         message_encoding: "cdr", "ros1", "json", … or "" when it was not given.
         qos: what the publishers offered, as far as it is known.
-        is_latched: as `RecordedTopic.is_latched`.
+        is_latched: as `SourceTopic.is_latched`.
     """
 
     topic: str

@@ -15,6 +15,7 @@ from sambot_viz.joints import JointState
 from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import SourceTopic
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.robot_topics import (
@@ -36,7 +37,7 @@ from sambot_viz.topics.transforms import (
 
 # It is opened by who has one.
 if TYPE_CHECKING:
-    from sambot_viz.sources.bag import Bag, RecordedTopic
+    from sambot_viz.sources.bag import Bag
 
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the begin of a recording [s]."""
@@ -233,7 +234,7 @@ class RecordedRobot:
         """
         return self.decoding.decode(message)
 
-    def decoder(self, topic: RecordedTopic) -> Decoder:
+    def decoder(self, topic: SourceTopic) -> Decoder:
         """Return the decoder of a topic, with the reason when there is none."""
         return self.decoding.types.decoder(topic.schema, topic.message_encoding)
 

@@ -3,8 +3,8 @@
 Nothing is decoded here, no thread is started, and a file is never read whole.
 """
 
-from sambot_viz.sources.bag.bag import Bag, RecordedTopic
+from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.bag.opening import open_bag, open_recording
 from sambot_viz.sources.bag.recording import Recording
 
-__all__ = ["Bag", "RecordedTopic", "Recording", "open_bag", "open_recording"]
+__all__ = ["Bag", "Recording", "open_bag", "open_recording"]

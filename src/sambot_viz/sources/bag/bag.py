@@ -3,42 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from sambot_viz.errors import Problem
-from sambot_viz.messages import Schema
 from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.qos import Qos
+from sambot_viz.sources.source import SourceTopic
 
 if TYPE_CHECKING:
     from typing_extensions import Self
-
-
-@dataclass(frozen=True, slots=True)
-class RecordedTopic:
-    """A topic of a recording.
-
-    Attributes:
-        name: as the file writes it.
-        schema: the definition of its messages, as the file has it; of its first
-            channel when several differ.
-        message_encoding: "cdr", "ros1", "json", …; of its first channel.
-        qos: what its publishers offered, when the file says so.
-        is_latched: late subscribers got its messages, so that they hold at any time of
-            the recording; see `latched.py`.
-        count: how many messages can be read, or None while that is not known.
-        left_out: what cannot be read of it, and why; empty for nothing.
-    """
-
-    name: str
-    schema: Schema
-    message_encoding: str
-    qos: Qos | None
-    is_latched: bool
-    count: int | None
-    left_out: str = ""
 
 
 class Bag(Protocol):
@@ -55,7 +28,7 @@ class Bag(Protocol):
         ...
 
     @property
-    def topics(self) -> Mapping[str, RecordedTopic]:
+    def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the file."""
         ...
 

@@ -19,7 +19,6 @@ import numpy as np
 from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.messages import Schema
-from sambot_viz.sources.bag.bag import RecordedTopic
 from sambot_viz.sources.bag.blocks import (
     LAST_TIME,
     Block,
@@ -35,6 +34,7 @@ from sambot_viz.sources.bag.left_out import LeftOut
 from sambot_viz.sources.bag.merge import merged
 from sambot_viz.sources.bag.refusals import unreadable
 from sambot_viz.sources.message import Recorded, TopicChannel
+from sambot_viz.sources.source import SourceTopic
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -78,7 +78,7 @@ class BlockBag(ABC):
         self._latched = LatchedMessages()
         self._kept: OrderedDict[int, Entries] = OrderedDict()
         self._index: TimeIndex | None = None
-        self._topics: tuple[object, dict[str, RecordedTopic]] | None = None
+        self._topics: tuple[object, dict[str, SourceTopic]] | None = None
         self._is_finding = True
         self._is_complete = False
         # Held for short steps on what is above, never while a block is read.
@@ -278,7 +278,7 @@ class BlockBag(ABC):
         return self._file.size
 
     @property
-    def topics(self) -> Mapping[str, RecordedTopic]:
+    def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the file."""
         with self._lock:
             known = (self._changes, self._is_complete)
@@ -286,7 +286,7 @@ class BlockBag(ABC):
                 self._topics = (known, self._make_topics())
             return self._topics[1]
 
-    def _make_topics(self) -> dict[str, RecordedTopic]:
+    def _make_topics(self) -> dict[str, SourceTopic]:
         first: dict[str, TopicChannel] = {}
         counts: Counter[str] = Counter()
         latched: set[str] = set()
@@ -298,14 +298,14 @@ class BlockBag(ABC):
                 latched.add(channel.topic)
         known = self._is_complete or self._stated is not None
         return {
-            topic: RecordedTopic(
+            topic: SourceTopic(
                 topic,
                 channel.schema,
                 channel.message_encoding,
                 channel.qos,
-                topic in latched,
-                counts[topic] if known else None,
-                self.left_out.of(self._numbers_of[topic], counts[topic]),
+                is_latched=topic in latched,
+                count=counts[topic] if known else None,
+                left_out=self.left_out.of(self._numbers_of[topic], counts[topic]),
             )
             for topic, channel in first.items()
         }

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
-from sambot_viz.sources.bag.bag import Bag, RecordedTopic
+from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import SourceTopic
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -30,7 +31,7 @@ class Recording:
         # At one time the file that begins first is first, as at the seam of a split.
         self._bags = sorted(bags, key=lambda bag: (bag.start_ns is None, bag.start_ns))
         self._problems = tuple(problems)
-        self._topics: tuple[Sequence[object], Mapping[str, RecordedTopic]] = (), {}
+        self._topics: tuple[Sequence[object], Mapping[str, SourceTopic]] = (), {}
 
     @property
     def paths(self) -> Sequence[Path]:
@@ -43,7 +44,7 @@ class Recording:
         return sum(bag.size for bag in self._bags)
 
     @property
-    def topics(self) -> Mapping[str, RecordedTopic]:
+    def topics(self) -> Mapping[str, SourceTopic]:
         """The topics by name, in the order of the files."""
         parts = [bag.topics for bag in self._bags]
         known, joined = self._topics
@@ -160,16 +161,16 @@ class Recording:
 
 
 def _joined_topics(
-    parts: Iterable[Mapping[str, RecordedTopic]],
-) -> dict[str, RecordedTopic]:
-    found: dict[str, RecordedTopic] = {}
+    parts: Iterable[Mapping[str, SourceTopic]],
+) -> dict[str, SourceTopic]:
+    found: dict[str, SourceTopic] = {}
     for topics in parts:
         for name, topic in topics.items():
             found[name] = _joined(found[name], topic) if name in found else topic
     return found
 
 
-def _joined(one: RecordedTopic, other: RecordedTopic) -> RecordedTopic:
+def _joined(one: SourceTopic, other: SourceTopic) -> SourceTopic:
     known = one.count is not None and other.count is not None
     return replace(
         one,
