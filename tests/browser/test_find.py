@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from inside import session_of
@@ -13,6 +13,14 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
+SHOWN = r"""[...document.querySelectorAll(".window button:enabled")]
+  .filter((button) => button.getClientRects().length
+    && !button.closest("[role=row], [role=menubar]"))
+  .map((button) => (button.getAttribute("aria-label") || button.innerText)
+    .replace(/\s+/g, " ").trim())"""
+FOUND = """(({ value }) => [value,
+  [...document.querySelectorAll(".palette .option b")]
+    .some((option) => option.textContent === value)])(document.activeElement)"""
 PALETTE = "Go to a display, joint, frame or command"
 
 
@@ -82,6 +90,54 @@ def test_ctrl_k_goes_to_a_display_a_joint_and_a_frame(user: User) -> None:
     user.until(lambda: user.row(*scale).one("textbox").state("focused"))
     user.keys("Escape")
     user.until(lambda: user.row(*scale).state("focused"))
+
+
+def options(user: User, typed: str) -> list[str]:
+    """What the palette finds, each with where it is."""
+    user.keys("Control+k")
+    user.until(lambda: user.find("combobox", PALETTE).state("focused"))
+    user.type(typed)
+    user.until(lambda: (user.find("combobox", PALETTE).value or "") == typed)
+    return [option.name or "" for option in user.see().all("option")]
+
+
+@pytest.fixture
+def closed(user: User) -> Iterator[None]:
+    """Close the palette at the end."""
+    yield
+    user.keys("Escape")
+    user.gone("combobox", PALETTE)
+    user.tab("Joints")
+
+
+@pytest.mark.usefixtures("closed")
+def test_ctrl_k_finds_what_is_called_otherwise_than_it_is(user: User) -> None:
+    found = options(user, "wheel")
+    for wanted in ("Wheels Drive", "drivewhl_l_joint Joints", "drivewhl_r_joint"):
+        assert [one for one in found if one.startswith(wanted)], (wanted, found)
+
+
+@pytest.mark.parametrize("tab", ["Joints", "Frames", "Selection", "Drive"])
+@pytest.mark.usefixtures("closed")
+def test_ctrl_k_finds_each_button_that_is_on_the_screen(user: User, tab: str) -> None:
+    user.tab(tab)
+    shown = set(user.page.evaluate(SHOWN))
+    assert "Randomize" in shown or tab != "Joints"
+    options(user, "")
+    for name in sorted(shown):
+        user.keys("Control+a")
+        user.type(name)
+        user.until(
+            lambda name=name: user.page.evaluate(FOUND) == [name, True], why=name
+        )
+
+
+def test_ctrl_k_presses_a_button(user: User) -> None:
+    user.tab("Joints")
+    go_to(user, "degrees")
+    user.until(lambda: user.find("button", "Degrees").state("pressed"))
+    go_to(user, "degrees")
+    user.until(lambda: not user.find("button", "Degrees").state("pressed"))
 
 
 def test_ctrl_k_runs_a_command_and_accepts_what_is_typed_meanwhile(user: User) -> None:

@@ -97,6 +97,18 @@ test("letters in their order find a long name, after all that has the words", ()
   assert.deepEqual(names("rivl"), ["drivl", "arm_drivl"]);
 });
 
+test("what is said of a thing finds it, after all that has the words in its name", () => {
+  const all = [
+    { name: "drivewhl_l_joint", where: "Joints", kind: "joints", words: "wheel continuous joint" },
+    { name: "Wheels", where: "Drive", kind: "drive", words: "" },
+    { name: "Degrees", where: "Joints", kind: "command", words: "Angles are in radians" },
+  ];
+  const names = (text) => matches(all, text).map(({ name }) => name);
+  assert.deepEqual(names("wheel"), ["Wheels", "drivewhl_l_joint"]);
+  assert.deepEqual(names("joints radian"), ["Degrees"]);
+  assert.deepEqual(names("adian"), []);
+});
+
 test("what is found first may be limited, and is nothing without a text or a hit", () => {
   take();
   assert.equal(firstFound("displays", "alpha"), "g/a");

@@ -47,10 +47,13 @@ function hasLetters(name, letters) {
   return [...letters].every((letter) => (at = name.indexOf(letter, at + 1)) >= 0);
 }
 
+/** Kinds of what is in something else that has a name. */
+const INSIDE = new Set(["displays", "views", "tool_properties", "drive", "selection"]);
+
 /**
  * What the words find, the best first: the name itself, its beginning, the beginning of a word in
- * it, its letters; rows of their own before what is in them.
- * @template {{name: string, where: string, kind: string}} T
+ * it, its letters, what is said of it; rows of their own before what is in them.
+ * @template {{name: string, where: string, kind: string, words?: string}} T
  * @param {T[]} all @param {string} text @returns {T[]}
  */
 export function matches(all, text) {
@@ -58,12 +61,15 @@ export function matches(all, text) {
   const wanted = words.join(" ");
   if (!words.length) return all;
   /** @param {T} one */
-  const rank = ({ name, where, kind }) => {
+  const rank = ({ name, where, kind, words: more = "" }) => {
     const low = name.toLowerCase();
     const path = `${where} ${name}`.toLowerCase();
-    const inside = kind === "displays" || kind === "views" || kind === "tool_properties" ? 1 : 0;
-    if (!words.every((word) => path.includes(word)))
-      return hasLetters(low, words.join("")) ? 12 + inside : -1;
+    const inside = INSIDE.has(kind) ? 1 : 0;
+    if (!words.every((word) => path.includes(word))) {
+      if (hasLetters(low, words.join(""))) return 12 + inside;
+      const said = `${path} ${more.toLowerCase()}`.split(/[^\p{L}\p{N}_]+/u);
+      return words.every((word) => said.some((one) => one.startsWith(word))) ? 14 + inside : -1;
+    }
     if (low === wanted) return inside;
     if (low.startsWith(wanted)) return 2 + inside;
     if (words.every((word) => low.includes(word)))

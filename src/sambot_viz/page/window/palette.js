@@ -16,30 +16,63 @@ import { togglePanels } from "./splitters.js";
 import { toggleFullScreen } from "./toolbar.js";
 
 /** @typedef {{kind: string, icon: string, name: string, where: string, keys?: string,
- *   does: () => void}} Target */
+ *   words?: string, does: () => void}} Target words: more by which it is found */
 
 /** So many are listed; more letters find the others. */
 const MOST = 60;
 /** What PageUp and PageDown pass over. */
 const FAR = 8;
 
-/** What is called in the toolbar, the panels and the status bar. @returns {Target[]} */
-function buttons() {
+/** What is listed as a menu's entry, a panel or a row. */
+const NOT_LISTED = "[role=row] *, [role=tab], [role=menubar] *";
+
+/** The name of the part of the window that an element is in. @param {Element} element */
+function partOf(element) {
+  const part = element.parentElement?.closest(
+    "[role=tabpanel], section[aria-label], aside[aria-label], [role=toolbar], footer[aria-label]",
+  );
+  return part?.getAttribute("aria-label") || "Window";
+}
+
+/** The buttons that are on the screen and can be pressed, as they are. @returns {Target[]} */
+function shownButtons() {
+  const all = document.querySelectorAll(".window button:enabled");
+  return /** @type {HTMLElement[]} */ ([...all])
+    .filter((button) => !button.matches(NOT_LISTED) && button.getClientRects().length > 0)
+    .map((button) => ({
+      kind: "command",
+      icon: "button",
+      name: nameOf(button),
+      where: partOf(button),
+      keys: button.getAttribute("aria-keyshortcuts")?.replace("Control", "Ctrl"),
+      words: button.title,
+      // One that acts while it is held is gone to.
+      does: () => (button.matches(".way") ? button.focus() : button.click()),
+    }))
+    .filter(({ name }) => name);
+}
+
+/** What a button is called. @param {HTMLElement} button */
+const nameOf = (button) =>
+  (button.getAttribute("aria-label") || button.innerText).replace(/\s+/g, " ").trim();
+
+/** What can be done also while its button is not on the screen. @returns {Target[]} */
+function calls() {
   /** @type {[string, string, string, string, any[]?, string?][]} */
-  const calls = [
+  const all = [
     ["Focus", "View", "focus", "tools/focus", [null, null], "F"],
     ["Zero", "View", "zero", "tools/zero", [], "Z"],
     ["Reset", "View", "turn", "tools/reset", [], "R"],
     ["Center", "Joints", "joint", "joints/center"],
     ["Randomize", "Joints", "joint", "joints/randomize"],
-    ["Save view", "Views", "view", "views/save"],
-    ["Stop driving", "Drive", "stop", "drive/press", ["5"], "5"],
+    ["Save", "Views", "view", "views/save"],
+    ["Stop", "Drive", "stop", "drive/press", ["5"], "5"],
   ];
   for (const { name, key } of rows.data("tools/list") || [])
-    calls.push([name, "Tool", name, "tools/choose", [name], key?.toUpperCase()]);
+    all.push([name, "Tool", name, "tools/choose", [name], key?.toUpperCase()]);
   for (const pose of rows.data("poses/names") || [])
-    calls.push([pose, "Pose", "joint", "poses/move", [pose]]);
-  return calls
+    all.push([pose, "Pose", "joint", "poses/move", [pose]]);
+  return all
     .filter(([, , , id]) => rows.can(id))
     .map(([name, where, icon, id, args, keys]) => ({
       kind: "command",
@@ -69,13 +102,18 @@ function commands() {
   }));
   const full = { kind: "command", icon: "full", name: "Full screen", where: "View" };
   const others = inMenus.filter(({ keys }) => keys !== GO_TO);
-  return [...panels, ...buttons(), ...others, { ...full, does: toggleFullScreen }];
+  const named = [...panels, ...calls(), ...others, { ...full, does: toggleFullScreen }];
+  // What is offered in two places is listed once.
+  const known = new Set(named.map(({ name }) => name));
+  return [...named, ...shownButtons().filter(({ name }) => !known.has(name))];
 }
 
 /** The key that opens the palette. */
 export const GO_TO = "Ctrl+K";
 /** Rows that name nothing. */
 const UNNAMED = new Set(["note", "lines"]);
+/** Panels whose rows are not listed: what is wrong is a sentence, and frames have a list. */
+const NOT_BY_ROWS = new Set(["problems", "frames"]);
 
 /** The rows of the panels, and the frames. @returns {Target[]} */
 function places() {
@@ -84,8 +122,7 @@ function places() {
     (rows.panels.get(panel) || []).flatMap((id) => {
       const row = rows.get(id);
       if (!row?.name || row.apart || row.part !== undefined || UNNAMED.has(row.kind)) return [];
-      if (panel === "joints" ? row.kind !== "slider" : row.icon === "frame" && !row.display)
-        return [];
+      if (row.icon === "frame" && !row.display) return [];
       const where = [SHEET[panel].title, ...namesAbove(row)].join(" › ");
       const icon = panel === "joints" ? "joint" : row.icon || (panel === "views" ? "view" : "");
       const kind = row.display ? "display" : panel;
@@ -93,11 +130,15 @@ function places() {
         openPanel(panel);
         reveal(panel, id);
       };
-      return [{ kind, icon, name: row.name, where, does }];
+      // A wheel is one whatever it is called.
+      const words = row.wheel ? `wheel ${row.help}` : row.help;
+      return [{ kind, icon, name: row.name, where, words, does }];
     });
   const frames = rows.panels.get("frames")?.length ? rows.data("names/frames") || [] : [];
   return [
-    ...["joints", "displays", "views", "tool_properties"].flatMap(inPanel),
+    ...Object.keys(SHEET)
+      .filter((panel) => !NOT_BY_ROWS.has(panel))
+      .flatMap(inPanel),
     ...frames.map((/** @type {string} */ name) => ({
       kind: "frame",
       icon: "frame",
