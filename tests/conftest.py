@@ -26,6 +26,8 @@ PAGES = ("tests/browser/", "tests/golden/", "tests/jupyter/")
 """What the names of tests begin with that open pages: they compute, and they wait."""
 TOGETHER = ("tests/browser/tasks/", "tests/golden/", "tests/jupyter/")
 """Folders whose tests share servers and pages."""
+EARLY = ("tests/browser/test_moving_target.py", "tests/browser/test_export.py")
+"""Files of few tests that take long: no worker begins with one when others end."""
 TASK_SEED = "SAMBOT_VIZ_TASK_SEED"
 """The environment variable with the order of the browser tasks."""
 
@@ -42,9 +44,9 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
-    """Start half as many workers again as there are cores: pages are waited for."""
+    """Start two workers for each core: a test of a page waits half of its time."""
     cores = len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count()
-    return (cores or 1) * 3 // 2
+    return (cores or 1) * 2
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -62,8 +64,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             # One worker computes while others wait for their pages; all end with
             # what is left.
             pages = node is not self.nodes[0]
-            fitting = (s for s in self.workqueue if s.startswith(PAGES) == pages)
-            if (first := next(fitting, None)) is not None:
+            fitting = [s for s in self.workqueue if s.startswith(PAGES) == pages]
+            for first in sorted(fitting, key=lambda scope: scope not in EARLY)[:1]:
                 self.workqueue.move_to_end(first, last=False)
             super()._assign_work_unit(node)
 
