@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -177,3 +178,31 @@ def test_keys_are_for_tools_when_the_mouse_comes_into_the_view(desk: Desk) -> No
     mouse.move(645.0, 120.0)
     user.keys(".", "5", "Enter")
     user.until(lambda: desk.viz.joint_positions["drivewhl_l_joint"] == 2.5)
+
+
+def test_each_key_at_a_slider_is_a_step_also_when_the_one_before_is_down(
+    desk: Desk,
+) -> None:
+    user, keyboard = desk.user, desk.page.keyboard
+    user.click_on(user.find("slider", "drivewhl_l_joint"))
+    desk.settle()
+
+    def position() -> float:
+        return desk.viz.joint_positions["drivewhl_l_joint"]
+
+    reached = [position()]
+    # The third key is still down when the fourth is pressed, as by a fast hand.
+    for press in (
+        partial(keyboard.press, "ArrowRight"),
+        partial(keyboard.press, "ArrowRight"),
+        partial(keyboard.hold, "ArrowRight"),
+        partial(keyboard.press, "ArrowRight", "Shift"),
+        partial(keyboard.press, "PageUp"),
+        partial(keyboard.press, "Home"),
+    ):
+        press()
+        user.until(lambda: position() != reached[-1])
+        reached.append(position())
+    for wanted in reached[-2::-1]:
+        user.keys("Control+z")
+        user.until(lambda wanted=wanted: position() == pytest.approx(wanted))

@@ -34,7 +34,7 @@ export function releaseKept() {
 /**
  * A line of text that is accepted by Enter or by leaving it, and put back by Esc.
  * @param {{row: Row, shown: string, accept: (typed: string) => string | void, tab: number,
- *   full?: string, step?: (count: number) => void, settle?: () => void, grab?: (event: any) =>
+ *   full?: string, step?: (count: number, event: Key) => void, settle?: () => void, grab?: (event: any) =>
  *   void, kind?: string, title?: string}} props
  *   accept: returns why a text is refused
  *   full: what is shown while it has the focus, when `shown` leaves something out
@@ -101,7 +101,8 @@ export function Field({
       event.preventDefault();
       put();
       refuse(row.id);
-      step((event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1));
+      const times = event.shiftKey ? 10 : event.altKey ? 0.1 : 1;
+      step(event.key === "ArrowUp" ? times : -times, event);
     } else if (ctrl && event.key.toLowerCase() === "z" && !typing.current) {
       // Nothing is half typed: what was accepted is meant.
       event.preventDefault();

@@ -5,6 +5,7 @@ import { html, useRef, useState } from "../vendor/preact.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
 import { Field } from "./field.js";
 import { Slide, useFollowed } from "./followed.js";
+import { goesOn } from "./key_steps.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import {
@@ -30,9 +31,10 @@ export const NARROW = 7;
  * @param {Row} row */
 function useHeld(row) {
   // again: the row had this value already when it was set, after another; the answer to that may
-  // still come.
+  // still come. key: which has moved it.
   const held = useRef(
-    /** @type {{value: number, gesture: number, over: boolean, again: boolean} | null} */ (null),
+    /** @type {{value: number, gesture: number, over: boolean, again: boolean,
+     *   key?: import("./key_steps.js").Stroke} | null} */ (null),
   );
   const [, again] = useState(0);
   const draw = () => again((n) => n + 1);
@@ -59,13 +61,16 @@ function useHeld(row) {
     get value() {
       return held.current ? held.current.value : Number(row.value);
     },
-    /** One of the values of a movement. @param {number} wanted in the row's unit */
-    move(wanted) {
+    /** One of the values of a movement.
+     * @param {number} wanted in the row's unit
+     * @param {import("./key_steps.js").Stroke} [key] where a key moves it */
+    move(wanted, key) {
       const value = clamped(row.kind === "int" ? Math.round(wanted) : wanted, row);
-      const gesture = held.current && !held.current.over ? held.current.gesture : newGesture();
+      const on = held.current && !held.current.over && (!key || goesOn(held.current.key, key));
+      const gesture = on && held.current ? held.current.gesture : newGesture();
       const same = value === (held.current ? held.current.value : row.value);
       const again = same ? Boolean(held.current?.again) : rows.value(row.id) === value;
-      held.current = { value, gesture, over: false, again };
+      held.current = { value, gesture, over: false, again, key };
       if (!same) send(row.id, value, gesture);
       draw();
     },
@@ -106,11 +111,11 @@ function NumberField({ row, tab, held, room }) {
     if (!why) held.put(clamped(value, row));
     return why;
   };
-  /** @param {number} count */
-  const move = (count) => {
+  /** @param {number} count @param {Key} event */
+  const move = (count, event) => {
     const fine = Math.abs(count) < 1 && row.kind !== "int";
     const times = fine ? Math.sign(count) : Math.sign(count) * Math.max(1, Math.abs(count));
-    held.move(stepped(held.value * factor, fine ? step / 10 : step, times) / factor);
+    held.move(stepped(held.value * factor, fine ? step / 10 : step, times) / factor, event);
   };
   // The cell is drawn again while it is dragged; the drag keeps to the latest one.
   const latest = useRef(held);
@@ -252,9 +257,12 @@ function Handle({ row, tab, held }) {
       return event.stopPropagation();
     }
     if (count)
-      held.move(stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor);
-    else if (event.key === "Home") held.move(low);
-    else if (event.key === "End") held.move(high);
+      held.move(
+        stepped(held.value * factor, step, count * (event.shiftKey ? 10 : 1)) / factor,
+        event,
+      );
+    else if (event.key === "Home") held.move(low, event);
+    else if (event.key === "End") held.move(high, event);
     else return;
     event.preventDefault();
     event.stopPropagation();
