@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { EDITED, rows } from "../../src/sambot_viz/page/wire/channel.js";
+import { EDITED, rows, send } from "../../src/sambot_viz/page/wire/channel.js";
 
 // A page hears of keys at its window.
 const page = new EventTarget();
@@ -44,7 +44,7 @@ test("Tab, Escape and typing anywhere end a refusal, other keys do not", () => {
   }
 });
 
-test("typing again, or the next edit, ends a refusal; other sentences stay", () => {
+test("typing again, or the next edit, ends a refusal", () => {
   sayRefused("frames/add", "name the child frame");
   refuse("frames/add");
   assert.equal(notice.value, null);
@@ -53,9 +53,29 @@ test("typing again, or the next edit, ends a refusal; other sentences stay", () 
   assert.equal(notice.value, null);
   assert.equal(refusals.size, 0);
   tell("Saved");
-  rows.notify(EDITED);
   refuse("joint/a");
   assert.equal(notice.value?.text, "Saved");
+});
+
+test("what was said of an edit goes with the next one, but for one that goes on; a warning stays", () => {
+  for (const [first, next, level, stays] of [
+    ["edit/undo", "joint/a", "ok", false],
+    ["edit/undo", "displays/add", "ok", false],
+    ["file/save", "g/Alpha", "info", false],
+    ["drive/hold", "drive/hold", "ok", true],
+    ["drive/hold", "drive/stop", "ok", true],
+    ["drive/stop", "joint/a", "ok", false],
+    ["edit/undo", "tools/hover", "ok", true],
+    ["edit/undo", "frames/show", "ok", true],
+    ["edit/undo", "joint/a", "warn", true],
+    ["edit/undo", "joint/a", "error", true],
+  ]) {
+    send(first, []);
+    tell("Said", level);
+    send(next, 1);
+    assert.equal(Boolean(notice.value), stays, `${first}, then ${next}`);
+    notice.set(null);
+  }
 });
 
 test("a row that is gone refuses nothing, nor does another of its name", () => {

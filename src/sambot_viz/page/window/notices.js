@@ -2,7 +2,7 @@
 /* Sentences for this browser, from the server or from the page itself, and why values
  * were refused. */
 
-import { EDITED, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
+import { EDITED, edited, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
 import { Cell } from "../state.js";
 
 /**
@@ -63,8 +63,20 @@ const ended = (event) => {
 globalThis.addEventListener?.("keydown", ended, true);
 globalThis.addEventListener?.("input", ended);
 
-// The next edit is the answer to a refusal; if it is refused too, the server says so again.
+/** The part of the window in which something was done when the sentence was said. */
+let saidIn = "";
+/** What an edit belongs to, as "drive" for all buttons and speeds of Drive. @param {string} id */
+const partOf = (id) => id.split("/")[0];
+notice.listeners.add(() => {
+  saidIn = partOf(edited());
+});
+
+// The next edit is the answer to a refusal; if it is refused too, the server says so again. What
+// was said of an edit before is no longer what was done last, unless it is the same that goes on:
+// a robot is driven by one call after the other. Warnings stay for their time.
 rows.listen(EDITED, () => {
+  const { level = "" } = notice.value || {};
+  if (["ok", "info"].includes(level) && partOf(edited()) !== saidIn) notice.set(null);
   const refused = notice.value?.row || [...refusals.keys()][0];
   if (refused) refuse(refused);
 });

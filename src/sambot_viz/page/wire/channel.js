@@ -13,6 +13,9 @@ let socket = null;
 
 /** What is heard by those who listen to this key: a user has changed something. */
 export const EDITED = "edited";
+let editing = "";
+/** The row or command that the last of these was. */
+export const edited = () => editing;
 /** There is no connection any more: what was sent meanwhile shows it first. */
 export const CUT = "cut";
 /** The presenter has ended the connection for good. */
@@ -49,7 +52,10 @@ export function send(id, value, gesture) {
     id = row.in;
     rows.hope(id, value);
   }
-  if (!byItself(id)) rows.notify(EDITED);
+  if (!byItself(id)) {
+    editing = id;
+    rows.notify(EDITED);
+  }
   const edit = gesture === undefined ? [id, value] : [id, value, gesture];
   const command = rows.knows(id);
   if (online) {
