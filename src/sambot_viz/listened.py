@@ -11,8 +11,8 @@ from types import MappingProxyType
 
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.recorder import SourceRecorder
-from sambot_viz.sources.source import SourceTopic
 from sambot_viz.sources.websocket.runner import LONGEST_SILENCE
 from sambot_viz.topics.live_files import fetch_files
 from sambot_viz.topics.live_robot import LiveRobot

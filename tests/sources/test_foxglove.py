@@ -72,7 +72,7 @@ def test_a_file_is_fetched_once_for_all(robot: Peer, opened: Open) -> None:
     assert {future.result(WAIT) for future in futures} == {b"solid " * 1000}
     assert source.fetch_asset(mesh).result(WAIT) == b"solid " * 1000
     assert asked == [mesh]
-    assert "assets" in source.capabilities
+    assert "files" in source.capabilities
 
 
 def test_a_refused_file_has_the_text_of_the_server_and_the_option_that_allows_it(

@@ -14,8 +14,8 @@ from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.recorded_robot import RecordedRobot
-from sambot_viz.topics.subscriber import jump
 
 SECONDS = 60
 FRAMES = ("map", "odom", "base", "arm", "hand", "wheel", "laser")

@@ -15,8 +15,8 @@ from sambot_viz.errors import UsageError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
+from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.recorded_robot import RecordedRobot
-from sambot_viz.topics.subscriber import jump
 
 TOLERANCE = 1e-6
 FRAMES = ("base_footprint", "lidar_link", "drivewhl_l_link", "drivewhl_r_link")

@@ -9,7 +9,7 @@ import pytest
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.topics.subscriber import jump
+from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.subscription import Subscription
 
 CHANNEL = TopicChannel("/a", Schema("std_msgs/msg/String", "", ""), "cdr")

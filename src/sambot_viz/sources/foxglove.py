@@ -12,8 +12,12 @@ from itertools import count
 
 from sambot_viz.messages import Schema
 from sambot_viz.sources import foxglove_wire as wire
-from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import (
+    Recorded,
+    SourceTopic,
+    TopicChannel,
+    is_latched_name,
+)
 from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
 from sambot_viz.text import text

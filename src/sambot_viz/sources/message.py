@@ -33,6 +33,36 @@ class TopicChannel:
 
 
 @dataclass(frozen=True, slots=True)
+class SourceTopic:
+    """A topic of a recording or of a live robot.
+
+    Attributes:
+        name: as the file or the peer writes it.
+        schema: the definition of its messages, that of the first channel when several
+            differ; its name may be empty.
+        message_encoding: "cdr", "ros1", "json", … or ""; of the first channel.
+        qos: what its publishers offer, None when that is not said.
+        is_latched: late subscribers get its messages, as far as that can be known; in
+            a recording they hold at any time, see `bag/latched.py`.
+        publishers: their names, how many they are, or None when that is not said.
+        reason: why it cannot be read, with the remedy; None if it may be read.
+        count: how many messages a recording has that can be read; None while that is
+            not known, and of a live robot.
+        left_out: what of a recording cannot be read, and why; empty for nothing.
+    """
+
+    name: str
+    schema: Schema
+    message_encoding: str
+    qos: Qos | None = None
+    is_latched: bool = False
+    publishers: tuple[str, ...] | int | None = None
+    reason: str | None = None
+    count: int | None = None
+    left_out: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Recorded:
     """A message as bytes.
 

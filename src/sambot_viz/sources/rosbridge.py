@@ -14,9 +14,13 @@ from functools import partial
 from itertools import count
 
 from sambot_viz.sources import rosbridge_wire as wire
-from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
+from sambot_viz.sources.message import (
+    Recorded,
+    SourceTopic,
+    TopicChannel,
+    is_latched_name,
+)
 from sambot_viz.sources.rosapi import Rosapi
-from sambot_viz.sources.source import SourceTopic
 from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text

@@ -1,7 +1,8 @@
-"""What every live source is: one connection to a robot, for all browsers.
+"""What every source is, a recording or a robot on the network.
 
-A source hands on messages as bytes; it neither decodes nor draws. Its callbacks run in
-one thread of the source, one after the other, and must only post.
+A source hands on messages as bytes; it neither decodes nor draws. Callbacks of a robot
+run in one thread of its source, one after the other, and must only post; those of a
+recording run in the thread that moves its time.
 """
 
 from __future__ import annotations
@@ -9,43 +10,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
-from sambot_viz.messages import Schema
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.qos import Qos
+from sambot_viz.errors import SourceError
+from sambot_viz.sources.message import Recorded, SourceTopic
+
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag.bag import Bag
+    from sambot_viz.sources.subscriber import Subscriber
 
 OnMessage = Callable[[Recorded], object]
-
-
-@dataclass(frozen=True, slots=True)
-class SourceTopic:
-    """A topic of a recording or of a live robot.
-
-    Attributes:
-        name: as the file or the peer writes it.
-        schema: the definition of its messages, that of the first channel when several
-            differ; its name may be empty.
-        message_encoding: "cdr", "ros1", "json", … or ""; of the first channel.
-        qos: what its publishers offer, None when that is not said.
-        is_latched: late subscribers get its messages, as far as that can be known; in
-            a recording they hold at any time, see `bag/latched.py`.
-        publishers: their names, how many they are, or None when that is not said.
-        reason: why it cannot be read, with the remedy; None if it may be read.
-        count: how many messages a recording has that can be read; None while that is
-            not known, and of a live robot.
-        left_out: what of a recording cannot be read, and why; empty for nothing.
-    """
-
-    name: str
-    schema: Schema
-    message_encoding: str
-    qos: Qos | None = None
-    is_latched: bool = False
-    publishers: tuple[str, ...] | int | None = None
-    reason: str | None = None
-    count: int | None = None
-    left_out: str = ""
+Asset = Future[bytes]
+"""A file that was asked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +48,30 @@ class SourceStatus:
     session: int = 0
 
 
+Capability = Literal[
+    "topics",
+    "subscribe",
+    "latched",
+    "seek",
+    "clock",
+    "graph",
+    "files",
+    "parameters",
+    "publish",
+    "call",
+]
+"""What a source can do.
+
+topics: it lists them. subscribe: it hands on their messages. latched: those who come
+late get the messages that hold. seek: its time can be moved, see `playback`. clock: it
+has a time that goes on by itself. files: it hands out the files of a robot. No source
+has the others yet: graph, which nodes there are; parameters of nodes; publish and call,
+the way back to a robot.
+"""
+
+
 class Source(Protocol):
-    """A connection to a robot that is made again when it is lost.
+    """A recording, or a connection to a robot that is made again when it is lost.
 
     Attributes:
         uri: as the user wrote it.
@@ -90,7 +88,14 @@ class Source(Protocol):
         ...
 
     def close(self) -> None:
-        """End the connection and the threads; a callback may call it, too."""
+        """End it, with its threads; may be called twice, also by a callback."""
+        ...
+
+    def of_session(self) -> Source:
+        """Return it as one session sees it.
+
+        A connection is the same for all; of a recording each session has its time.
+        """
         ...
 
     @property
@@ -99,8 +104,13 @@ class Source(Protocol):
         ...
 
     @property
-    def capabilities(self) -> frozenset[str]:
-        """What the peer can do: "assets", "parameters", "time", …."""
+    def capabilities(self) -> frozenset[Capability]:
+        """What it can do; files only once the peer has said so."""
+        ...
+
+    @property
+    def playback(self) -> Playback | None:
+        """Its time, with the capability seek; None without."""
         ...
 
     def topics(self) -> Mapping[str, SourceTopic]:
@@ -112,9 +122,9 @@ class Source(Protocol):
     ) -> None:
         """Call back with each message of a topic, which need not exist yet.
 
-        The same pair a second time changes nothing. When others have it already, the
-        messages that a late subscriber of ROS would get come first: all of latched
-        topics, the last one of others.
+        The same pair a second time changes nothing. The messages that a late subscriber
+        of ROS would get come first: all of latched topics, the last one of others, of a
+        live source as far as somebody has listened before.
 
         Args:
             topic: its name.
@@ -133,12 +143,79 @@ class Source(Protocol):
         ...
 
     def clock_ns(self) -> int:
-        """Return the time at the peer [ns]: simulated where it says so."""
+        """Return the time of the source [ns]: simulated where it says so."""
         ...
 
-    def fetch_asset(self, uri: str) -> Future[bytes]:
+    def fetch_asset(self, uri: str) -> Asset:
         """Ask for a file, such as package://sam_bot/meshes/a.stl.
 
-        The result raises `SourceError` with the peer's own text when it is refused.
+        The result raises `SourceError` with the peer's own text when it is refused, and
+        without the capability files.
         """
         ...
+
+
+class Playback(Source, Protocol):
+    """A source with the capability seek: a recording, at a time that its owner moves.
+
+    Callbacks are called in the thread that moves the time, or subscribes.
+    """
+
+    @property
+    def recording(self) -> Bag:
+        """The messages."""
+        ...
+
+    @property
+    def start_ns(self) -> int:
+        """The log time of the first message [ns]."""
+        ...
+
+    @property
+    def end_ns(self) -> int:
+        """The log time of the last message [ns]."""
+        ...
+
+    @property
+    def time_ns(self) -> int:
+        """The log time up to which messages were handed on [ns]."""
+        ...
+
+    def of_session(self) -> Playback:
+        """Return the same recording with a time that nobody else moves."""
+        ...
+
+    def add(self, subscriber: Subscriber) -> None:
+        """Give one more the messages, and at once those of the present time."""
+        ...
+
+    def remove(self, subscriber: Subscriber) -> None:
+        """Give one that was added no more messages."""
+        ...
+
+    def seek(self, time_ns: int) -> None:
+        """Go to the time of the recording nearest to a log time [ns].
+
+        Subscribers get what holds there, as if it had been played to that time.
+        """
+        ...
+
+    def advance(self, until_ns: int) -> None:
+        """Hand on the messages up to a log time [ns], at most the end."""
+        ...
+
+    def neighbour(self, topic: str | None, *, back: bool = False) -> int | None:
+        """Return the log time of the next message of a topic, or of the last [ns].
+
+        Args:
+            topic: its name; None for any that somebody has subscribed to.
+            back: before the present time, not after it.
+        """
+        ...
+
+
+def no_file(why: str) -> Asset:
+    """Return the refusal of a source without files."""
+    refused: Asset = Future()
+    refused.set_exception(SourceError(why))
+    return refused

@@ -5,10 +5,10 @@ from __future__ import annotations
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.frames.history import DURATION
+from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics import reasons
 from sambot_viz.topics.decoding import frame_and_stamp
 from sambot_viz.topics.reasons import TopicReason
-from sambot_viz.topics.subscriber import jump
 from sambot_viz.topics.survey import Survey
 
 SOON = 1_000_000_000

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages import JointStateTemplate
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.topics.subscriber import newest_until
+from sambot_viz.sources.subscriber import newest_until
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:

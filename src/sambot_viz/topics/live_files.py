@@ -20,11 +20,11 @@ def fetch_files(source: Source, text: str, folder: Path) -> tuple[Problem, ...]:
     """Write the files of a description, and say which the source does not hand out.
 
     Args:
-        source: is asked once for each file; one without assets for none.
+        source: is asked once for each file; one that hands out none is not.
         text: the description, as XML.
         folder: becomes a folder of packages.
     """
-    if "assets" not in source.capabilities:
+    if "files" not in source.capabilities:
         return ()
     asked: dict[str, tuple[Path, Future[bytes]]] = {}
     for uri, package, rest in _FILE.findall(text):

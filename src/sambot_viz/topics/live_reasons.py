@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping
 
+from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.source import SourceTopic
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicStatus
 

@@ -11,9 +11,9 @@ from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
-from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.recorder import SourceRecorder
-from sambot_viz.sources.source import Source, SourceTopic
+from sambot_viz.sources.source import Source
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.robot_topics import (
     RobotTopics,

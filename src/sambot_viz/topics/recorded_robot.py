@@ -14,8 +14,9 @@ from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.joints import JointState
 from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
+from sambot_viz.sources.playback import RecordingPlayback
+from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.robot_topics import (
@@ -27,7 +28,6 @@ from sambot_viz.topics.robot_topics import (
     stand_in_model,
     top_frame,
 )
-from sambot_viz.topics.subscriber import jump
 from sambot_viz.topics.transform_index import TransformIndex
 from sambot_viz.topics.transforms import (
     Transforms,
@@ -58,6 +58,7 @@ class RecordedRobot:
 
     Attributes:
         recording: as given.
+        source: it, as a source.
         name: as given.
         decoding: decodes its messages.
         at_ns: the log time to begin with [ns]; None as `at`.
@@ -82,6 +83,7 @@ class RecordedRobot:
         self.at_ns: int | None = None
         if at is not None and recording.start_ns is not None:
             self.at_ns = recording.start_ns + round(at * 1e9)
+        self.source = RecordingPlayback(recording, name, self.at_ns)
         self.decoding = Decoding(types)
         self._take_topics(self._topics_of(()))
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.subscriber import newest_until
+from sambot_viz.sources.subscriber import newest_until
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:

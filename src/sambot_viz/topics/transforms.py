@@ -27,8 +27,8 @@ from sambot_viz.frames.samples import (
     number_faults,
 )
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.subscriber import latched_until
 from sambot_viz.topics.frame_limit import FrameLimit, Transforms, too_many_frames
-from sambot_viz.topics.subscriber import latched_until
 from sambot_viz.topics.transform_index import (
     TURNED_BACK,
     HoldingMessages,

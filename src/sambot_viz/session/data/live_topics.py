@@ -13,8 +13,7 @@ from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.topics import reasons
 from sambot_viz.topics.live_reasons import (
     no_publisher,

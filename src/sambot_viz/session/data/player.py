@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
-from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.subscriber import Subscriber, jump
-
-if TYPE_CHECKING:
-    from sambot_viz.sources.bag import Bag
+from sambot_viz.sources.bag.bag import Bag
+from sambot_viz.sources.source import Playback
+from sambot_viz.sources.subscriber import Subscriber
 
 LONGEST_STEP = 0.25
 """A busy machine makes the recording slower than real time, not jump [s]."""
@@ -21,7 +18,7 @@ SLOWEST, FASTEST = 0.01, 100.0
 
 
 @dataclass(frozen=True, slots=True)
-class Playback:
+class PlayerState:
     """What a player does.
 
     Attributes:
@@ -38,56 +35,63 @@ class Playback:
 
 
 class Player:
-    """Gives the messages of a recording to subscribers as time goes on.
+    """Moves the time of a recording, and so gives its messages to subscribers.
 
     A jump shows what the recording had at that time, also while paused. A paused player
     does nothing.
 
     Args:
-        recording: its messages.
-        subscribers: take them.
+        source: the recording, with a time of this session.
         draw: shows what subscribers have taken; told whether the time has jumped.
         change: tells what the player does.
         worker: takes the steps.
-        at_ns: the log time to begin with; the first one by default [ns].
+        is_begun: whether a time was asked for, which is shown until somebody plays.
 
     Attributes:
         playback: what it does; told when that changes, not at every step.
         stepped: told at every step while it plays.
         period: the time between two steps [s].
-        start_ns: the log time of the first message [ns].
-        end_ns: the log time of the last message [ns].
-        time_ns: the log time up to which messages were taken [ns].
     """
 
     def __init__(
         self,
-        recording: Bag,
-        subscribers: Sequence[Subscriber],
+        source: Playback,
         draw: Callable[[bool], None],
         change: Change,
         worker: Worker,
-        at_ns: int | None = None,
+        is_begun: bool = False,
     ) -> None:
-        self.recording = recording
-        # Asked at every step; a recording looks through all its parts for them.
-        self.start_ns = recording.start_ns or 0
-        self.end_ns = recording.end_ns or 0
-        self.time_ns = self.start_ns if at_ns is None else at_ns
-        self.playback = Signal(change, Playback(time_ns=self.time_ns))
+        self.source = source
+        self.playback = Signal(change, PlayerState(time_ns=self.time_ns))
         self.stepped = Signal(change, None)
         self.period = 1 / 30
-        self._subscribers = tuple(subscribers)
         self._draw = draw
         self._change = change
         self._worker = worker
-        self._coming: Iterator[Recorded] | None = None
-        self._next: Recorded | None = None
         self._last = 0.0
         self._ticking = False
         self._closed = False
-        # Whoever asks for a time wants to see that.
-        self._begun = at_ns is not None
+        self._begun = is_begun
+
+    @property
+    def recording(self) -> Bag:
+        """The messages."""
+        return self.source.recording
+
+    @property
+    def start_ns(self) -> int:
+        """The log time of the first message [ns]."""
+        return self.source.start_ns
+
+    @property
+    def end_ns(self) -> int:
+        """The log time of the last message [ns]."""
+        return self.source.end_ns
+
+    @property
+    def time_ns(self) -> int:
+        """The log time up to which messages were taken [ns]."""
+        return self.source.time_ns
 
     def play(self) -> None:
         """Let the time go on; at the end, begin again."""
@@ -125,10 +129,7 @@ class Player:
     def jump(self, time_ns: int) -> None:
         """Show the time of the recording nearest to a log time [ns]."""
         with self._change.lock, self._change():
-            time_ns = min(max(time_ns, self.start_ns), self.end_ns)
-            self._coming = self._next = None
-            jump(self.recording, time_ns, self._subscribers)
-            self.time_ns = time_ns
+            self.source.seek(time_ns)
             self._draw(True)
             self._tell()
 
@@ -141,26 +142,19 @@ class Player:
         """
         with self._change.lock:
             self._tell(playing=False)
-            wanted = self._wanted() if topic is None else (topic,)
-            find = self.recording.previous if back else self.recording.next
-            found = [m for m in (find(name, self.time_ns) for name in wanted) if m]
-            if found:
-                times = [message.log_ns for message in found]
-                self.jump(max(times) if back else min(times))
+            time_ns = self.source.neighbour(topic, back=back)
+            if time_ns is not None:
+                self.jump(time_ns)
 
     def add(self, subscriber: Subscriber) -> None:
         """Give one more the messages, and at once those of the present time."""
         with self._change.lock:
-            self._subscribers = (*self._subscribers, subscriber)
-            self._coming = self._next = None
-            jump(self.recording, self.time_ns, (subscriber,))
+            self.source.add(subscriber)
 
     def remove(self, subscriber: Subscriber) -> None:
         """Give one that was added no more messages."""
         with self._change.lock:
-            kept = (one for one in self._subscribers if one is not subscriber)
-            self._subscribers = tuple(kept)
-            self._coming = self._next = None
+            self.source.remove(subscriber)
 
     def close(self) -> None:
         """Play nothing any more."""
@@ -173,33 +167,14 @@ class Player:
     def advance(self, seconds: float) -> None:
         """Let the time go on [s, of the recording]; this happens at every step."""
         with self._change.lock, self._change():
-            until = min(self.time_ns + round(seconds * 1e9), self.end_ns)
-            while (message := self._peek()) is not None and message.log_ns <= until:
-                self._next = None
-                for one in self._subscribers:
-                    if message.topic in one.topics:
-                        one.take(message)
-            self.time_ns = until
+            self.source.advance(self.time_ns + round(seconds * 1e9))
             self._draw(False)
             self.stepped.touch()
-            if until >= self.end_ns:
+            if self.time_ns >= self.end_ns:
                 if self.playback.value.loop:
                     self.jump(self.start_ns)
                 else:
                     self._tell(playing=False)
-
-    def _peek(self) -> Recorded | None:
-        if self._coming is None:
-            self._coming = self.recording.messages(
-                self.time_ns + 1, None, self._wanted()
-            )
-        if self._next is None:
-            self._next = next(self._coming, None)
-        return self._next
-
-    def _wanted(self) -> tuple[str, ...]:
-        names = [topic for one in self._subscribers for topic in one.topics]
-        return tuple(dict.fromkeys(n for n in names if n in self.recording.topics))
 
     def _step(self) -> None:
         now = self._worker.clock.now()

@@ -42,15 +42,13 @@ class RecordedData(RobotData):
         topics = recorded.topics
         if topics.moving or topics.joint_states:
             robot.followed.set(recorded.name)
+        source = recorded.source.of_session()
         self.player = Player(
-            recorded.recording,
-            (transforms, states),
-            self._draw,
-            change,
-            worker,
-            recorded.at_ns,
+            source, self._draw, change, worker, is_begun=recorded.at_ns is not None
         )
         self._player = self.player
+        for subscriber in (transforms, states):
+            self.player.add(subscriber)
         self.messages = RecordedDisplayTopics(recorded, self.player, worker.report)
         self.topics = RecordedTopics(recorded, frames.tree, self.player, change, worker)
         frames.ahead = lambda: transforms.to_come(self._player.time_ns)

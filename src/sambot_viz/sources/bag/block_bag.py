@@ -33,8 +33,7 @@ from sambot_viz.sources.bag.latched import LatchedMessages
 from sambot_viz.sources.bag.left_out import LeftOut
 from sambot_viz.sources.bag.merge import merged
 from sambot_viz.sources.bag.refusals import unreadable
-from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic, TopicChannel
 
 if TYPE_CHECKING:
     from typing_extensions import Self

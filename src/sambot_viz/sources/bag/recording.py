@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.bag import Bag
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -10,8 +10,7 @@ import struct
 
 import msgspec
 
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
 
 CLOCK = "/clock"
 _TYPES = ("rosgraph_msgs/msg/Clock", "rosgraph_msgs/Clock")

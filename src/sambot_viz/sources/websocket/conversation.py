@@ -11,8 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz import limits
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock

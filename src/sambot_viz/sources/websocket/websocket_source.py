@@ -21,8 +21,13 @@ from websockets.typing import Subprotocol
 
 from sambot_viz import limits
 from sambot_viz.outlet import logger
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import OnMessage, SourceStatus, SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic
+from sambot_viz.sources.source import (
+    Capability,
+    OnMessage,
+    Source,
+    SourceStatus,
+)
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
@@ -42,6 +47,9 @@ LONGEST_STOP = 5.0
 """`close` waits this long for the thread [s]."""
 _TOPICS_PAUSE = 0.05
 """Topics that are advertised one by one are told together [s]."""
+
+_ALWAYS = frozenset[Capability](("topics", "subscribe", "latched", "clock"))
+_FILES = frozenset[Capability](("files",))
 
 _log = logger(__name__)
 
@@ -122,10 +130,18 @@ class WebsocketSource:
         """How the source is now."""
         return self._status
 
+    def of_session(self) -> Source:
+        """Return it: one connection serves all sessions."""
+        return self
+
     @property
-    def capabilities(self) -> frozenset[str]:
-        """What the server can do; that of the last connection if there is none."""
-        return self._capabilities
+    def capabilities(self) -> frozenset[Capability]:
+        """What it can do; what the server says of files, of the last connection."""
+        return _ALWAYS | _FILES if "assets" in self._capabilities else _ALWAYS
+
+    @property
+    def playback(self) -> None:
+        """Nothing: the time of a robot goes on by itself."""
 
     def topics(self) -> Mapping[str, SourceTopic]:
         """Return the topics by name; the last known ones if there is no connection."""
