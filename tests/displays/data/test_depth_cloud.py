@@ -150,7 +150,7 @@ def test_a_broken_colour_image_is_told(shown: Open) -> None:
     made = (info(INFO, NUMBERS), depth(), file(f"{COLOR}/compressed", b"no", "jpeg"))
     values = {"Color Transport Hint": "compressed"}
     opened = shown(*made, colored=True, **values)
-    assert "is not a JPEG or PNG" in opened.statuses["Color Image"][1]
+    assert "is not a JPEG, PNG or WebP" in opened.statuses["Color Image"][1]
 
 
 def test_compressed_depths_and_colours_are_read(shown: Open) -> None:

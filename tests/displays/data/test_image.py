@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from camera_messages import unpacked
+from image_messages import Make, file_message, octets, raw
 from inside import session_of
 from PIL import Image
 
@@ -19,42 +19,7 @@ from sambot_viz import Visualizer
 from sambot_viz.displays.pictures import CameraPicture, ClientPictures, Pictures
 
 CASES = Path(__file__).parents[2] / "golden" / "images"
-Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
-
-
-def header(types: Any) -> object:
-    stamp = types["builtin_interfaces/msg/Time"](0, 0)
-    return types["std_msgs/msg/Header"](stamp, "camera")
-
-
-def raw(
-    encoding: str,
-    data: npt.NDArray[Any],
-    width: int = 2,
-    height: int = 1,
-    step: int = 0,
-    big: bool = False,
-) -> Make:
-    def make(types: Any) -> tuple[str, str, object]:
-        name = "sensor_msgs/msg/Image"
-        octets = np.frombuffer(data.tobytes(), np.uint8)
-        size = (height, width, encoding, int(big), step)
-        return "/a", name, types[name](header(types), *size, octets)
-
-    return make
-
-
-def octets(*values: int) -> npt.NDArray[np.uint8]:
-    return np.array(values, np.uint8)
-
-
-def jpeg(data: bytes, of: str = "jpeg") -> Make:
-    def make(types: Any) -> tuple[str, str, object]:
-        name = "sensor_msgs/msg/CompressedImage"
-        return "/a", name, types[name](header(types), of, np.frombuffer(data, np.uint8))
-
-    return make
 
 
 def pixels(shown: Any) -> list[Any]:
@@ -93,10 +58,10 @@ RED_BLUE = [[[255, 0, 0], [0, 0, 255]]]
         (raw("rgba8", octets(255, 0, 0, 0, 0, 0, 255, 0)), RED_BLUE),
         (raw("bgra8", octets(0, 0, 255, 7, 255, 0, 0, 7)), RED_BLUE),
         (raw("8UC1", octets(3, 4)), [[3, 4]]),
-        (raw("bayer_rggb8", octets(3, 4)), [[3, 4]]),
+        (raw("bayer_rggb8", octets(3, 4)), [[[3, 4, 0]] * 2]),
         (raw("yuyv", octets(100, 128, 200, 128)), [[[100] * 3, [200] * 3]]),
         (raw("uyvy", octets(128, 100, 128, 200)), [[[100] * 3, [200] * 3]]),
-        (raw("yuyv", octets(100, 128, 100, 228)), [[[240, 28, 100]] * 2]),
+        (raw("yuyv", octets(100, 128, 100, 228)), [[[240, 29, 100]] * 2]),
         (raw("mono8", octets(1, 2, 9, 3, 4, 9), 2, 2, 3), [[1, 2], [3, 4]]),
         (raw("16UC1", np.array([100, 300], "<u2")), [[0, 255]]),
         (raw("mono16", np.array([100, 300], ">u2"), big=True), [[0, 255]]),
@@ -122,8 +87,8 @@ def test_an_encoding_is_shown_as_rviz_does(
         (raw("rgb8", octets(), 0, 0), "0 × 0 pixels"),
         (raw("rgb8", octets(1), 100_000, 100_000), "at most 50 million"),
         (raw("mono8", octets(1), 2**32 - 1, 2**32 - 1), "at most 50 million"),
-        (jpeg(b"nonsense"), "format 'jpeg' is not a JPEG or PNG"),
-        (jpeg(b"", "16UC1; compressedDepth png"), "is not a JPEG or PNG"),
+        (file_message(b"nonsense"), "format 'jpeg' is not a JPEG, PNG or WebP"),
+        (file_message(b"", "16UC1; compressedDepth png"), "is not a JPEG, PNG or WebP"),
     ],
 )
 def test_a_picture_that_cannot_be_shown_says_why(
@@ -142,10 +107,10 @@ def file_of(mode: str, kind: str) -> bytes:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("kind", ["JPEG", "PNG"])
+@pytest.mark.parametrize("kind", ["JPEG", "PNG", "WEBP"])
 def test_a_compressed_picture_travels_as_it_came(messages: Open, kind: str) -> None:
     data = file_of("RGB", kind)
-    shown = messages("Image", jpeg(data))
+    shown = messages("Image", file_message(data))
     about, content = shown.look()
     assert (about["width"], about["height"]) == (4, 3)
     assert about["type"] == f"image/{kind.lower()}"
@@ -169,7 +134,7 @@ def test_ros_1_names_the_topic_of_whole_pictures(
 
 def test_a_compressed_depth_is_scaled(messages: Open) -> None:
     data = bytes(12) + file_of("I;16", "PNG")
-    shown = messages("Image", jpeg(data, "16UC1; compressedDepth png"))
+    shown = messages("Image", file_message(data, "16UC1; compressedDepth png"))
     shown.set("Normalize Range", False)
     shown.set("Max Value", 1000.0)
     assert pixels(shown) == [[127] * 4] * 3

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz import limits
+from sambot_viz.displays.data.image.bayer import BAYER, demosaiced
 from sambot_viz.displays.data.refusals import MessageRefused
 
 IMAGE = "Image"
@@ -45,6 +46,8 @@ _YUV = {
     "yuv422_yuy2": (0, 1, 3),
 }
 """Encoding → where the first Y, U and V are among four bytes of two pixels."""
+_PLANES = {"nv12": (0, 1, 2), "nv21": (1, 0, 2), "nv24": (0, 1, 1)}
+"""Encoding → where U and V are in a pair, and of how many columns and rows it is."""
 
 
 def require_size(width: int, height: int) -> None:
@@ -70,10 +73,7 @@ def read_values(message: Any) -> Values | None:
     native: Any = _SCALED.get(str(message.encoding))
     if native is None:
         return None
-    dtype: Any = native.newbyteorder(">" if message.is_bigendian else "<")
-    rows: Any = np.ascontiguousarray(_rows(message, native.itemsize))
-    values: Any = rows.view(dtype)
-    return values.astype(native, copy=False)
+    return _numbers(message, native)
 
 
 def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
@@ -81,7 +81,7 @@ def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
 
     Args:
         message: with its fields.
-        scale: makes grey of 16-bit and float values, (H, W).
+        scale: makes bytes of 16-bit and float values, (H, W) or (H, W, 3).
 
     Raises:
         MessageRefused: it cannot be shown, and why.
@@ -90,8 +90,12 @@ def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
     if values is not None:
         return scale(values)
     if encoding in _YUV:
-        return _from_yuv(_rows(message, 2), *_YUV[encoding])
-    places = (0,) if encoding.startswith("bayer") else _CHANNELS.get(encoding)
+        return _from_pairs(_rows(message, 2), *_YUV[encoding])
+    if encoding in _PLANES:
+        return _from_planes(message, *_PLANES[encoding])
+    if encoding in BAYER:
+        return _from_bayer(message, *BAYER[encoding], scale)
+    places = _CHANNELS.get(encoding)
     if places is None:
         raise MessageRefused(f"Unsupported image encoding [{encoding}]", IMAGE)
     rows = _rows(message, len(places))
@@ -101,31 +105,90 @@ def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
     return np.ascontiguousarray(pixels[..., places[:3]])
 
 
+def _numbers(message: Any, native: Any) -> Any:
+    """Return the numbers of the pixels, (H, W), in the byte order of this machine."""
+    dtype: Any = native.newbyteorder(">" if message.is_bigendian else "<")
+    rows: Any = np.ascontiguousarray(_rows(message, native.itemsize))
+    return rows.view(dtype).astype(native, copy=False)
+
+
 def _rows(message: Any, pixel: int) -> Bytes:
     """Return the bytes of the pixels, (H, W · pixel), without those between rows."""
-    width, height, step = int(message.width), int(message.height), int(message.step)
-    require_size(width, height)
-    row = width * pixel
-    data = np.ascontiguousarray(message.data, np.uint8)
+    height, row = int(message.height), int(message.width) * pixel
+    step = int(message.step)
     # Of a step that cannot be RViz takes no notice either.
-    step = step if step >= row and step * (height - 1) + row <= len(data) else row
-    needed = step * (height - 1) + row
+    if step < row or step * (height - 1) + row > len(message.data):
+        step = row
+    return _block(message, 0, (height, row), step)
+
+
+def _block(message: Any, first: int, shape: tuple[int, int], step: int) -> Bytes:
+    """Return rows of bytes of a message.
+
+    Args:
+        message: with its fields.
+        first: where they begin [bytes].
+        shape: so many rows, of so many bytes.
+        step: from one to the next [bytes].
+
+    Raises:
+        MessageRefused: it has fewer.
+    """
+    width, height = int(message.width), int(message.height)
+    require_size(width, height)
+    data = np.ascontiguousarray(message.data, np.uint8)
+    needed = first + step * (shape[0] - 1) + shape[1]
     if len(data) < needed:
         what = f"{width} × {height} pixels of {message.encoding}"
         text = f"The image has {len(data):,} bytes; {what} are {needed:,}"
         raise MessageRefused(text, IMAGE)
-    return np.lib.stride_tricks.as_strided(data, (height, row), (step, 1))
+    return np.lib.stride_tricks.as_strided(data[first:], shape, (step, 1))
 
 
-def _from_yuv(rows: Bytes, first: int, u_at: int, v_at: int) -> Bytes:
+def _from_bayer(
+    message: Any, pattern: str, size: int, scale: Callable[[Values], Bytes]
+) -> Bytes:
+    if size == 1:
+        return demosaiced(_rows(message, 1), pattern)
+    return scale(demosaiced(_numbers(message, np.dtype(np.uint16)), pattern))
+
+
+def _from_pairs(rows: Bytes, first: int, u_at: int, v_at: int) -> Bytes:
+    """Return the colours of rows in which two pixels share their U and V."""
     height, width = len(rows), rows.shape[1] // 2
     pairs = np.reshape(rows[:, : width // 2 * 4], (height, -1, 4))
-    luma = np.reshape(pairs[..., first::2], (height, -1)).astype(np.float32)
-    u, v = (
-        np.repeat(pairs[..., at].astype(np.float32) - 128.0, 2, axis=1)
-        for at in (u_at, v_at)
-    )
-    # The sign of the second term of green is RViz's.
-    rgb = (luma + 1.403 * v, luma + 0.344 * u - 0.714 * v, luma + 1.770 * u)
-    pixels: Any = np.stack(rgb, axis=-1)
-    return np.asarray(pixels.clip(0, 255), np.uint8)
+    luma = np.reshape(pairs[..., first::2], (height, -1))
+    return _from_yuv(luma, pairs[..., u_at], pairs[..., v_at], (1, 2))
+
+
+def _from_planes(message: Any, u_at: int, v_at: int, share: int) -> Bytes:
+    """Return the colours of an image whose U and V come after all of its Y."""
+    height, width = int(message.height), int(message.width)
+    step = max(int(message.step), width)
+    rows, columns = -(-height // share), -(-width // share)
+    # One that is too short is refused for all of its bytes.
+    chroma = _block(message, step * height, (rows, 2 * columns), step * 2 // share)
+    luma = _block(message, 0, (height, width), step)
+    u, v = chroma[:, u_at::2], chroma[:, v_at::2]
+    return _from_yuv(luma, u, v, (share, share))
+
+
+def _from_yuv(luma: Bytes, u: Bytes, v: Bytes, share: tuple[int, int]) -> Bytes:
+    """Return RGB, (H, W, 3), in RViz's whole numbers.
+
+    Args:
+        luma: Y of each pixel, (H, W).
+        u: of some pixels together.
+        v: of the same ones.
+        share: of how many rows and columns.
+    """
+    u_off, v_off = (one.astype(np.int32) - 128 for one in (u, v))
+    # The sign of the second term of green is RViz's. Its divisions cut towards 0.
+    parts = (1403 * v_off, 344 * u_off - 714 * v_off, 1770 * u_off)
+    pixels = np.empty((*luma.shape, 3), np.uint8)
+    for at, part in enumerate(parts):
+        added = np.trunc(part / 1000).astype(np.int16)
+        added = added.repeat(share[0], axis=0).repeat(share[1], axis=1)
+        added = added[: luma.shape[0], : luma.shape[1]]
+        pixels[..., at] = (luma + added).clip(0, 255)
+    return pixels

@@ -26,7 +26,7 @@ FEW_PIXELS = 100_000
 """Up to so many the pixels are kept exactly; a larger picture becomes a JPEG."""
 QUALITY = 90
 _DEPTH, _DEPTH_HEADER = "compressedDepth", 12
-_TYPES = {"JPEG": "image/jpeg", "PNG": "image/png"}
+_TYPES = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
 
 
 def file_of(pixels: Bytes) -> CameraPicture:
@@ -123,7 +123,7 @@ def _open(content: bytes, of: str) -> Any:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             image = Image.open(io.BytesIO(content), formats=tuple(_TYPES))
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
-        text = f"The image of the format '{of[:60]}' is not a JPEG or PNG that is read"
+        text = f"The image of the format '{of[:60]}' is not a JPEG, PNG or WebP"
         raise MessageRefused(text, IMAGE) from None
     require_size(image.width, image.height)
     return image
