@@ -1,4 +1,4 @@
-"""The config of a robot that has none: plain, and of the size of the robot."""
+"""The config of a robot that has none: the tutorial's, of the size of the robot."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from live_peers import FoxglovePeer, eventually
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
+from sambot_viz.displays.scene_size import round_size
+from sambot_viz.displays.tf.tf import AXES_LENGTH
 from sambot_viz.inputs import load_config
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.session import Session
-from sambot_viz.session.own_config import round_size
 
 BOX = """
 <robot name="{name}">
@@ -60,12 +61,12 @@ TUTORIAL = {"alpha": 0.6, "frames": True, "cell": 1.0, "scale": 0.3}
 @pytest.mark.parametrize(
     ("side", "cell"), [(0.1, 0.05), (0.45, 0.2), (2.1, 1.0), (30.0, 20.0)]
 )
-def test_a_robot_without_a_config_is_opaque_on_a_grid_of_its_size(
+def test_a_robot_without_a_config_has_frames_and_a_grid_of_its_size(
     side: float, cell: float, tmp_path: Path
 ) -> None:
     with Visualizer(write(tmp_path, side), port=0) as viz:
         session = session_of(viz)
-        expected = {"alpha": 1.0, "frames": False, "cell": cell, "scale": cell}
+        expected = {"alpha": 0.6, "frames": True, "cell": cell, "scale": cell}
         assert shown(session) == expected
         assert displays(session.document.config)["TF"].get("Show Names") is True
         assert session.scene.context.fixed_frame == "hull"
@@ -78,6 +79,62 @@ def test_a_robot_without_a_config_is_opaque_on_a_grid_of_its_size(
     assert load_config(saved).problems == ()
     with Visualizer(write(tmp_path, 10.0), saved, port=0) as viz:
         assert shown(session_of(viz)) == pytest.approx(expected)
+
+
+def chain(folder: Path, links: int, step: float) -> Path:
+    """Write a model whose links follow each other along x."""
+    ways = range(1, links)
+    visual = "<visual><geometry><box size='0.05 0.05 0.05'/></geometry></visual>"
+    parts = [f"<link name='l{n}'>{visual}</link>" for n in range(links)]
+    parts += [
+        f"<joint name='j{n}' type='fixed'><parent link='l{n - 1}'/>"
+        f"<child link='l{n}'/><origin xyz='{step} 0 0'/></joint>"
+        for n in ways
+    ]
+    path = folder / "chain.urdf"
+    path.write_text(f"<robot name='chain'>{''.join(parts)}</robot>")
+    return path
+
+
+@pytest.mark.parametrize(("links", "named"), [(30, True), (31, False)])
+def test_the_frames_of_every_robot_are_shown_and_names_where_they_have_room(
+    links: int, named: bool, tmp_path: Path
+) -> None:
+    with Visualizer(chain(tmp_path, links, 0.1), port=0) as viz:
+        tf = displays(session_of(viz).document.config)["TF"]
+        assert tf.enabled
+        assert tf.get("Show Axes") is True
+        assert tf.get("Show Names") is named
+        assert tf.get("Show Arrows") is named
+
+
+def test_the_axes_of_many_frames_do_not_cover_each_other(tmp_path: Path) -> None:
+    with Visualizer(chain(tmp_path, 200, 0.1), port=0) as viz:
+        scale = shown(session_of(viz))["scale"]
+        assert AXES_LENGTH * scale == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("side", "length"), [(0.1, 0.05), (0.45, 0.2), (2.1, 1.0), (30.0, 20.0)]
+)
+def test_an_added_display_has_the_size_of_the_robot(
+    side: float, length: float, tmp_path: Path
+) -> None:
+    with Visualizer(write(tmp_path, side), port=0) as viz:
+        viz.displays.add("Axes")
+        axes = displays(session_of(viz).document.config)["Axes"]
+        assert axes.get("Length") == length
+        assert axes.get("Radius") == pytest.approx(length / 10)
+
+
+def test_in_a_users_config_an_added_display_has_the_sizes_of_rviz(
+    tmp_path: Path,
+) -> None:
+    config = shutil.copy(bundled.config_path(), tmp_path / "own.rviz")
+    with Visualizer(write(tmp_path), config, port=0) as viz:
+        viz.displays.add("Axes")
+        axes = displays(session_of(viz).document.config)["Axes"]
+        assert (axes.get("Length"), axes.get("Radius")) == (1.0, 0.1)
 
 
 @pytest.mark.parametrize("name", ["sam_bot.urdf.xacro", "sam_bot_collision.urdf.xacro"])
@@ -135,8 +192,8 @@ def test_another_size_of_the_robot_is_followed_until_a_user_chooses(
         session.display_edits.set_property(session.scene.displays[0], "Cell Size", 0.25)
         session.show_robot(load_robot(write(tmp_path, 4.0)))
         assert shown(session) == {
-            "alpha": 1.0,
-            "frames": False,
+            "alpha": 0.6,
+            "frames": True,
             "cell": 0.25,
             "scale": 2.0,
         }
@@ -149,7 +206,7 @@ def test_each_private_session_has_it(
         for _ in range(2):
             protocol(viz.viser.get_port()).settle(viz.viser)
         sessions = viz.server.sessions.all()
-        expected = {"alpha": 1.0, "frames": False, "cell": 0.05, "scale": 0.05}
+        expected = {"alpha": 0.6, "frames": True, "cell": 0.05, "scale": 0.05}
         assert list(map(shown, sessions)) == [expected, expected]
 
 
@@ -163,9 +220,9 @@ def test_a_live_robot_has_it_as_soon_as_it_comes() -> None:
             box = BOX.format(name="lab", geometry="<box size='0.1 0.1 0.1'/>")
             peer.publish("/robot_description", box)
             eventually(lambda: getattr(session.robot.model, "name", "") == "lab")
-            expected = {"alpha": 1.0, "frames": False, "cell": 0.05, "scale": 0.05}
+            expected = {"alpha": 0.6, "frames": True, "cell": 0.05, "scale": 0.05}
             eventually(lambda: shown(session) == expected)
-            assert not session.scene.displays[2].shown
+            assert session.scene.displays[2].shown
     finally:
         peer.stop()
 

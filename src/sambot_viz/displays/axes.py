@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.scene.nodes import NodeCache
 from sambot_viz.displays.scene.solids import add_axes, axes_triangles
+from sambot_viz.displays.scene_size import SceneSize, round_size
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.rviz import (
     FIXED_FRAME,
@@ -50,6 +51,12 @@ class AxesDisplay(TriangleDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._nodes = NodeCache()
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return axes half as long as the robot, in RViz's proportion."""
+        length = round_size(size.length / 2)
+        return {"Length": length, "Radius": length / 10}
 
     def draw(self) -> None:
         """Draw the axes, unless they are drawn already."""

@@ -32,6 +32,7 @@ from sambot_viz.displays.robot_display import (
 from sambot_viz.displays.scene.nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.displays.scene_size import SceneSize
 from sambot_viz.displays.topic_messages import TopicMessages
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.geometry import Matrix
@@ -304,6 +305,15 @@ class Display:
         """
         del topic, type_name, qos
         return None
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return the values with which it fits a robot, by path.
+
+        Nothing follows the robot where this is empty.
+        """
+        del size
+        return {}
 
     @property
     def robot_display(self) -> RobotDisplay | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ from sambot_viz.displays.scene.lines import in_pieces, lines_glb
 from sambot_viz.displays.scene.nodes import Handle, NodeCache
 from sambot_viz.displays.scene.ribbons import segment_ribbons
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.displays.scene_size import SceneSize, round_size
 from sambot_viz.geometry import Matrix, Vector3, Wxyz
 from sambot_viz.rviz import (
     FIXED_FRAME,
@@ -34,6 +36,8 @@ _PLANES: dict[str, Wxyz] = {
 }
 """Turns the grid's own axes (normal along y) into the plane, as RViz does."""
 _NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+CELLS = 2.0
+"""Cells that are as long as the robot, about: ten show five of it."""
 NEAR_LINE = 3.0
 """A line of a grid is met from so far [pixels]."""
 MOST_LINES = 100_000
@@ -196,6 +200,11 @@ class GridDisplay(Display):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         self._nodes = NodeCache()
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return cells that the robot fills by two."""
+        return {"Cell Size": round_size(size.length / CELLS)}
 
     def draw(self) -> None:
         """Draw the grid, unless it is drawn already."""

@@ -19,7 +19,7 @@ from sambot_viz.server.live_model import LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
-from sambot_viz.session.own_config import fit_own_config, make_plain
+from sambot_viz.session.own_config import fit_own_config, fit_robot
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
 
@@ -172,7 +172,7 @@ class ShownInputs:
         """Fit a config to a live robot, unless a user has chosen a frame."""
         if document.global_options.get("Fixed Frame") in (STAND_IN_LINK, root):
             _show_motion(document, top, root)
-            make_plain(document, robot)
+            fit_robot(document, robot)
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""

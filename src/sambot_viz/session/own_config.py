@@ -1,19 +1,19 @@
 """The config that comes with the program, for a robot that has none of its own.
 
 It was made for the tutorial's robot: each frame has its axes and its name, and the
-robot can be seen through. For others it is plain: the robot is opaque, on a grid of its
-size, and its frames are off, until they are ticked.
+robot can be seen through. Other robots are shown so too, with sizes that fit them.
 """
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from sambot_viz import bundled
 from sambot_viz.displays.grid import GridDisplay
-from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
+from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.scene_size import SceneSize, frame_spacing
 from sambot_viz.displays.tf.tf import TfDisplay
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.robot.model import Robot
@@ -28,14 +28,11 @@ from sambot_viz.session.undo import History
 
 TUTORIAL = "sam_bot"
 """The name of the tutorial's robot, which those who change a copy of it keep."""
-CELLS = 2.0
-"""So many cells of the grid, about, are as long as the robot: ten show five of it."""
-_ALPHA = 0.6
-"""Of the robot, in the file."""
-_ROUND = (1.0, 2.0, 5.0, 10.0)
-_SIZES = {
-    GridDisplay.kind: ("Cell Size", 1.0),
-    TfDisplay.kind: ("Marker Scale", 0.3),
+MOST_NAMES = 30
+"""The names and arrows of more frames would cover each other."""
+_IN_FILE = {
+    (GridDisplay.kind, "Cell Size"): 1.0,
+    (TfDisplay.kind, "Marker Scale"): 0.3,
 }
 """What follows the size of the robot, and its value in the file."""
 
@@ -46,34 +43,34 @@ def take_root(document: RvizConfig, robot: Robot) -> None:
         document.global_options.set("Fixed Frame", plain_name(robot.root))
 
 
-def make_plain(document: RvizConfig, robot: Robot) -> None:
-    """Show only what a robot looks like, unless it is the tutorial's.
+def fit_robot(document: RvizConfig, robot: Robot) -> None:
+    """Let sizes follow a robot, unless it is the tutorial's, and name few frames.
 
-    A robot without a visual shape is seen by its frames, which stay.
+    A robot without a visual shape has no size; its frames keep theirs.
     """
-    seen = any(link.visuals for link in robot.links.values())
-    if robot.name == TUTORIAL or not seen:
+    document.fits_robot = robot.name != TUTORIAL and any(
+        link.visuals for link in robot.links.values()
+    )
+    if len(robot.links) <= MOST_NAMES:
         return
-    document.fits_robot = True
     for display in document.displays:
-        if display.kind == RobotModelDisplay.kind:
-            if display.get("Alpha") == _ALPHA:
-                display.set("Alpha", 1.0)
-        elif display.kind == TfDisplay.kind:
-            display.set_enabled(False)
+        if display.kind == TfDisplay.kind:
+            display.set("Show Names", False)
+            display.set("Show Arrows", False)
 
 
 def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
     """Let the config that comes with the program fit a robot; others stay."""
     if robot is not None and bundled.is_bundled(document.file):
         take_root(document, robot)
-        make_plain(document, robot)
+        fit_robot(document, robot)
 
 
 class SizeOfRobot:
-    """Gives the grid and the frames the size of the robot, where nobody has.
+    """Gives displays the size of the robot, where nobody has given them one.
 
-    That is once its meshes are read, in a config that no file says.
+    Those of the config get it once the meshes are read; those that are added have it
+    from the start. That is in a config that is no user's.
 
     Args:
         document: what is shown.
@@ -100,39 +97,52 @@ class SizeOfRobot:
         self._edits = edits
         self._history = history
         self._fitted: tuple[RvizConfig, Robot] | None = None
-        self._given = dict(_SIZES.values())
+        self._given = dict(_IN_FILE)
         connect([robot.changed, scene.statuses], self._fit)
+        edits.sizes_of = self._sizes_of
 
     def _fit(self) -> None:
         config, robot = self._document.config, self._robot.model
         if not config.fits_robot or robot is None or (config, robot) == self._fitted:
             return
-        box = None
+        size = None
         if self._scene.context.assets.progress is None:
-            box = self._picker.robot_box()
-        if box is None or not bundled.is_bundled(config.file):
+            size = self._size()
+        if size is None:
             return
         if self._fitted is None or self._fitted[0] is not config:
-            self._given = dict(_SIZES.values())
+            self._given = dict(_IN_FILE)
         self._fitted = (config, robot)
-        self._set(round_size(float(np.max(box[1] - box[0])) / CELLS))
+        self._set(size)
 
-    def _set(self, size: float) -> None:
+    def _size(self) -> SceneSize | None:
+        """Return the size of the robot; None without one, or in a user's config."""
+        if self._robot.model is None or not bundled.is_bundled(
+            self._document.config.file
+        ):
+            return None
+        box = self._picker.link_box()
+        if box is None:
+            return None
+        length = float(np.max(box[1] - box[0]))
+        return SceneSize(length, frame_spacing(self._scene.context.tree, length))
+
+    def _sizes_of(self, kind: str) -> Mapping[str, float]:
+        """Return the sizes of a display that is added, by path."""
+        size = self._size()
+        return {} if size is None else DISPLAYS[kind].size_values(size)
+
+    def _set(self, size: SceneSize) -> None:
+        sizes = {
+            (kind, path): value
+            for kind in {kind for kind, _ in _IN_FILE}
+            for path, value in DISPLAYS[kind].size_values(size).items()
+        }
         with self._history.unrecorded():
             for display in self._scene.displays:
-                path, _ = _SIZES.get(display.config.kind, ("", 0.0))
-                if path and display.config.get(path) == self._given[path]:
-                    self._edits.set_property(display, path, size)
-        self._given = dict.fromkeys(self._given, size)
-
-
-def round_size(size: float) -> float:
-    """Return the nearest of 1, 2 and 5 times a power of ten, by their ratio.
-
-    Args:
-        size: [m]; what is smaller than 0.1 mm is taken for that.
-    """
-    size = max(size, 1e-4)
-    power = 10.0 ** math.floor(math.log10(size))
-    nearest = min(_ROUND, key=lambda times: abs(math.log(size / (times * power))))
-    return float(f"{nearest * power:.1g}")
+                for (kind, path), value in sizes.items():
+                    if display.config.kind != kind:
+                        continue
+                    if display.config.get(path) == self._given[kind, path]:
+                        self._edits.set_property(display, path, value)
+        self._given = sizes

@@ -233,7 +233,6 @@ def place(desk: Desk) -> tuple[float, ...]:
 @pytest.mark.view
 def test_task_74_a_picture_of_a_robot_with_meshes(a: Desk) -> None:
     a.viewer.set_resolution(1.0)
-    a.user.click_on(a.user.row("Displays", "TF").one("checkbox"))
     a.user.until(lambda: a.user.row("Displays", "TF").one("checkbox").is_on)
     a.user.menu("File", re.compile("^Save Image"))
     for side, size in (("Width", "1280"), ("Height", "720")):

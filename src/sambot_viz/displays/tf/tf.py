@@ -27,6 +27,7 @@ from sambot_viz.displays.scene.solids import (
     arrow_triangles,
     axes_triangles,
 )
+from sambot_viz.displays.scene_size import SceneSize, round_size
 from sambot_viz.displays.tf.ageing import FRESH, GONE, FrameAges, FrameLook
 from sambot_viz.displays.tf.frame_rows import (
     ALL_ENABLED,
@@ -45,6 +46,8 @@ SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
 HEAD_LENGTH, HEAD_DIAMETER, SHAFT_DIAMETER = 0.1, 0.04, 0.01
 SHORTEST_ARROW = 0.001
 """Frames nearer than this have no arrow [m]."""
+SHORTEST_AXES = 250
+"""Axes are no shorter than this part of the robot."""
 EM_HEIGHT = 0.0889
 """Height of the em square of names, in a character cell of 0.1 m."""
 
@@ -86,6 +89,13 @@ class TfDisplay(TriangleDisplay):
         """Return no values: one display shows the transforms of all topics."""
         del topic, qos
         return {} if type_name in TRANSFORM_TYPES else None
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return a tenth of the robot for axes, or less where frames are closer."""
+        axes = min(size.length / 10, size.spacing)
+        axes = max(axes, size.length / SHORTEST_AXES)
+        return {"Marker Scale": round_size(axes / AXES_LENGTH)}
 
     def time_passed(self) -> None:
         """Let frames that messages bring no more fade, and vanish."""

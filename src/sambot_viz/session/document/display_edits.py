@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -37,7 +37,11 @@ _COUNTED = re.compile(r"^(.*) \(\d+\)$", re.DOTALL)
 
 
 class DisplayEdits:
-    """Changes displays as users do."""
+    """Changes displays as users do.
+
+    Attributes:
+        sizes_of: says which sizes a display of a type gets that is added, by path.
+    """
 
     def __init__(
         self,
@@ -50,6 +54,7 @@ class DisplayEdits:
         self._scene = scene
         self._history = history
         self._change = change
+        self.sizes_of: Callable[[str], Mapping[str, float]] = lambda _: {}
 
     # Values
 
@@ -167,7 +172,7 @@ class DisplayEdits:
         values: Mapping[str, object] | None = None,
         place: tuple[int, DisplayConfig | None] | None = None,
     ) -> DisplayConfig:
-        """Add a display with RViz's defaults, switched on.
+        """Add a display with RViz's defaults, or the robot's size, switched on.
 
         Args:
             kind: ROS 2 class id.
@@ -192,7 +197,7 @@ class DisplayEdits:
             config = self._document.config.add_display(
                 kind, label, group=group, after=after
             )
-            for path, value in (values or {}).items():
+            for path, value in {**self.sizes_of(kind), **(values or {})}.items():
                 config.set(path, value)
             if place is not None:
                 # A document puts new displays behind others.

@@ -100,6 +100,10 @@ class Picker:
         """The box around all links, or else around all that is drawn."""
         return self._scene.robot_box()
 
+    def link_box(self) -> Corners | None:
+        """The box around all links; None while none is drawn."""
+        return self._scene.link_box()
+
     def close(self) -> None:
         """Follow no more rays."""
         self._thread.shutdown(wait=False, cancel_futures=True)

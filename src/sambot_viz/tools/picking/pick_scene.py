@@ -171,9 +171,11 @@ class PickScene:
         Returns:
             None when nothing is drawn.
         """
-        return self._box(
-            lambda item: item is not None and item.kind == "link"
-        ) or self._box(lambda _: True)
+        return self.link_box() or self._box(lambda _: True)
+
+    def link_box(self) -> Corners | None:
+        """Return the box around all links; None while none is drawn."""
+        return self._box(lambda item: item is not None and item.kind == "link")
 
     def data_of(self, item: Selectable) -> SelectedData | None:
         """Return what a display knows of data; None when it is not drawn any more."""
