@@ -100,12 +100,13 @@ def test_a_private_copy_and_back(
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     user.enter(user.row("Joints", LEFT).one("textbox"), "-2")
     user.until(lambda: len(viz.server.sessions.all()) == 2)
-    teacher.user.reads("You control the robot")
+    teacher.user.reads("You control the robot, 1 private copy")
     assert "new private copy" not in user.see().text
     guest.page.goto(viewer_url(f"{viz.url}/copy/", view=False))
     user.reads("This is a new private copy of the shared robot as it is now")
-    people(user, "Back to the shared robot")
+    user.click("button", "Private copy · Back to the shared robot")
     user.reads("Presenter controls the robot, 1 viewer")
+    teacher.user.until(lambda: "private copy" not in teacher.user.see().text)
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     assert viz.joint_positions[LEFT] == 1.0
 

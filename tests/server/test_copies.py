@@ -61,6 +61,29 @@ def test_a_copy_begins_as_the_class_is(viz: Visualizer, copy: ProtocolClient) ->
     assert copy.row("role/me")["value"]["control"] is True
 
 
+def test_those_who_share_the_robot_see_how_many_have_a_copy(
+    viz: Visualizer, protocol: Protocol
+) -> None:
+    viewer = protocol(viz.viser.get_port())
+
+    def copies() -> int:
+        return int(viewer.row("people/state")["value"]["copies"])
+
+    viewer.wait_until(lambda: "people/state" in viewer.rows)
+    assert copies() == 0
+    ones = []
+    for number in (1, 2):
+        ones.append(protocol(viz.viser.get_port(), path="/copy"))
+        viewer.wait_until(lambda number=number: copies() == number)
+    # A copy is nobody else's, and a page of the class is not a copy.
+    ones[0].wait_until(lambda: "people/state" in ones[0].rows)
+    assert ones[0].row("people/state")["value"]["copies"] == 0
+    protocol(viz.viser.get_port())
+    for number in (1, 0):
+        ones.pop().close()
+        viewer.wait_until(lambda number=number: copies() == number)
+
+
 def test_the_robot_of_the_class_is_not_sent_to_a_copy(
     viz: Visualizer, copy: ProtocolClient, protocol: Protocol
 ) -> None:

@@ -43,8 +43,10 @@ class PeoplePanel(Panel):
         return Row(f"person/{client_id}", "", "readonly", person.name, extra=facts)
 
     def data(self) -> Sequence[Data]:
-        """Return what kind of session it is."""
-        state = {"presented": self._roles.presented, "copy": self._is_copy}
+        """Return what kind of session it is, and how many have a copy of it."""
+        roles = self._roles
+        state: dict[str, Json] = {"presented": roles.presented, "copy": self._is_copy}
+        state["copies"] = roles.copies
         return [Data("people/state", state)]
 
 

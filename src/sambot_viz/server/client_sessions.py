@@ -232,6 +232,13 @@ class ClientSessions:
         self._sessions.admit(place, session, copied=copy is not None)
         self._add_panels(place, session)
         self._give_view(session, client, ClientContext())
+        self._count_copies()
+
+    def _count_copies(self) -> None:
+        """Tell those who share the session how many have a copy of it."""
+        shared, places = self._places.shared, self._places
+        if shared is not None:
+            shared.worker.post(lambda: shared.roles.count_copies(places.copies))
 
     def _has_left(self, client: viser.ClientHandle) -> bool:
         """Tell if a client has gone before its turn: to let it in would be for nobody.
@@ -254,6 +261,7 @@ class ClientSessions:
 
     def _close_private(self, client_id: int, place: SessionPlace) -> None:
         self._places.remove(client_id)
+        self._count_copies()
         self._sessions.on_files()
         if place.window is not None:
             place.window.close()

@@ -60,6 +60,13 @@ class SessionPlaces:
         place = self.of_all
         return None if place is None else place.session
 
+    @property
+    def copies(self) -> int:
+        """The number of places of single clients that have a session."""
+        with self.lock:
+            places = list(self._by_client.items())
+        return sum(n is not None and p.session is not None for n, p in places)
+
     def own(self, client_id: int) -> SessionPlace | None:
         """Return the place that a client has to itself; None when it has none."""
         return self._by_client.get(client_id)

@@ -10,7 +10,7 @@ import { Popup } from "./popup.js";
 import { Cell, useData, useRow } from "../state.js";
 
 /**
- * @typedef {{presented: boolean, copy: boolean}} State
+ * @typedef {{presented: boolean, copy: boolean, copies: number}} State copies: how many have one
  * @typedef {{client: number, name: string, presenter: boolean, control: boolean,
  *   requests: boolean}} Me
  * @typedef {{id: string, name: string, client: number, presenter?: boolean, control?: boolean,
@@ -68,7 +68,7 @@ export function People() {
   const now = usePeople();
   if (!now) return null;
   const { state, me, people } = now;
-  if (!state.copy && !state.presented && people.length < 2) return null;
+  if (!state.copy && !state.presented && people.length < 2 && !state.copies) return null;
   return html`<${Popup} name="People" role="dialog" title=${inWords(now)} opened=${peopleOpen}
     label=${short(now)}>${(/** @type {() => void} */ close) =>
       html`<div class="people">
@@ -76,7 +76,7 @@ export function People() {
       ${!state.copy && html`<${PeopleList} now=${now} close=${close} />`}
       ${
         state.copy
-          ? html`<button onClick=${() => location.assign(`../${location.search}`)}>Back to the shared robot</button>`
+          ? html`<button onClick=${goBack}>Back to the shared robot</button>`
           : !me.presenter &&
             html`<button onClick=${() => location.assign(`copy/${location.search}`)}
             title="Only you see what you change there. You can return at any time."
@@ -85,6 +85,12 @@ export function People() {
     </div>`}<//>`;
 }
 
+const goBack = () => location.assign(`../${location.search}`);
+
+/** @param {number} copies @param {string} joint what is between it and what is said before */
+const withCopies = (copies, joint) =>
+  copies ? `${joint}${copies} private ${copies === 1 ? "copy" : "copies"}` : "";
+
 /** @param {number} number @param {string} noun */
 const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : "s"}`;
 
@@ -92,10 +98,11 @@ const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : 
 function short(now) {
   const { state, me, people, viewers, requests } = now;
   if (state.copy) return "Private copy";
-  if (!state.presented) return `${people.length} browsers`;
+  const away = withCopies(state.copies, ", ");
+  if (!state.presented) return `${count(people.length, "browser")}${away}`;
   const asking = me.presenter && requests.length ? `, ${count(requests.length, "request")}` : "";
   const seen = viewers ? `, ${count(viewers, "viewer")}` : "";
-  return `${inControl(now)}${seen}${asking}`;
+  return `${inControl(now)}${seen}${away}${asking}`;
 }
 
 /** @param {Now} now */
@@ -112,21 +119,27 @@ function inControl({ me, people }) {
 /** @param {Now} now */
 function inWords(now) {
   if (now.state.copy) return "This is a private copy. Only you see what you change.";
+  const away = withCopies(now.state.copies, "; ");
   if (!now.state.presented)
-    return `${now.people.length} pages show this robot, and each can control it.`;
-  return `${inControl(now)}. ${count(now.viewers, "viewer")}.`;
+    return `${now.people.length} pages show this robot, and each can control it${away}.`;
+  return `${inControl(now)}. ${count(now.viewers, "viewer")}${away}.`;
 }
 
 /** How many requests are shown over the view, each with its buttons. */
 const OVER_VIEW = 2;
 
 /** Over the view: the requests for control, for a presenter; that others control the robot, for
- * a viewer. */
+ * a viewer; the way back, in a private copy. */
 export function Asking() {
   const now = usePeople();
   const asks = now?.me.presenter ? now.requests : [];
   const chip = now && !now.me.control && !peopleOpen.use();
   return html`<div class="asking" role="status" aria-live="polite">
+    ${
+      now?.state.copy &&
+      html`<button class="chip" onClick=${goBack}>
+      Private copy · Back to the shared robot</button>`
+    }
     ${chip && html`<${ViewOnly} me=${now.me} />`}
     ${
       asks.length > OVER_VIEW

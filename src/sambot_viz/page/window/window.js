@@ -67,8 +67,7 @@ export function Window() {
       html`<${StatusBar}
       problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} />`
     }
-    <${Connection} />
-    <${Asking} />
+    <div class="over-view"><${Asking} /><${Connection} /></div>
     <${Dialogs} />
   </div>`;
 }

@@ -53,12 +53,14 @@ class Roles:
 
     Attributes:
         changed: who is there, and who has or requests control.
+        copies: how many users have left for a private copy.
         end_connection: closes the page of a client for good.
     """
 
     def __init__(self, change: Change, presented: bool = False) -> None:
         self.presented = presented
         self.changed = Signal(change, None)
+        self.copies = 0
         self.end_connection: Callable[[int], object] = lambda client_id: None
         self._people: dict[int, Participant] = {}
         self._viewers = itertools.count(1)
@@ -99,6 +101,12 @@ class Roles:
     def leave(self, client_id: int) -> None:
         """Remove the user of a client; control that was given to it is free again."""
         if self._people.pop(client_id, None) is not None:
+            self.changed.touch()
+
+    def count_copies(self, number: int) -> None:
+        """Take how many private copies are open now."""
+        if number != self.copies:
+            self.copies = number
             self.changed.touch()
 
     def may_edit(self, client_id: int) -> bool:
