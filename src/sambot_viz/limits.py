@@ -37,8 +37,9 @@ MESSAGE = LimitRow(
     "a message of an mcap, db3 or bag file, and a frame of a live robot",
     256 * 2**20,
     "bytes",
-    "it is left out without being read; its topic and Problems say so. After such a "
-    "frame the connection is made again; the status of the source says so",
+    "it is left out without being read; its topic says so, and Problems or the status "
+    "of the source. The connection is made again only after a message that came in "
+    "several frames, or one of 16 times the size",
 )
 CHUNK = LimitRow(
     "a chunk of an mcap file or a bag, as it stands in the file and decompressed",

@@ -10,6 +10,7 @@ import re
 import time
 from itertools import count
 
+from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources import foxglove_wire as wire
 from sambot_viz.sources.message import (
@@ -71,6 +72,20 @@ class FoxgloveConversation(Conversation):
         except wire.Malformed:
             self.unreadable += 1
 
+    def topic_of(self, head: bytes) -> str:
+        """Return the topic of a message; a file is answered as one that is refused."""
+        try:
+            parsed = wire.parse_binary(head)
+        except wire.Malformed:
+            return ""
+        if isinstance(parsed, wire.MessageFrame):
+            channel = self._subscribed.get(parsed.subscription_id)
+            return channel.topic if channel is not None else ""
+        if isinstance(parsed, wire.AssetFrame):
+            why = f"a frame may hold {limits.MESSAGE.value:,} bytes, the file has more"
+            self.ends.assets.answer(parsed.request_id, b"", why, "")
+        return ""
+
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the channels of the wanted topics, and to no others."""
         gone = self._wanted - wanted
@@ -124,6 +139,7 @@ class FoxgloveConversation(Conversation):
                 qos=channel.qos,
                 is_latched=channel.is_latched,
                 publishers=self._publishers.get(name, ()) if has_graph else None,
+                left_out=self.left_out(name),
             )
         for name, channel in self._from_parameters.items():
             if name not in found:

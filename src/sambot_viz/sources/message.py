@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources.qos import Qos
 
@@ -48,7 +49,7 @@ class SourceTopic:
         reason: why it cannot be read, with the remedy; None if it may be read.
         count: how many messages a recording has that can be read; None while that is
             not known, and of a live robot.
-        left_out: what of a recording cannot be read, and why; empty for nothing.
+        left_out: what of it is not read, and why; empty for nothing.
     """
 
     name: str
@@ -84,3 +85,16 @@ class Recorded:
 def is_latched_name(topic: str) -> bool:
     """Tell if topics of this name are latched, whatever their QoS says."""
     return topic.endswith(("/tf_static", "robot_description")) or topic == "tf_static"
+
+
+def too_large(count: int, largest: int) -> str:
+    """Say how many messages are left out since they are too large.
+
+    Args:
+        count: how many.
+        largest: size of the largest of them [bytes].
+    """
+    said = limits.MESSAGE.said(largest)
+    if count == 1:
+        return f"a message is left out: it holds {said}"
+    return f"{count:,} messages are left out: the largest holds {said}"

@@ -88,6 +88,11 @@ class RosbridgeConversation(Conversation):
             )
         self._note_changes()
 
+    def topic_of(self, head: bytes) -> str:
+        """Return the topic of a message, which the servers write before its fields."""
+        topic = wire.topic_of(head)
+        return topic if topic in self._subscriptions else ""
+
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
         for topic in self._wanted - wanted:
@@ -133,6 +138,7 @@ class RosbridgeConversation(Conversation):
                 wire.encoding(type_name),
                 is_latched=is_latched_name(name),
                 publishers=self._rosapi.publishers.get(name),
+                left_out=self.left_out(name),
             )
         return found
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
@@ -53,6 +54,9 @@ _IDL_NAMES = {
     "float": "float32",
     "octet": "byte",
 }
+_CBOR_TEXT = 0x60
+_TOPIC_IN_JSON = re.compile(rb'"topic"\s*:\s*("(?:[^"\\]|\\.)*")')
+_TOPIC_IN_CBOR = re.compile(rb"\x65topic(?:([\x60-\x77])|\x78(.)|\x79(..))", re.DOTALL)
 _SEQUENCE = re.compile(r"sequence<\s*([\w/]+)\s*(?:,\s*(\d+)\s*)?>")
 
 
@@ -133,6 +137,18 @@ class MessageDetails(msgspec.Struct):
 
 
 Operation = Publication | ServiceResponse | StatusLine | ForeignOperation
+
+
+def topic_of(head: bytes) -> str:
+    """Return the topic in the first bytes of a publication; "" when it is not there."""
+    if (found := _TOPIC_IN_JSON.search(head)) is not None:
+        with suppress(ValueError):
+            return str(json.loads(found[1]))
+    elif (found := _TOPIC_IN_CBOR.search(head)) is not None:
+        short, one, two = found.groups()
+        size = short[0] - _CBOR_TEXT if short else int.from_bytes(one or two, "big")
+        return str(head[found.end() : found.end() + size], "utf-8", "replace")
+    return ""
 
 
 def parse_operation(frame: str | bytes) -> Operation:

@@ -9,7 +9,7 @@ from collections.abc import Container, Iterator, Mapping
 
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.qos import Qos
-from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.reasons import TopicReason, left_out
 from sambot_viz.topics.report import TopicStatus
 
 _HOUR = 3600.0
@@ -44,6 +44,7 @@ def silent_topics(
         if name not in came:
             reason = (
                 unreadable(topic)
+                or (left_out(topic.left_out) if topic.left_out else None)
                 or no_publisher(name, topic.publishers)
                 or TopicReason("no-message", nothing_came(seconds))
             )

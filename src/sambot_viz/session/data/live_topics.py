@@ -24,7 +24,7 @@ from sambot_viz.topics.live_reasons import (
     unreadable,
 )
 from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.reasons import TopicReason, left_out
 from sambot_viz.topics.report import TopicStatus
 from sambot_viz.topics.topic import Topic
 
@@ -125,6 +125,8 @@ class LiveTopics:
         if reason is None and decoder.reason is not None:
             reason = TopicReason(decoder.reason.code, decoder.reason.text)
         readable = reason is None
+        if topic.left_out:
+            reason = reason or left_out(topic.left_out)
         reason = reason or self._reason(topic, heard)
         self._said[name] = "" if reason is None else reason.code
         type_name = decoder.type_name or topic.schema.name

@@ -9,6 +9,7 @@ from pathlib import Path
 from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.compression import BrokenPieceError, TooLargeError
+from sambot_viz.sources.message import too_large
 
 _MOST_NAMED = 5
 _HINT_MESSAGE = (
@@ -141,7 +142,4 @@ def _problem(path: Path, message: str, hint: str) -> Problem:
 
 def _messages(sizes: list[int]) -> str:
     """Say how many messages are too large, and how large."""
-    said = limits.MESSAGE.said(max(sizes))
-    if len(sizes) == 1:
-        return f"a message is left out: it holds {said}"
-    return f"{len(sizes):,} messages are left out: the largest holds {said}"
+    return too_large(len(sizes), max(sizes))

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz import limits
-from sambot_viz.sources.message import Recorded, SourceTopic
+from sambot_viz.sources.message import Recorded, SourceTopic, too_large
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
@@ -21,6 +21,19 @@ MOST_TOPICS = limits.TOPICS.value
 """So many topics of a peer are listed; a broken one may advertise without end."""
 _LATE = 1.0
 """A lag is said from so much on [s]."""
+
+
+_MOST_LARGE = 100
+"""Topics with messages that are too large are counted up to this many."""
+_MOST_SAID = 3
+
+
+@dataclass(slots=True)
+class LargeMessages:
+    """How many messages of a topic were too large, and the largest [bytes]."""
+
+    count: int = 0
+    largest: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +67,8 @@ class Conversation(ABC):
         capabilities: what the peer can do.
         topics_changed: set here, cleared by who has asked for `topics`.
         unreadable: frames that made no sense.
+        large: topic → sizes of its messages that were too large [bytes]; that of "" is
+            not known.
     """
 
     def __init__(self, ends: Ends) -> None:
@@ -64,6 +79,7 @@ class Conversation(ABC):
         self.capabilities: frozenset[str] = frozenset()
         self.topics_changed = False
         self.unreadable = 0
+        self.large: dict[str, LargeMessages] = {}
 
     @abstractmethod
     def begin(self) -> None:
@@ -77,6 +93,32 @@ class Conversation(ABC):
             WrongServer: the peer speaks another protocol.
             NewSession: the peer has started again; a new connection is needed.
         """
+
+    @abstractmethod
+    def topic_of(self, head: bytes) -> str:
+        """Return the topic of a message by its first bytes; "" when they do not say."""
+
+    def leave_out(self, head: bytes, size: int) -> None:
+        """Take note of a message that was too large to be read.
+
+        Args:
+            head: its first bytes.
+            size: of all of it [bytes].
+        """
+        topic = self.topic_of(head)
+        known = self.large.get(topic)
+        if known is None and len(self.large) >= _MOST_LARGE:
+            return
+        if known is None:
+            known = self.large[topic] = LargeMessages()
+        self.topics_changed = True
+        known.count += 1
+        known.largest = max(known.largest, size)
+
+    def left_out(self, topic: str) -> str:
+        """Return what of a topic is left out; empty for nothing."""
+        known = self.large.get(topic)
+        return too_large(known.count, known.largest) if known else ""
 
     @abstractmethod
     def update(self, wanted: frozenset[str]) -> None:
@@ -117,4 +159,7 @@ class Conversation(ABC):
             parts.append(f"{dropped} messages were dropped, displays were too slow")
         if self.unreadable:
             parts.append(f"{self.unreadable} of its frames made no sense")
+        for topic in list(self.large)[:_MOST_SAID]:
+            of = f"of {text(topic, 60)}, " if topic else ""
+            parts.append(of + self.left_out(topic))
         return "; ".join([*parts, *self.notes()])

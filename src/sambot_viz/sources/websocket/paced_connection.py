@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import socket
+from collections.abc import Callable
 from contextlib import suppress
+from typing import Any
 
 from websockets.asyncio.client import ClientConnection
+
+from sambot_viz import limits
+from sambot_viz.sources.websocket.large_frames import LargeFrames
 
 PACE = 0.010
 """After a read that emptied the socket the next one comes so much later [s]."""
@@ -20,11 +25,24 @@ class PacedConnection(ClientConnection):
     It acknowledges what came at each read. A peer that collects small messages until
     the last ones were acknowledged (Nagle's algorithm) would have to wait for 40 ms, as
     Linux does, and the picture would show what was true before the last one.
+
+    A message that is too large is not read, and the connection goes on.
+
+    Attributes:
+        on_large: called with the first bytes of such a message, and its size [bytes].
     """
+
+    def __init__(self, *parts: Any, **options: Any) -> None:
+        super().__init__(*parts, **options)
+        self.on_large: Callable[[bytes, int], object] = lambda head, size: None
+        self._large = LargeFrames(
+            limits.MESSAGE.value, lambda head, size: self.on_large(head, size)
+        )
 
     def data_received(self, data: bytes) -> None:
         """Take what has come, and read again soon; at once when there is more."""
-        super().data_received(data)
+        if through := self._large.filtered(data):
+            super().data_received(through)
         if len(data) < _MUCH and not self.transport.is_closing():
             self.transport.pause_reading()
             self.loop.call_later(PACE, self._read_again)

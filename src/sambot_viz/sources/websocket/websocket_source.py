@@ -243,6 +243,8 @@ class WebsocketSource:
             self._session_id,
         )
         conversation = self._conversation = self._begin(ends)
+        assert isinstance(websocket, PacedConnection)
+        websocket.on_large = conversation.leave_out
         self._delivery.forget()
         self._clock.reset()
         conversation.begin()
