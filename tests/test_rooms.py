@@ -86,6 +86,7 @@ PURE = (
     "joints",
     "drive",
     "messages",
+    "meanings",
     "topics",
 )
 """Rooms that work in a notebook or a grader: no viser, no socket, no thread."""
@@ -98,23 +99,26 @@ ROOMS: Mapping[str, Row] = {
     "frames": Row("robot", "numpy"),
     "joints": Row("robot", "numpy yaml"),
     "drive": Row("joints robot", "numpy"),
-    "messages": Row("", "numpy rosbags"),
+    "messages": Row("", "google numpy rosbags"),
+    # What they mean, whatever they are written in.
+    "meanings": Row("messages", "numpy"),
     # From recordings and robots on the network to messages as bytes.
     "sources": Row(
         "_version messages", "lz4 mcap msgspec numpy websockets yaml zstandard"
     ),
-    # What the messages mean.
-    "topics": Row("frames joints messages robot sources", "numpy"),
+    # What there is at a time, and why something is not seen.
+    "topics": Row("frames joints meanings messages robot sources", "numpy"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row(
-        "frames meshes robot rviz sources topics viser_private", "PIL numpy viser"
+        "frames meanings meshes robot rviz sources topics viser_private",
+        "PIL numpy viser",
     ),
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
     "session": Row(
-        "bundled checks displays drive frames joints meshes options problems "
+        "bundled checks displays drive frames joints meanings meshes options problems "
         "robot rviz sources tools topics views viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
@@ -523,7 +527,8 @@ def test_a_light_command_imports_neither_viser_nor_a_mesh_library(
         f"    main({words!r})\n"
         "except SystemExit:\n"
         "    pass\n"
-        "heavy = {'viser', 'trimesh', 'yourdfpy', 'scipy', 'PIL', 'rosbags'}\n"
+        "heavy = {'viser', 'trimesh', 'yourdfpy', 'scipy', 'PIL', 'rosbags', "
+        "'google.protobuf', 'flatbuffers'}\n"
         f"heavy -= {known!r}\n"
         "heavy &= set(sys.modules)\n"
         "assert not heavy, heavy\n"

@@ -71,6 +71,12 @@ DEFINITION_FIELDS = LimitRow(
     "",
     "its topics say that they cannot be decoded",
 )
+FIELDS_MESSAGE = LimitRow(
+    "a message in JSON, Protobuf, FlatBuffers, CBOR or MessagePack",
+    64 * 2**20,
+    "bytes",
+    "it is not decoded; its topic says so",
+)
 CHANNELS = LimitRow(
     "channels of a recording, and topics of a db3 file",
     65_536,

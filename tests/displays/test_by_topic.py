@@ -8,7 +8,7 @@ from sambot_viz.displays.by_topic import displays_of_topic
 from sambot_viz.displays.data.topic_display import TopicDisplay
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_display import WantedQos
-from sambot_viz.topics import reasons
+from sambot_viz.meanings import Meaning
 
 QOS = WantedQos("Best Effort", "Volatile")
 
@@ -19,16 +19,17 @@ def names(topic: str, type_name: str) -> list[str]:
 
 def test_every_type_that_a_display_draws_has_a_usual_display_that_draws_it() -> None:
     drawn = {
-        type_name
+        meaning
         for display in DISPLAYS.values()
         if issubclass(display, TopicDisplay)
-        for type_name in display.types
+        for meaning in display.meanings
     }
-    missing = drawn - reasons.DISPLAYS.keys()
-    assert not missing, "a new display has a line for its types in topics/reasons.py"
-    for type_name, usual in reasons.DISPLAYS.items():
-        topic = "/robot_description"
-        assert displays_of_topic(topic, type_name)[0].kind == usual
+    missing = {one for one in drawn if one.display is None}
+    assert not missing, "a new display has a line for what it draws in Meaning"
+    for meaning in Meaning:
+        if meaning.display is not None:
+            shown = displays_of_topic("/robot_description", meaning.value)
+            assert shown[0].kind == meaning.display
 
 
 @pytest.mark.parametrize(

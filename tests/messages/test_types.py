@@ -197,7 +197,7 @@ def test_types_that_have_changed_are_read_without_a_definition() -> None:
 
 @pytest.mark.parametrize(
     ("encoding", "word"),
-    [("protobuf", "protobuf"), ("x-lab", "x-lab"), ("", "no encoding")],
+    [("protobuf", "descriptor"), ("x-lab", "x-lab"), ("", "no encoding")],
 )
 def test_an_encoding_that_is_not_read_has_its_reason(
     types: MessageTypes, encoding: str, word: str

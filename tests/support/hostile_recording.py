@@ -127,7 +127,7 @@ def all_tried() -> Iterator[Tried]:
     for kind, display in DISPLAYS.items():
         if not issubclass(display, TopicDisplay):
             continue
-        for type_name in sorted(display.types):
+        for type_name in sorted(one.value for one in display.meanings):
             for number in range(VARIANTS):
                 for is_attacked in (True, False):
                     yield Tried(kind, type_name, number, is_attacked)

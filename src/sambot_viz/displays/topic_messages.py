@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.topics.subscription import Subscription
 
 
@@ -18,7 +19,7 @@ class TopicDoubt:
         level: of the status.
         sentence: the cause and the remedy.
         instead: a topic to use in place of this one; empty when none is meant.
-        is_other_type: its messages are of a type that the display does not draw.
+        is_other_type: its messages mean something that the display does not draw.
     """
 
     level: Literal["Warn", "Error"]
@@ -27,14 +28,14 @@ class TopicDoubt:
     is_other_type: bool = False
 
 
-def topics_of_types(types: Mapping[str, str], wanted: Collection[str]) -> Sequence[str]:
-    """Return the topics whose messages have one of some types, sorted.
+def topics_of(types: Mapping[str, str], wanted: Collection[Meaning]) -> Sequence[str]:
+    """Return the topics whose messages have one of some meanings, sorted.
 
     Args:
         types: topic → type.
-        wanted: types.
+        wanted: meanings.
     """
-    return sorted(topic for topic, one in types.items() if one in wanted)
+    return sorted(topic for topic, one in types.items() if meaning_of(one) in wanted)
 
 
 def values_of_topic(
@@ -99,7 +100,7 @@ class TopicMessages(Protocol):
         ...
 
     def doubt(
-        self, topic: str, types: Collection[str], qos: WantedQos
+        self, topic: str, meanings: Collection[Meaning], qos: WantedQos
     ) -> TopicDoubt | None:
-        """Return why a topic gives nothing to a display of some types, or None."""
+        """Return why a topic gives nothing to a display of some meanings, or None."""
         ...

@@ -6,6 +6,7 @@ from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.rows import Rows
 from sambot_viz.messages.schema import Schema
+from sambot_viz.messages.shape import MessageShape
 from sambot_viz.messages.transforms import TransformDecoder
 from sambot_viz.messages.types import MessageTypes
 
@@ -13,6 +14,7 @@ __all__ = [
     "Decoder",
     "JointStateTemplate",
     "KeptElements",
+    "MessageShape",
     "MessageTypes",
     "Reason",
     "Rows",

@@ -33,7 +33,10 @@ class Decoder:
         encoding: of the messages: "cdr", "ros1", "json", ….
         reason: why they cannot be read; None when they can.
         note: what to know about those that are read; may come with a message.
+        is_typed: messages are objects of ROS's types; else dicts of fields.
     """
+
+    is_typed = False
 
     def __init__(
         self, type_name: str, encoding: str, reason: Reason | None = None
@@ -53,7 +56,7 @@ class Decoder:
 
         Returns:
             An object with the fields as attributes; arrays of numbers are read-only
-            views of the payload. A dict for JSON.
+            views of the payload. A dict of fields for what is not of ROS.
 
         Raises:
             DecodeError: the bytes are no such message; a short cause.
@@ -151,6 +154,8 @@ class FieldDecoder(Decoder):
         definitions: the first one is tried first.
         others: gives more definitions, asked when a message does not fit.
     """
+
+    is_typed = True
 
     def __init__(
         self,

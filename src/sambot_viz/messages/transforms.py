@@ -8,7 +8,9 @@ next ones are compared with it and give their numbers by two look-ups in numpy.
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -33,6 +35,9 @@ _LARGEST_TEMPLATE = 1 << 21
 """Bytes of a message; a template has twice as many."""
 _MOST_OF_TEMPLATES = 1 << 23
 """Bytes of the messages of all templates."""
+_NUMBERS = attrgetter(
+    *(f"translation.{axis}" for axis in "xyz"), *(f"rotation.{axis}" for axis in "xyzw")
+)
 _PADDING = 3
 _ZEROS = 8
 """As many zeros as rclpy.serialize_message leaves behind a message."""
@@ -45,10 +50,14 @@ class TransformDecoder:
     takes them can know them by it.
 
     Args:
-        message_encoding: "cdr" or "ros1".
+        message_encoding: "cdr" or "ros1"; of others transforms are sorted only.
+
+    Attributes:
+        is_fast: the encoding is one that is decoded.
     """
 
     def __init__(self, message_encoding: str) -> None:
+        self.is_fast = message_encoding in ("cdr", "ros1")
         self._is_ros1 = message_encoding == "ros1"
         self._edges: dict[Edges, Edges] = {}
         self._edges_kept = 0
@@ -78,6 +87,22 @@ class TransformDecoder:
             self._keep(key, _TransformTemplate(data, rows, edges))
         poses = np.array([row[3] for row in read], dtype=np.float64)
         return self._split([row[0] for row in read], edges, poses)
+
+    def sorted(self, transforms: Sequence[Any]) -> list[Transforms]:
+        """Return transforms that were decoded elsewhere, an entry for each stamp.
+
+        Args:
+            transforms: of a tf2_msgs/msg/TFMessage.
+        """
+        edges = self._one(
+            tuple((one.header.frame_id, one.child_frame_id) for one in transforms)
+        )
+        stamps = [
+            one.header.stamp.sec * 10**9 + one.header.stamp.nanosec
+            for one in transforms
+        ]
+        poses = [_NUMBERS(one.transform) for one in transforms]
+        return self._split(stamps, edges, np.array(poses, np.float64))
 
     def _keep(self, key: tuple[int, int], template: _TransformTemplate) -> None:
         held = self._templates_size

@@ -17,10 +17,12 @@ from sambot_viz.messages.decoder import (
 from sambot_viz.messages.definition import UnreadFieldError, closed
 from sambot_viz.messages.definition_text import LANGUAGES, canonical_name, parse
 from sambot_viz.messages.known_types import KnownTypes
+from sambot_viz.messages.protobuf import ProtobufDecoder
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.schema import Schema
+from sambot_viz.messages.shape import MessageShape
 
-_READ = ("cdr", "ros1", "json")
+_READ = ("cdr", "ros1", "json", "protobuf")
 
 
 class MessageTypes:
@@ -43,6 +45,7 @@ class MessageTypes:
         folders = [*msg_path, *(Path(prefix) for prefix in prefixes if prefix)]
         self._known = KnownTypes(folders, distro or os.environ.get("ROS_DISTRO"))
         self._decoders: dict[tuple[Schema, str], Decoder] = {}
+        self._shapes: dict[str, MessageShape] = {}
         # Players of several sessions ask at the same time.
         self._lock = Lock()
 
@@ -54,12 +57,31 @@ class MessageTypes:
                 known = self._decoders[key] = self._made(schema, message_encoding)
         return known
 
+    def shape(self, name: str) -> MessageShape:
+        """Return a type of ROS that is filled with fields of any encoding.
+
+        Raises:
+            DecodeError: its definition is not known.
+        """
+        with self._lock:
+            if (known := self._shapes.get(name)) is None:
+                definitions = self._known.definitions(name, "cdr")
+                if not definitions:
+                    closed(name, {}, lambda one: self._known.find(one, "cdr"))
+                known = self._shapes[name] = MessageShape(definitions[0])
+        return known
+
     def _made(self, schema: Schema, encoding: str) -> Decoder:
         name = canonical_name(schema.name)
         if encoding not in _READ:
             return Decoder(name, encoding, _not_read(name, encoding))
         if encoding == "json":
             return JsonDecoder(name, encoding)
+        if encoding == "protobuf":
+            try:
+                return ProtobufDecoder(schema)
+            except DecodeError as error:
+                return Decoder(name, encoding, Reason("encoding", str(error)))
         try:
             return self._by_fields(name, schema, encoding)
         except UnreadFieldError as error:
@@ -97,7 +119,7 @@ class MessageTypes:
 
 
 def _not_read(name: str, encoding: str) -> Reason:
-    if encoding in ("protobuf", "flatbuffer", "cbor", "msgpack"):
+    if encoding in ("flatbuffer", "cbor", "msgpack"):
         of = f" ({name})" if name else ""
         return Reason("encoding", f"its messages are {encoding}{of}, not read yet")
     named = f"encoding is {encoding}" if encoding else "channel has no encoding"

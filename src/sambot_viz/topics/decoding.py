@@ -12,7 +12,15 @@ import numpy.typing as npt
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
-from sambot_viz.messages import KeptElements, MessageTypes, Rows, TransformDecoder
+from sambot_viz.meanings import has_ros_look, reader_of
+from sambot_viz.meanings.reading import Read
+from sambot_viz.messages import (
+    Decoder,
+    KeptElements,
+    MessageTypes,
+    Rows,
+    TransformDecoder,
+)
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.transforms import Transforms
 
@@ -29,9 +37,12 @@ class Decoding:
     def __init__(self, types: MessageTypes) -> None:
         self.types = types
         self._transforms: dict[str, TransformDecoder] = {}
+        self._readers: dict[Decoder, Read] = {}
 
     def decode(self, message: Recorded, kept: KeptElements | None = None) -> Any:
-        """Return a message as an object with its fields.
+        """Return a message in the look of its meaning (see `Meaning`).
+
+        One whose schema means nothing here is a dict of its fields, or has them.
 
         Args:
             message: its bytes.
@@ -44,7 +55,10 @@ class Decoding:
         decoder = self.types.decoder(channel.schema, channel.message_encoding)
         if decoder.reason is not None:
             raise DecodeError(decoder.reason.text)
-        return decoder.decode(message.payload, kept)
+        read = self._readers.get(decoder)
+        if read is None:
+            read = self._readers[decoder] = reader_of(decoder, self.types)
+        return read(message.payload, kept)
 
     def in_turn(self) -> Callable[[Recorded], Any]:
         """Return what decodes messages that come one after the other, as `decode`."""
@@ -68,7 +82,9 @@ class Decoding:
         decoder = self._transforms.get(encoding)
         if decoder is None:
             decoder = self._transforms[encoding] = TransformDecoder(encoding)
-        return decoder.decode(message.payload)
+        if decoder.is_fast and has_ros_look(message.channel.schema.name):
+            return decoder.decode(message.payload)
+        return decoder.sorted(self.decode(message).transforms)
 
 
 def frame_and_stamp(message: Any) -> tuple[str, int | None]:

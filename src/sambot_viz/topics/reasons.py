@@ -12,12 +12,8 @@ from typing import Any
 
 from sambot_viz.errors import Severity, did_you_mean, nearest
 from sambot_viz.frames.errors import LookupRefused
-from sambot_viz.topics.robot_topics import (
-    DESCRIPTION_TYPES,
-    JOINT_STATE_TYPES,
-    TRANSFORM_TYPES,
-    describes_robot,
-)
+from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.topics.robot_topics import describes_robot
 
 SEVERITIES: Mapping[str, Severity] = {
     "no-such-topic": "warning",
@@ -41,49 +37,6 @@ SEVERITIES: Mapping[str, Severity] = {
     "lagging": "warning",
 }
 """All reasons of topics."""
-
-_CLASSES = {
-    "geometry_msgs/msg/AccelStamped": "AccelStamped",
-    "geometry_msgs/msg/PointStamped": "PointStamped",
-    "geometry_msgs/msg/PolygonStamped": "Polygon",
-    "geometry_msgs/msg/PoseArray": "PoseArray",
-    "geometry_msgs/msg/PoseStamped": "Pose",
-    "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
-    "geometry_msgs/msg/TwistStamped": "TwistStamped",
-    "geometry_msgs/msg/WrenchStamped": "Wrench",
-    "nav2_msgs/msg/ParticleCloud": "nav2_rviz_plugins/ParticleCloud",
-    "nav_msgs/msg/GridCells": "GridCells",
-    "nav_msgs/msg/OccupancyGrid": "Map",
-    "nav_msgs/msg/Odometry": "Odometry",
-    "nav_msgs/msg/Path": "Path",
-    "sensor_msgs/msg/CameraInfo": "CameraInfo",
-    "sensor_msgs/msg/CompressedImage": "Image",
-    "sensor_msgs/msg/Image": "Image",
-    "sensor_msgs/msg/FluidPressure": "FluidPressure",
-    "sensor_msgs/msg/Illuminance": "Illuminance",
-    "sensor_msgs/msg/LaserScan": "LaserScan",
-    "sensor_msgs/msg/PointCloud": "PointCloud",
-    "sensor_msgs/msg/PointCloud2": "PointCloud2",
-    "sensor_msgs/msg/Range": "Range",
-    "sensor_msgs/msg/RelativeHumidity": "RelativeHumidity",
-    "sensor_msgs/msg/Temperature": "Temperature",
-    "visualization_msgs/msg/InteractiveMarkerInit": "InteractiveMarkers",
-    "visualization_msgs/msg/InteractiveMarkerUpdate": "InteractiveMarkers",
-    "visualization_msgs/msg/Marker": "Marker",
-    "visualization_msgs/msg/MarkerArray": "MarkerArray",
-    **dict.fromkeys(DESCRIPTION_TYPES, "RobotModel"),
-    **dict.fromkeys(JOINT_STATE_TYPES, "RobotModel"),
-    **dict.fromkeys(TRANSFORM_TYPES, "TF"),
-}
-DISPLAYS: Mapping[str, str] = {
-    kind: name if "/" in name else f"rviz_default_plugins/{name}"
-    for kind, name in _CLASSES.items()
-}
-"""Type of messages → the class of the display that usually draws them.
-
-Displays declare the types that they draw; this is what is known of them without loading
-any, and which one comes first where several draw a type.
-"""
 
 STALE = 5.0
 """A topic that was silent for so long, and three of its periods, is said to be [s]."""
@@ -112,9 +65,10 @@ class TopicReason:
 
 def display_of(name: str, type_name: str) -> str | None:
     """Return the class of the display that draws a topic; None when there is none."""
-    if type_name in DESCRIPTION_TYPES and not describes_robot(name, type_name):
+    meaning = meaning_of(type_name)
+    if meaning is Meaning.TEXT and not describes_robot(name, type_name):
         return None
-    return DISPLAYS.get(type_name)
+    return None if meaning is None else meaning.display
 
 
 def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:

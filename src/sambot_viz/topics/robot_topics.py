@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from xml.sax.saxutils import quoteattr
 
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.meanings import Meaning, meaning_of
 
 STAND_IN_LINK = "base_link"
 """The link of a stand-in of which no frame is known."""
@@ -14,9 +15,6 @@ STAND_IN_NAME = "no robot"
 """What a stand-in is called."""
 _BASES = ("base_link", "base_footprint")
 """What the frame of a mobile robot is called (REP 105)."""
-DESCRIPTION_TYPES = frozenset({"std_msgs/msg/String"})
-TRANSFORM_TYPES = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"})
-JOINT_STATE_TYPES = frozenset({"sensor_msgs/msg/JointState"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,25 +57,26 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
     found = [
         name
         for name, kind in types.items()
-        if describes_robot(name, kind) or (name in named and kind in DESCRIPTION_TYPES)
+        if describes_robot(name, kind)
+        or (name in named and meaning_of(kind) is Meaning.TEXT)
     ]
     wanted = next((name for name in named if name in found), "")
     found.sort(key=lambda name: (name != wanted, name.count("/"), name))
     description = found[0] if found else None
     space = "" if description is None else description.rpartition("/")[0]
-    transforms = _of(types, TRANSFORM_TYPES, space)
+    transforms = _of(types, Meaning.TRANSFORMS, space)
     return RobotTopics(
         description,
         tuple(name for name in transforms if not _is_static(name)),
         tuple(name for name in transforms if _is_static(name)),
-        _of(types, JOINT_STATE_TYPES, space, "joint_states"),
+        _of(types, Meaning.JOINTS, space, "joint_states"),
         tuple(found[1:]),
     )
 
 
 def describes_robot(name: str, type_name: str) -> bool:
     """Return whether a topic describes a robot, by its name and type."""
-    return type_name in DESCRIPTION_TYPES and _last(name) == "robot_description"
+    return meaning_of(type_name) is Meaning.TEXT and _last(name) == "robot_description"
 
 
 def stand_in_model(link: str = STAND_IN_LINK) -> str:
@@ -114,10 +113,14 @@ def base_frame(pairs: Iterable[tuple[str, str]]) -> str | None:
 
 
 def _of(
-    types: Mapping[str, str], kinds: frozenset[str], space: str, word: str = ""
+    types: Mapping[str, str], meaning: Meaning, space: str, word: str = ""
 ) -> tuple[str, ...]:
-    """Return the topics of some types in a namespace, or else those in the least."""
-    names = [n for n, kind in types.items() if kind in kinds and word in _last(n)]
+    """Return the topics of a meaning in a namespace, or else those in the least."""
+    names = [
+        name
+        for name, kind in types.items()
+        if meaning_of(kind) is meaning and word in _last(name)
+    ]
     for prefix in dict.fromkeys((space, "")):
         near = [name for name in names if name.rpartition("/")[0] == prefix]
         if near:

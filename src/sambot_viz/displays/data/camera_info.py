@@ -18,6 +18,7 @@ from sambot_viz.displays.picking.placed import HERE, Placed, PlacedMesh
 from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 from sambot_viz.meshes.glb import OPAQUE_FROM
 from sambot_viz.rviz import BoolProperty, ColorProperty, DisplayConfig, FloatProperty
 
@@ -33,7 +34,7 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
 
     kind = "rviz_default_plugins/CameraInfo"
     help = "What a camera sees, as a pyramid."
-    types = frozenset({"sensor_msgs/msg/CameraInfo"})
+    meanings = frozenset({Meaning.CAMERA})
     properties = (
         topic_property(),
         FloatProperty(

@@ -20,6 +20,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.points import PointNode, PointStyle
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, DisplayConfig
 
 Cells = tuple[Floats, Vector3]
@@ -31,7 +32,7 @@ class GridCellsDisplay(NewestMessageDisplay[Cells]):
 
     kind = "rviz_default_plugins/GridCells"
     help = "Cells of a grid, such as obstacles."
-    types = frozenset({"nav_msgs/msg/GridCells"})
+    meanings = frozenset({Meaning.CELLS})
     properties = (
         topic_property(),
         ColorProperty("Color", default=(25, 255, 0), help="The colour of the cells."),

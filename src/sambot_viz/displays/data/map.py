@@ -30,6 +30,7 @@ from sambot_viz.displays.scene.maps import MapNode, palette
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
@@ -62,7 +63,7 @@ class MapDisplay(TopicDisplay):
 
     kind = "rviz_default_plugins/Map"
     help = "An occupancy grid, such as a map or a costmap."
-    types = frozenset({"nav_msgs/msg/OccupancyGrid"})
+    meanings = frozenset({Meaning.GRID})
     properties = MAP_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from sambot_viz.displays.data.message_numbers import at_sensor
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
     MOST_WAITING,
@@ -127,7 +128,8 @@ class MessageFilterDisplay(TopicDisplay):
             LookupRefused: it is not known, or not yet.
         """
         frame, stamp_ns = frame_and_stamp(message)
-        return self.context.tree.lookup(self.context.fixed_frame, frame, stamp_ns)
+        found = self.context.tree.lookup(self.context.fixed_frame, frame, stamp_ns)
+        return at_sensor(found, message)
 
     # As a display of a topic
 

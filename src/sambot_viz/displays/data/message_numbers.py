@@ -13,7 +13,15 @@ from sambot_viz import limits
 from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
-from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz, unit_wxyzs
+from sambot_viz.frames import Transform
+from sambot_viz.geometry import (
+    Vector3,
+    Wxyz,
+    matrix_from_wxyz,
+    unit_wxyz,
+    unit_wxyzs,
+)
+from sambot_viz.meanings.row import SENSOR_POSE
 from sambot_viz.topics.decoding import numbers_of
 
 Floats = npt.NDArray[np.float64]
@@ -98,6 +106,23 @@ def wxyz_of(quaternion: Any) -> Wxyz:
     )
     require_finite(found)
     return unit_wxyz(found)
+
+
+def at_sensor(T_fixed_frame: Transform, message: Any) -> Transform:
+    """Return where the sensor of a message is: in its frame it may have a pose.
+
+    Args:
+        T_fixed_frame: where its frame is.
+        message: of ROS, where the sensor is its frame, or of a schema with a pose.
+
+    Raises:
+        MessageRefused: that is not finite.
+    """
+    pose = getattr(message, SENSOR_POSE, None)
+    if pose is None:
+        return T_fixed_frame
+    matrix = matrix_from_wxyz(wxyz_of(pose.orientation), point_of(pose.position))
+    return T_fixed_frame @ Transform.trusted(matrix)
 
 
 def poses_of(poses: Any, path: str = "") -> tuple[Floats, Floats]:

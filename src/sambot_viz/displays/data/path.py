@@ -21,6 +21,7 @@ from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, Vector3, wxyz_from_matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     ColorProperty,
     DisplayConfig,
@@ -75,7 +76,7 @@ class PathDisplay(KeptMessagesDisplay):
 
     kind = "rviz_default_plugins/Path"
     help = "The path that a robot is to follow."
-    types = frozenset({"nav_msgs/msg/Path"})
+    meanings = frozenset({Meaning.PATH})
     length = "Buffer Length"
     properties = (
         topic_property(),

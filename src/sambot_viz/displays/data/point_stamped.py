@@ -13,6 +13,7 @@ from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid
 from sambot_viz.geometry import IDENTITY, Matrix, Vector3
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, IntProperty
 
 MOST_POINTS = 10_000
@@ -24,7 +25,7 @@ class PointStampedDisplay(KeptSolidsDisplay):
     kind = "rviz_default_plugins/PointStamped"
     help = "A single point."
     differs = "RViz for ROS 1 draws the ball twice as large."
-    types = frozenset({"geometry_msgs/msg/PointStamped"})
+    meanings = frozenset({Meaning.POINT})
     length = "History Length"
     properties = (
         topic_property(),

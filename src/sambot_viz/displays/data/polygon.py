@@ -13,6 +13,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.lines import LineNode, chain_segments
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, DisplayConfig
 
 
@@ -21,7 +22,7 @@ class PolygonDisplay(NewestMessageDisplay[Floats]):
 
     kind = "rviz_default_plugins/Polygon"
     help = "The outline of a polygon, such as a footprint."
-    types = frozenset({"geometry_msgs/msg/PolygonStamped"})
+    meanings = frozenset({Meaning.POLYGON})
     properties = (
         topic_property(),
         ColorProperty("Color", default=(25, 255, 0), help="The colour of the outline."),

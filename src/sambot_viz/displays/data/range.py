@@ -14,6 +14,7 @@ from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.meshes.primitives import CONE_TIP
 from sambot_viz.rviz import ColorProperty, IntProperty
 
@@ -28,7 +29,7 @@ class RangeDisplay(KeptSolidsDisplay):
 
     kind = "rviz_default_plugins/Range"
     help = "What an ultrasonic or infrared sensor measures, as a cone."
-    types = frozenset({"sensor_msgs/msg/Range"})
+    meanings = frozenset({Meaning.CONE})
     length = "Buffer Length"
     properties = (
         topic_property(),

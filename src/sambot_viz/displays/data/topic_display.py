@@ -13,9 +13,10 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import (
     TopicDoubt,
-    topics_of_types,
+    topics_of,
     values_of_topic,
 )
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
 from sambot_viz.topics.subscription import Subscription
 
@@ -50,7 +51,7 @@ def topic_property(
 class TopicDisplay(Display):
     """Draws the messages of a topic while it is shown; else they are not asked for.
 
-    A display says what it draws in `types`, takes messages in `messages_came`, and
+    A display says what it draws in `meanings`, takes messages in `messages_came`, and
     drops what it shows in `forget`.
 
     Attributes:
@@ -59,8 +60,8 @@ class TopicDisplay(Display):
             come; empty for nothing.
     """
 
-    types: ClassVar[frozenset[str]]
-    """The types of messages that it draws."""
+    meanings: ClassVar[frozenset[Meaning]]
+    """What the messages mean that it draws."""
     topic_path: ClassVar[str] = TOPIC
     """The path of the property that names the topic."""
 
@@ -74,8 +75,8 @@ class TopicDisplay(Display):
     def topic_values(
         cls, topic: str, type_name: str, qos: WantedQos | None
     ) -> Mapping[str, object] | None:
-        """Return the values of a new display that draws a topic of one of its types."""
-        if type_name not in cls.types:
+        """Return the values of a new display of a topic whose messages it draws."""
+        if meaning_of(type_name) not in cls.meanings:
             return None
         path = cls.topic_path
         has_qos = any(one.name == path and one.children for one in cls.properties)
@@ -245,7 +246,7 @@ class TopicDisplay(Display):
         messages = self.context.messages
         if messages is None or not self.topic:
             return None
-        return messages.doubt(self.topic, self.types, self.wanted_qos)
+        return messages.doubt(self.topic, self.meanings, self.wanted_qos)
 
     def notes(self) -> Mapping[str, str]:
         """Return why nothing comes, where no messages come at all."""
@@ -256,7 +257,7 @@ class TopicDisplay(Display):
         messages = self.context.messages
         if messages is None:
             return {}
-        return {self.topic_path: topics_of_types(messages.types(), self.types)}
+        return {self.topic_path: topics_of(messages.types(), self.meanings)}
 
     def repairs(self) -> Mapping[str, Repair]:
         """Return a button for the topic that was meant."""

@@ -47,10 +47,11 @@ from sambot_viz.displays.robot_model.status_repairs import (
 from sambot_viz.displays.topic_messages import values_of_topic
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
-from sambot_viz.topics.robot_topics import JOINT_STATE_TYPES, describes_robot
+from sambot_viz.topics.robot_topics import describes_robot
 
 Kind = Literal["visual", "collision"]
 _ShapeKey = tuple[str, Kind, int]
@@ -85,7 +86,7 @@ class RobotModelDisplay(TriangleDisplay):
         cls, topic: str, type_name: str, qos: WantedQos | None
     ) -> Mapping[str, object] | None:
         """Return the values of one that shows a description, or what joints move."""
-        if type_name in JOINT_STATE_TYPES:
+        if meaning_of(type_name) is Meaning.JOINTS:
             return {}
         if not describes_robot(topic, type_name):
             return None

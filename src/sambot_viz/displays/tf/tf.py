@@ -37,9 +37,9 @@ from sambot_viz.displays.tf.frame_rows import (
 )
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.geometry import Vector3
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import DisplayConfig, RegexProperty
 from sambot_viz.text import text
-from sambot_viz.topics.robot_topics import TRANSFORM_TYPES
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
@@ -88,7 +88,7 @@ class TfDisplay(TriangleDisplay):
     ) -> Mapping[str, object] | None:
         """Return no values: one display shows the transforms of all topics."""
         del topic, qos
-        return {} if type_name in TRANSFORM_TYPES else None
+        return {} if meaning_of(type_name) is Meaning.TRANSFORMS else None
 
     @classmethod
     def size_values(cls, size: SceneSize) -> Mapping[str, float]:

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Literal
 
 from sambot_viz.displays.robot_display import Description, WantedQos
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
@@ -22,7 +23,7 @@ from sambot_viz.topics.live_reasons import (
 )
 from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.recorded_robot import RecordedRobot
-from sambot_viz.topics.robot_topics import DESCRIPTION_TYPES, RobotTopics
+from sambot_viz.topics.robot_topics import RobotTopics
 
 Level = Literal["Warn", "Error"]
 STRING = "std_msgs/msg/String"
@@ -66,7 +67,7 @@ class RecordedDescriptions:
                 return Description(topic, is_opened=True)
             return not_there(topic, self.topics(), _missing_in(recorded.name, topic))
         type_name = recorded.decoder(known[topic]).type_name
-        if type_name not in DESCRIPTION_TYPES:
+        if meaning_of(type_name) is not Meaning.TEXT:
             return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
         text = recorded.description_of(topic)
         if text is not None:
@@ -141,7 +142,7 @@ class LiveDescriptions:
         if known.reason is not None:
             return _trouble(topic, known.reason)
         type_name = live.decoder(known).type_name
-        if type_name not in DESCRIPTION_TYPES:
+        if meaning_of(type_name) is not Meaning.TEXT:
             return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
         refused = qos_mismatch(known.qos, wanted_qos(qos))
         if topic == main:

@@ -7,7 +7,8 @@ from functools import partial
 from typing import Literal
 
 from sambot_viz.displays.robot_display import WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
+from sambot_viz.displays.topic_messages import TopicDoubt, topics_of
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.player import Player
 from sambot_viz.sources.message import Recorded
@@ -138,17 +139,17 @@ class RecordedDisplayTopics(DisplayTopics):
         return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
-        self, topic: str, types: Collection[str], qos: WantedQos
+        self, topic: str, meanings: Collection[Meaning], qos: WantedQos
     ) -> TopicDoubt | None:
         """Return why a topic gives nothing; QoS is a matter of the past here."""
         del qos
         recorded = self._recorded
         known = recorded.recording.topics.get(topic)
         if known is None:
-            return not_there(topic, types, self.types())
+            return not_there(topic, meanings, self.types())
         decoder = recorded.decoder(known)
-        if decoder.type_name not in types:
-            return wrong_type(types, decoder.type_name)
+        if meaning_of(decoder.type_name) not in meanings:
+            return wrong_type(meanings, decoder.type_name)
         if decoder.reason is not None:
             return TopicDoubt("Error", capitalized(decoder.reason.text))
         if known.count == 0:
@@ -198,7 +199,7 @@ class LiveDisplayTopics(DisplayTopics):
         return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
-        self, topic: str, types: Collection[str], qos: WantedQos
+        self, topic: str, meanings: Collection[Meaning], qos: WantedQos
     ) -> TopicDoubt | None:
         """Return why a topic gives nothing, also what its publishers do not offer."""
         source = self._live.source
@@ -206,12 +207,12 @@ class LiveDisplayTopics(DisplayTopics):
         if known is None:
             if not source.status.is_connected:
                 return TopicDoubt("Warn", source.status.sentence)
-            return not_there(topic, types, self.types(), "Warn")
+            return not_there(topic, meanings, self.types(), "Warn")
         if known.reason is not None:
             return TopicDoubt("Error", capitalized(known.reason))
         decoder = self._live.decoder(known)
-        if decoder.type_name not in types:
-            return wrong_type(types, decoder.type_name)
+        if meaning_of(decoder.type_name) not in meanings:
+            return wrong_type(meanings, decoder.type_name)
         if decoder.reason is not None:
             return TopicDoubt("Error", capitalized(decoder.reason.text))
         why = no_publisher(topic, known.publishers)
@@ -244,7 +245,7 @@ def _suiting(qos: Qos | None, is_latched: bool) -> WantedQos:
 
 def not_there(
     topic: str,
-    wanted: Collection[str],
+    wanted: Collection[Meaning],
     known: Mapping[str, str],
     level: Literal["Warn", "Error"] = "Error",
 ) -> TopicDoubt:
@@ -252,17 +253,17 @@ def not_there(
 
     Args:
         topic: its name.
-        wanted: the types that the display draws.
+        wanted: what the display draws.
         known: all topics, with their types.
         level: of the status.
     """
-    fitting = topics_of_types(known, wanted)
+    fitting = topics_of(known, wanted)
     text = reasons.no_such_topic(topic, fitting or known).text
     return TopicDoubt(level, capitalized(text), reasons.meant_topic(topic, fitting))
 
 
-def wrong_type(types: Collection[str], type_name: str) -> TopicDoubt:
+def wrong_type(meanings: Collection[Meaning], type_name: str) -> TopicDoubt:
     """Say that a topic has messages that the display does not draw."""
-    wanted = " or ".join(sorted(types))
+    wanted = " or ".join(sorted(one.value for one in meanings))
     text = capitalized(reasons.wrong_type(wanted, type_name).text)
     return TopicDoubt("Error", text, is_other_type=True)

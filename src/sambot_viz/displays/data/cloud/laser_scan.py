@@ -9,8 +9,10 @@ import numpy.typing as npt
 
 from sambot_viz.displays.data.cloud.cloud import Cloud, Values, finite_cloud
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
+from sambot_viz.displays.data.message_numbers import at_sensor
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.topics.decoding import frame_and_stamp
 
 SCAN_TIME = "Scan Time"
@@ -27,7 +29,7 @@ class LaserScanDisplay(CloudDisplay):
 
     kind = "rviz_default_plugins/LaserScan"
     help = "The points that a laser scanner measures."
-    types = frozenset({"sensor_msgs/msg/LaserScan"})
+    meanings = frozenset({Meaning.SCAN})
     in_fixed_frame = True
 
     def place(self, message: Any) -> Transform:
@@ -52,7 +54,7 @@ class LaserScanDisplay(CloudDisplay):
         frame, stamp_ns = frame_and_stamp(message)
         tree, fixed = self.context.tree, self.context.fixed_frame
         if stamp_ns is None:
-            return tree.lookup(fixed, frame, None)
+            return at_sensor(tree.lookup(fixed, frame, None), message)
         count = len(np.asarray(message.ranges))
         seconds = float(message.time_increment) * max(count - 1, 0)
         duration = round(seconds * 1e9) if np.isfinite(seconds) else 0
@@ -63,7 +65,8 @@ class LaserScanDisplay(CloudDisplay):
             self.status.set(SCAN_TIME, "Warn", text)
         else:
             self.status.remove(SCAN_TIME)
-        return tree.lookup(fixed, frame, stamp_ns + duration)
+        end = tree.lookup(fixed, frame, stamp_ns + duration)
+        return at_sensor(end, message)
 
 
 def points_of_scan(message: Any) -> tuple[Floats, npt.NDArray[np.intp]]:

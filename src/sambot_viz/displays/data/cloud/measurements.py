@@ -14,6 +14,7 @@ from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import Property
 
 
@@ -61,7 +62,7 @@ class FluidPressureDisplay(MeasurementDisplay):
 
     kind = "rviz_default_plugins/FluidPressure"
     help = "Pressures as coloured points."
-    types = frozenset({"sensor_msgs/msg/FluidPressure"})
+    meanings = frozenset({Meaning.PRESSURE})
     field = "fluid_pressure"
     properties = measurement_properties(field, 98000.0, 105000.0)
 
@@ -71,7 +72,7 @@ class IlluminanceDisplay(MeasurementDisplay):
 
     kind = "rviz_default_plugins/Illuminance"
     help = "Brightnesses as coloured points."
-    types = frozenset({"sensor_msgs/msg/Illuminance"})
+    meanings = frozenset({Meaning.LIGHT})
     field = "illuminance"
     properties = measurement_properties(field, 0.0, 1000.0)
 
@@ -81,7 +82,7 @@ class RelativeHumidityDisplay(MeasurementDisplay):
 
     kind = "rviz_default_plugins/RelativeHumidity"
     help = "Humidities as coloured points."
-    types = frozenset({"sensor_msgs/msg/RelativeHumidity"})
+    meanings = frozenset({Meaning.HUMIDITY})
     field = "relative_humidity"
     properties = measurement_properties(field, 0.0, 1.0)
 
@@ -91,6 +92,6 @@ class TemperatureDisplay(MeasurementDisplay):
 
     kind = "rviz_default_plugins/Temperature"
     help = "Temperatures as coloured points."
-    types = frozenset({"sensor_msgs/msg/Temperature"})
+    meanings = frozenset({Meaning.TEMPERATURE})
     field = "temperature"
     properties = measurement_properties(field, 0.0, 100.0, is_inverted=True)

@@ -8,6 +8,7 @@ from sambot_viz.displays.data.cloud.cloud import Cloud, cloud_of_cloud, cloud_of
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.meanings import Meaning
 
 
 class PointCloud2Display(CloudDisplay):
@@ -21,7 +22,7 @@ class PointCloud2Display(CloudDisplay):
         "overlap in a plane the later one is in front, but for one of 64, which "
         "rounding decides. So it is in all displays of points."
     )
-    types = frozenset({"sensor_msgs/msg/PointCloud2"})
+    meanings = frozenset({Meaning.CLOUD})
 
     def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
         """Return the points of a message, and the pose of its frame."""
@@ -33,7 +34,7 @@ class PointCloudDisplay(CloudDisplay):
 
     kind = "rviz_default_plugins/PointCloud"
     help = "Points, in the older kind of message."
-    types = frozenset({"sensor_msgs/msg/PointCloud"})
+    meanings = frozenset({Meaning.OLD_CLOUD})
 
     def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
         """Return the points of a message, and the pose of its frame."""

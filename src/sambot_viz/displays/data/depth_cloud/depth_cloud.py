@@ -46,9 +46,10 @@ from sambot_viz.displays.data.topic_display import MOST_WAITING
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.points import PointStyle
-from sambot_viz.displays.topic_messages import topics_of_types
+from sambot_viz.displays.topic_messages import topics_of
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig, Property
 from sambot_viz.sources.message import Recorded
 
@@ -67,7 +68,7 @@ class DepthCloudDisplay(CloudDisplay):
 
     kind = "rviz_default_plugins/DepthCloud"
     help = "The points of a depth image."
-    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
     topic_path = DEPTH_TOPIC
     properties: ClassVar[tuple[Property, ...]] = (*DEPTH_PROPERTIES, *CLOUD_PROPERTIES)
 
@@ -121,7 +122,7 @@ class DepthCloudDisplay(CloudDisplay):
         messages = self.context.messages
         if messages is None:
             return options
-        found = topics_of_types(messages.types(), self.types)
+        found = topics_of(messages.types(), self.meanings)
         for path, words in _NAMES.items():
             options[path] = found
             if self.config.get("Topic Filter"):

@@ -25,6 +25,7 @@ from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.displays.scene.rings import RingsNode
 from sambot_viz.frames import LookupRefused, Transform
 from sambot_viz.geometry import Matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
 from sambot_viz.rviz import (
@@ -58,7 +59,7 @@ class EffortDisplay(KeptReadingsDisplay):
 
     kind = "rviz_default_plugins/Effort"
     help = "Torque of each revolute joint, as a circle."
-    types = frozenset({"sensor_msgs/msg/JointState"})
+    meanings = frozenset({Meaning.JOINTS})
     length = "History Length"
     properties = (
         topic_property(),

@@ -35,6 +35,7 @@ from sambot_viz.displays.pictures import NO_PICTURE, CameraPicture
 from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -60,7 +61,7 @@ class CameraDisplay(MessageFilterDisplay):
 
     kind = "rviz_default_plugins/Camera"
     help = "The pictures of a camera with the scene over them, in the panel Images."
-    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
     properties = (
         BoolProperty(
             VISIBILITY,

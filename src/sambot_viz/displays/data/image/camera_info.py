@@ -10,10 +10,11 @@ from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import TopicMessages
+from sambot_viz.meanings import Meaning
 
 CAMERA_INFO = "Camera Info"
 """The key of the status."""
-_TYPES = frozenset({"sensor_msgs/msg/CameraInfo"})
+_MEANINGS = frozenset({Meaning.CAMERA})
 _QOS = WantedQos("Best Effort", "Volatile")
 _SMALLEST_FOCUS = 1e-9
 """A focal length below it shows everything at infinity [pixels]."""
@@ -101,5 +102,5 @@ def no_info(topic: str, messages: TopicMessages | None) -> str:
         messages: what is known of topics.
     """
     text = f"No CameraInfo received on [{topic}]"
-    doubt = messages.doubt(topic, _TYPES, _QOS) if messages is not None else None
+    doubt = messages.doubt(topic, _MEANINGS, _QOS) if messages is not None else None
     return text if doubt is None else f"{text}. {doubt.sentence}"

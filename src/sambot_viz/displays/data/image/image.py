@@ -17,6 +17,7 @@ from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.pictures import NO_PICTURE
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     BoolProperty,
     DisplayConfig,
@@ -41,7 +42,7 @@ class ImageDisplay(TopicDisplay):
         "It is no part of the 3D view, so `snapshot` and exported pages do not have "
         "it; nor has RViz's File > Save Image, unless it saves the whole window."
     )
-    types = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"})
+    meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
     properties = (
         topic_property(is_filtered=False, ros1=ROS1_TOPIC),
         hint_property(),

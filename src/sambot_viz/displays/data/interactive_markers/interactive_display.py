@@ -17,7 +17,8 @@ from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.robot_display import Repair, WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt, topics_of_types
+from sambot_viz.displays.topic_messages import TopicDoubt, topics_of
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import BoolProperty, DisplayConfig, StringProperty
 from sambot_viz.sources.message import Recorded
 
@@ -52,12 +53,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
 
     kind = "rviz_default_plugins/InteractiveMarkers"
     help = "Markers with handles, which a program moves; here they are shown only."
-    types = frozenset(
-        {
-            "visualization_msgs/msg/InteractiveMarkerUpdate",
-            "visualization_msgs/msg/InteractiveMarkerInit",
-        }
-    )
+    meanings = frozenset({Meaning.INTERACTIVE_UPDATE, Meaning.INTERACTIVE_MARKERS})
     topic_path = NAMESPACE
     properties = (
         StringProperty(
@@ -265,7 +261,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
         if messages is None or not self.namespace:
             return None
         doubts = [
-            messages.doubt(topic, self.types, WantedQos("Reliable", "Volatile"))
+            messages.doubt(topic, self.meanings, WantedQos("Reliable", "Volatile"))
             for topic in (self.topic, self.base_topic)
         ]
         # Either of the two is enough.
@@ -280,7 +276,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
         messages = self.context.messages
         if messages is None:
             return {}
-        topics = topics_of_types(messages.types(), self.types)
+        topics = topics_of(messages.types(), self.meanings)
         return {NAMESPACE: sorted({self._as_written(topic) for topic in topics})}
 
     def repairs(self) -> Mapping[str, Repair]:

@@ -21,6 +21,7 @@ from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.frames import LookupRefused, Transform
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig, GroupProperty, Property
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
@@ -59,7 +60,7 @@ class MarkerDisplay(MessageFilterDisplay):
         "Dark colours of solids are up to 6 of 255 off, as they have 8 bits in linear "
         "light."
     )
-    types = frozenset({"visualization_msgs/msg/Marker"})
+    meanings = frozenset({Meaning.MARKER})
     properties: ClassVar[tuple[Property, ...]] = (
         topic_property(ros1=ROS1_TOPIC),
         _NAMESPACES,
@@ -259,7 +260,7 @@ class MarkerArrayDisplay(MarkerDisplay):
 
     kind = "rviz_default_plugins/MarkerArray"
     help = "Many shapes and texts that a program draws."
-    types = frozenset({"visualization_msgs/msg/MarkerArray"})
+    meanings = frozenset({Meaning.MARKERS})
     properties = (
         topic_property(
             is_filtered=False, default="visualization_marker_array", ros1=ROS1_TOPIC

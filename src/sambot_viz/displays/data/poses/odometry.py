@@ -42,6 +42,7 @@ from sambot_viz.geometry import (
     wxyz_product,
     wxyz_rotated,
 )
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig, EnumProperty, FloatProperty, IntProperty
 from sambot_viz.sources.message import Recorded
 
@@ -89,7 +90,7 @@ class OdometryDisplay(MessageFilterDisplay):
 
     kind = "rviz_default_plugins/Odometry"
     help = "Current and past robot poses, as arrows or axes."
-    types = frozenset({"nav_msgs/msg/Odometry"})
+    meanings = frozenset({Meaning.ODOMETRY})
     properties = (
         topic_property(),
         FloatProperty(

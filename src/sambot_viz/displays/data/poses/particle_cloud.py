@@ -21,6 +21,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 )
 from sambot_viz.displays.data.properties import metres
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 
 SHORTEST, LONGEST = "Min Arrow Length", "Max Arrow Length"
 SHAFT, HEAD = (1.0, 0.0435), (0.3043, 0.1304)
@@ -34,7 +35,7 @@ class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
 
     kind = "nav2_rviz_plugins/ParticleCloud"
     help = "The particles of Nav2's localisation; those with more weight are longer."
-    types = frozenset({"nav2_msgs/msg/ParticleCloud"})
+    meanings = frozenset({Meaning.PARTICLES})
     properties = (
         *many_poses_properties("particle"),
         metres(SHORTEST, 0.02, "Length of a particle without weight."),

@@ -34,6 +34,7 @@ from sambot_viz.displays.picking.selected import Fact, SelectedData
 from sambot_viz.displays.scene.covariance import covariance_solids
 from sambot_viz.displays.scene.solid_nodes import SolidsNode
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig, EnumProperty
 
 PoseRead = tuple[Wxyz, Vector3, Floats]
@@ -57,7 +58,7 @@ class PoseDisplay(NewestMessageDisplay[PoseRead]):
 
     kind = "rviz_default_plugins/Pose"
     help = "A pose as an arrow or as axes."
-    types = frozenset({"geometry_msgs/msg/PoseStamped"})
+    meanings = frozenset({Meaning.POSE})
     properties = POSE_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
@@ -109,7 +110,7 @@ class PoseWithCovarianceDisplay(PoseDisplay):
 
     kind = "rviz_default_plugins/PoseWithCovariance"
     help = "A pose with its uncertainty."
-    types = frozenset({"geometry_msgs/msg/PoseWithCovarianceStamped"})
+    meanings = frozenset({Meaning.POSE_WITH_COVARIANCE})
     properties = (*POSE_PROPERTIES, COVARIANCE)
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

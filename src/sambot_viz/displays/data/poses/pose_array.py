@@ -20,6 +20,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 )
 from sambot_viz.displays.data.properties import metres
 from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.meanings import Meaning
 
 _IF_SOLID = ("Shape", SOLID_ARROW)
 Poses = tuple[Floats, Floats]
@@ -31,7 +32,7 @@ class PoseArrayDisplay(ManyPosesDisplay[Poses]):
 
     kind = "rviz_default_plugins/PoseArray"
     help = "Many poses, such as the particles of a localisation."
-    types = frozenset({"geometry_msgs/msg/PoseArray"})
+    meanings = frozenset({Meaning.POSES})
     properties = (
         *many_poses_properties("pose"),
         metres(

@@ -10,6 +10,7 @@ from sambot_viz.displays.data.vectors.vectors import (
     VectorsDisplay,
     vector_properties,
 )
+from sambot_viz.meanings import Meaning
 
 
 class AccelStampedDisplay(VectorsDisplay):
@@ -17,7 +18,7 @@ class AccelStampedDisplay(VectorsDisplay):
 
     kind = "rviz_default_plugins/AccelStamped"
     help = "An acceleration as arrows."
-    types = frozenset({"geometry_msgs/msg/AccelStamped"})
+    meanings = frozenset({Meaning.ACCELERATION})
     words = ("Linear", "Angular")
     properties = (topic_property(), *vector_properties(*words), HIDES)
 

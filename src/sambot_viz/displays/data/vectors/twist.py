@@ -10,6 +10,7 @@ from sambot_viz.displays.data.vectors.vectors import (
     VectorsDisplay,
     vector_properties,
 )
+from sambot_viz.meanings import Meaning
 
 
 class TwistStampedDisplay(VectorsDisplay):
@@ -17,7 +18,7 @@ class TwistStampedDisplay(VectorsDisplay):
 
     kind = "rviz_default_plugins/TwistStamped"
     help = "A velocity as arrows."
-    types = frozenset({"geometry_msgs/msg/TwistStamped"})
+    meanings = frozenset({Meaning.VELOCITY})
     words = ("Linear", "Angular")
     properties = (topic_property(), *vector_properties(*words), HIDES)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.data.vectors.vectors import VectorsDisplay, vector_properties
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import BoolProperty
 
 ACCEPTS = "Accept NaN Values"
@@ -16,7 +17,7 @@ class WrenchDisplay(VectorsDisplay):
 
     kind = "rviz_default_plugins/Wrench"
     help = "A force and a torque as arrows."
-    types = frozenset({"geometry_msgs/msg/WrenchStamped"})
+    meanings = frozenset({Meaning.FORCE})
     words = ("Force", "Torque")
     properties = (
         topic_property(),

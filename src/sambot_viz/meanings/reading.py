@@ -1,0 +1,56 @@
+"""Read the messages of a channel in the look of their meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from sambot_viz.meanings.row import SENSOR_POSE, SchemaRow
+from sambot_viz.meanings.schemas import row_of
+from sambot_viz.messages import Decoder, KeptElements, MessageTypes
+from sambot_viz.messages.decoder import Payload
+from sambot_viz.messages.shape import MessageShape, fields_of
+
+Read = Callable[[Payload, "KeptElements | None"], Any]
+
+
+def reader_of(decoder: Decoder, types: MessageTypes) -> Read:
+    """Return what reads the messages of a decoder.
+
+    Args:
+        decoder: of a channel, one that can read.
+        types: knows the looks.
+
+    Returns:
+        Takes the bytes of a message and the elements of the one before, as
+        `Decoder.decode`. Of a schema without a meaning the message is what the decoder
+        makes of it. It raises DecodeError.
+    """
+    row = row_of(decoder.type_name)
+    if row is None or (row.look is None and decoder.is_typed):
+        return decoder.decode
+    return _MeaningReader(decoder, row, types)
+
+
+class _MeaningReader:
+    """Brings the messages of a decoder into the look of their meaning.
+
+    Attributes of a message that ROS's type does not have: `sensor_pose`, a
+    geometry_msgs/Pose, where a schema has one.
+    """
+
+    def __init__(self, decoder: Decoder, row: SchemaRow, types: MessageTypes) -> None:
+        self._decoder = decoder
+        self._look = row.look
+        self._shape: MessageShape = types.shape(row.meaning.value)
+        self._pose: MessageShape = types.shape("geometry_msgs/msg/Pose")
+
+    def __call__(self, payload: Payload, kept: KeptElements | None = None) -> Any:
+        fields = fields_of(self._decoder.decode(payload, kept))
+        if self._look is not None:
+            fields = self._look(fields)
+        message = self._shape.filled(fields)
+        pose = fields.get(SENSOR_POSE)
+        if pose is not None:
+            setattr(message, SENSOR_POSE, self._pose.filled(pose))
+        return message

@@ -1,0 +1,52 @@
+"""What a schema means, by its name: the tables of all families of schemas."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from sambot_viz.meanings.foxglove import FOXGLOVE
+from sambot_viz.meanings.meaning import Meaning
+from sambot_viz.meanings.row import SchemaRow
+from sambot_viz.messages.definition_text import canonical_name
+
+_FOXGLOVE_IN_ROS = re.compile(r"foxglove_msgs/(?:msg/)?(\w+)", re.ASCII)
+
+_ROS = {
+    **{one.value: SchemaRow(one) for one in Meaning},
+    "tf/msg/tfMessage": SchemaRow(Meaning.TRANSFORMS),
+    "rosgraph_msgs/msg/Log": SchemaRow(Meaning.LOG),
+}
+"""ROS's own types have the look already."""
+
+_TABLES = (_ROS, FOXGLOVE)
+
+
+@cache
+def row_of(type_name: str) -> SchemaRow | None:
+    """Return the row of a schema; None for one without a meaning here.
+
+    Args:
+        type_name: as a decoder has it, such as "sensor_msgs/msg/LaserScan" or
+            "foxglove.LaserScan".
+    """
+    if match := _FOXGLOVE_IN_ROS.fullmatch(type_name):
+        type_name = f"foxglove.{match[1]}"
+    return next((table[type_name] for table in _TABLES if type_name in table), None)
+
+
+def meaning_of(type_name: str) -> Meaning | None:
+    """Return what the messages of a schema mean; None for one that is not known."""
+    row = row_of(type_name)
+    return None if row is None else row.meaning
+
+
+@cache
+def has_ros_look(schema_name: str) -> bool:
+    """Return whether messages of a schema look as its meaning, if ROS has written them.
+
+    Args:
+        schema_name: as a file or a peer gives it.
+    """
+    row = row_of(canonical_name(schema_name))
+    return row is None or row.look is None
