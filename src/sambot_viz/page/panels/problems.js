@@ -22,7 +22,19 @@ export function ProblemsPanel() {
 }
 
 /**
- * How many problems there are, and displays with errors. Errors among the problems open the list, and close it again when they go.
+ * How many displays have errors. It comes and goes with an edit: no button is moved by it.
+ */
+export function ErrorCount() {
+  /** @type {string[]} the rows of Global Status and of displays, in this order */
+  const inError = useData("displays/errors") || [];
+  if (!inError.length) return null;
+  return html`<button class="problem-count" title="Show it in Displays"
+      onClick=${() => wantedRow.set({ panel: "displays", id: inError[0] })}>
+      <span class="l-error"><${Icon} name="error" /> ${inWords(inError)}</span></button>`;
+}
+
+/**
+ * How many problems there are. Errors among them open the list, and close it again when they go.
  * @param {Shown} props
  */
 export function ProblemCount({ shown, show, byItself }) {
@@ -30,12 +42,7 @@ export function ProblemCount({ shown, show, byItself }) {
   useOpening(count, { shown, show, byItself });
   /** @type {string[]} the rows of Global Status and of displays, in this order */
   const inError = useData("displays/errors") || [];
-  return html`${
-    inError.length > 0 &&
-    html`<button class="problem-count" title="Show it in Displays"
-      onClick=${() => wantedRow.set({ panel: "displays", id: inError[0] })}>
-      <span class="l-error"><${Icon} name="error" /> ${inWords(inError)}</span></button>`
-  }<button class="problem-count" aria-expanded=${String(shown)}
+  return html`<button class="problem-count" aria-expanded=${String(shown)}
     title=${`${shown ? "Hide" : "Show"} the problems`}
       onClick=${() => show(!shown)}><${Numbers} of=${counted(count)} icon=${count?.checking ? "" : "ok"}
         none=${count?.checking ? "Checking…" : inError.length ? "No other problems" : "No problems"} /></button>`;

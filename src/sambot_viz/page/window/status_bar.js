@@ -6,7 +6,7 @@ import { html, useEffect, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { CutText } from "./cut_text.js";
 import { notice } from "./notices.js";
-import { ProblemCount } from "../panels/problems.js";
+import { ErrorCount, ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
 import { useData } from "../state.js";
@@ -23,6 +23,7 @@ export function StatusBar({ problems }) {
     <button class="needs-control" title="Reset (R): reload meshes and redraw"
       aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
     <${ProblemCount} ...${problems} />
+    <${ErrorCount} />
     <${Selected} />
     <${CutText} is="hint" role="status" text=${hint} />
     <${Said} />
