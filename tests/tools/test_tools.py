@@ -440,10 +440,28 @@ def test_measure_takes_points_of_what_is_drawn_near_a_frame(
         session.document.config.displays[0].set("Offset", (x, 0.0, 0.0))
     browser.settle()
     browser.choose("Measure")
-    # On a line beside the axes of the wheel, in the sphere that selects the frame.
-    browser.click((x, 0.18 + 0.03, 5.0))
-    browser.click((x, 2.21, 5.0))
+    # On a line beside the axes of the wheel, in the sphere that selects the frame, and
+    # farther from its origin than a click means it.
+    browser.click((x, 0.18 + 0.03, 1.0))
+    browser.click((x, 2.21, 1.0))
     assert browser.tools.status.startswith("2 m. ")
+
+
+def test_measure_takes_the_origins_of_frames_and_says_which(
+    open_browser: Callable[..., Browser],
+) -> None:
+    browser = open_browser("RobotModel", "Grid")
+    with browser.session.lock:
+        origins = browser.tools.frame_origins()
+    left, right = (origins[f"drivewhl_{side}_link"].tolist() for side in "lr")
+    browser.choose("Measure")
+    # A few millimetres beside the axle, which is inside of the wheel.
+    browser.click((left[0] + 0.004, left[1] + 0.003, 5.0))
+    assert browser.tools.status == "From drivewhl_l_link. Click the second point."
+    browser.click((right[0] - 0.004, right[1], 5.0))
+    assert browser.tools.status.startswith(
+        "0.36 m from drivewhl_l_link to drivewhl_r_link. "
+    )
 
 
 def on_screen(x: float, y: float) -> tuple[float, float]:
@@ -461,7 +479,7 @@ def test_the_line_follows_the_mouse_until_the_second_click(browser: Browser) -> 
     browser.click_down(1.0, 1.0)
     assert tools.current.wants_hover
     tools.hover(on_screen(2.0, 1.0))
-    assert tools.status.startswith("1 m. Click two points; Esc or a")
+    assert tools.status.startswith("1 m. Click two points or frames; Esc")
     tools.hover(on_screen(1.0, 1.5))
     assert tools.status.startswith("0.5 m. ")
     tools.hover((2.0, 0.5))

@@ -8,6 +8,7 @@ import viser
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.rviz import ColorProperty, ToolConfig
+from sambot_viz.tools.picking.snap import frame_at
 from sambot_viz.tools.tool import Click, Tool, ToolContext
 from sambot_viz.views.camera import components
 
@@ -20,16 +21,18 @@ RIM = (255, 255, 255)
 class MeasureTool(Tool):
     """First click: start; second: end; third: a new start.
 
-    Between the first two, the line ends under the mouse. Esc or a right click removes
-    it. The length is also written at the line, which RViz does not; and its line of one
-    pixel can hardly be seen on a dark background: this one is thicker, with a rim.
+    A point next to the origin of a frame in the picture is that origin, as in programs
+    for CAD; RViz measures surfaces only. Between the first two, the line ends under the
+    mouse. Esc or a right click removes it. The length is also written at the line,
+    which RViz does not; and its line of one pixel can hardly be seen on a dark
+    background: this one is thicker, with a rim.
     """
 
     kind = "rviz_default_plugins/Measure"
     label = "Measure"
     key = "N"
-    help = "Click two points; Esc or a right click starts again."
-    touch = "Tap two points; a third one starts again."
+    help = "Click two points or frames; Esc or a right click starts again."
+    touch = "Tap two points or frames; a third one starts again."
     clicks = True
     properties = (
         ColorProperty("Line color", default=COLOR, help="Colour of the line."),
@@ -41,6 +44,7 @@ class MeasureTool(Tool):
         self._start: Array | None = None
         self._end: Array | None = None
         self._finished = False
+        self._names: list[str | None] = [None, None]
         self._dot: viser.PointCloudHandle | None = None
         self._lines: tuple[viser.LineSegmentsHandle, ...] = ()
         self._text: viser.LabelHandle | None = None
@@ -52,19 +56,29 @@ class MeasureTool(Tool):
 
     def click(self, click: Click, hit: Hit) -> None:
         """Take a point; a click on the background does nothing."""
-        if hit.point is None:
+        point, frame = self._meant(click, hit)
+        if point is None:
             return
         if self.wants_hover:
-            self._end, self._finished = hit.point, True
+            self._end, self._finished = point, True
+            self._names[1] = frame
         else:
-            self._start, self._end, self._finished = hit.point, None, False
+            self._start, self._end, self._finished = point, None, False
+            self._names = [frame, None]
         self._draw()
 
     def hover(self, click: Click, hit: Hit) -> None:
         """End the line under the mouse; over the background it stays."""
-        if self.wants_hover and hit.point is not None:
-            self._end = hit.point
+        point, frame = self._meant(click, hit)
+        if self.wants_hover and point is not None:
+            self._end, self._names[1] = point, frame
             self._draw()
+
+    def _meant(self, click: Click, hit: Hit) -> tuple[Array | None, str | None]:
+        """Return the point of a click, and the frame that it is the origin of."""
+        origins = self.context.frame_origins()
+        frame = frame_at(click, origins)
+        return (hit.point, None) if frame is None else (origins[frame], frame)
 
     def left(self) -> None:
         """Forget a start without an end, as RViz begins anew; a whole line stays."""
@@ -96,10 +110,13 @@ class MeasureTool(Tool):
         elif self._end is None:
             self._clear()
             self._dot = self._add_dot(self._start)
-            self.context.show_status("Click the second point.")
+            begin = f"From {self._names[0]}. " if self._names[0] else ""
+            self.context.show_status(f"{begin}Click the second point.")
         else:
             self._draw_line(self._start, self._end)
-            self.context.show_status(f"{self.length:.6g} m. {self.help}")
+            ends = zip(("from", "to"), self._names, strict=True)
+            between = "".join(f" {way} {name}" for way, name in ends if name)
+            self.context.show_status(f"{self.length:.6g} m{between}. {self.help}")
 
     def _draw_line(self, start: Array, end: Array) -> None:
         points = np.array([[start, end]], np.float32)

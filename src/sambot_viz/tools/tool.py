@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol
 
@@ -39,6 +40,10 @@ class ToolContext(Protocol):
     @property
     def scene(self) -> viser.SceneApi:
         """The scene to draw in."""
+        ...
+
+    def frame_origins(self) -> Mapping[str, Array]:
+        """Return where the frames are: name → (3,) in the fixed frame [m]."""
         ...
 
     def select(self, items: Selection, modifier: str | None) -> None:

@@ -81,6 +81,7 @@ class ClientTools:
         self._change = change
         self._view = view
         self._document = document
+        self._scene = scene
         self._picker = picker
         self._worker = worker
         self._selected = selected
@@ -230,6 +231,12 @@ class ClientTools:
     def scene(self) -> viser.SceneApi:
         """Where to draw."""
         return self._client.scene
+
+    def frame_origins(self) -> Mapping[str, Array]:
+        """Return where the frames are: name → (3,) in the fixed frame [m]."""
+        tree, fixed = self._scene.context.tree, self._scene.context.fixed_frame
+        there = (name for name in tree.frames if tree.can_lookup(fixed, name))
+        return {name: tree.lookup(fixed, name).translation for name in there}
 
     def select(self, items: Selection | Set[Selectable], modifier: str | None) -> None:
         """Replace the selection, add to it (Shift) or remove from it (Ctrl)."""
