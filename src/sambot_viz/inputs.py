@@ -23,8 +23,7 @@ from sambot_viz.errors import (
 )
 from sambot_viz.moved_by import (
     named_descriptions,
-    open_live,
-    open_recorded,
+    open_moved_by,
     refuse_time_of_live,
 )
 from sambot_viz.options import Options, PathLike
@@ -44,7 +43,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.document import Document
-    from sambot_viz.topics.live_robot import LiveRobot
+    from sambot_viz.topics.source_robot import SourceRobot
 
 
 @cache
@@ -102,8 +101,7 @@ class Inputs:
             model; the bundled one is used then.
         broken_config: why the config is not shown yet; only with `may_be_broken`.
         poses: the file for named poses, or None to keep them in memory.
-        recorded: the robot of the recording that moves it; None without one.
-        live: the robot of a live source; None without one.
+        moved_by: the robot of the sources that move it; None without one.
 
     Raises:
         UsageError: a file does not exist, or the model is an object of a wrong type.
@@ -126,8 +124,7 @@ class Inputs:
         text = model if isinstance(model, str) and looks_like_text(model) else None
         if listen is None:
             refuse_time_of_live(options)
-        self.live = open_live(options)
-        self.recorded = None if self.live is not None else open_recorded(options)
+        self.moved_by = open_moved_by(options)
         self._listened: Listened | None = None
         if self.live is not None and listen is not None:
             self._listen(self.live, listen)
@@ -149,7 +146,7 @@ class Inputs:
         if text is not None:
             self.model, self._may_be_broken = None, False
             self._open_model(text)
-        elif model is None and (source := self.recorded or self.live) is not None:
+        elif model is None and (source := self.moved_by) is not None:
             self.model, self._may_be_broken = None, False
             # Whoever recorded it is not who reads it.
             self._trusts_model = False
@@ -176,6 +173,12 @@ class Inputs:
             self._options = self._options.having(look=look)
         self.poses = self._poses_file()
         self._presets: Presets | None = None
+
+    @property
+    def live(self) -> SourceRobot | None:
+        """What moves it, if that is a live robot."""
+        moved_by = self.moved_by
+        return moved_by if moved_by is not None and moved_by.can("clock") else None
 
     @property
     def options(self) -> Options:
@@ -236,10 +239,9 @@ class Inputs:
 
     def problems_of_recording(self) -> tuple[Problem, ...]:
         """List what is wrong with the recording."""
-        recorded = self.recorded
-        if recorded is None:
+        if self.moved_by is None:
             return ()
-        found = recorded.problems
+        found = self.moved_by.problems
         if self._listened is not None:
             found = (*found, *self._listened.lost, *self._listened.missing)
         if self._options.model is None:
@@ -257,10 +259,8 @@ class Inputs:
 
     def close(self) -> None:
         """Close recordings and connections; a second call does nothing."""
-        if self.live is not None:
-            self.live.close()
-        if self.recorded is not None:
-            self.recorded.recording.close()
+        if self.moved_by is not None:
+            self.moved_by.close()
         if self._listened is not None:
             self._listened.close()
 
@@ -342,7 +342,7 @@ class Inputs:
             self._presets = Presets(self.poses)
         return self._presets
 
-    def _listen(self, live: LiveRobot, seconds: float) -> None:
+    def _listen(self, live: SourceRobot, seconds: float) -> None:
         """Take what a live robot says for a recording.
 
         Raises:
@@ -356,7 +356,7 @@ class Inputs:
             listened.close()
             lost = [problem.message for problem in listened.lost]
             raise SourceError(f"{live.name}: {''.join(lost) or nothing_came(seconds)}")
-        self._listened, self.recorded, self.live = listened, listened.recorded, None
+        self._listened, self.moved_by = listened, listened.recorded
 
     def _load_opened(self, opened: OpenedModel) -> Robot:
         try:
@@ -372,10 +372,11 @@ class Inputs:
         Raises:
             RobotError: as given, where there is no recording.
         """
-        if self.recorded is None:
+        moved_by = self.moved_by
+        if moved_by is None:
             raise error
-        self.recorded.refusal = f"URDF failed Model parse: {error.problems[0].message}"
-        stand_in = open_text(self.recorded.stand_in, self.recorded.label)
+        moved_by.refusal = f"URDF failed Model parse: {error.problems[0].message}"
+        stand_in = open_text(moved_by.stand_in, moved_by.label)
         robot = self.load(stand_in, trusted=False)
         return replace(robot, problems=(*error.problems, *robot.problems))
 
@@ -384,10 +385,8 @@ class Inputs:
         given = self._options.config
         read = self._document if isinstance(given, Path | str | None) else given
         named = named_descriptions(read)
-        if self.live is not None:
-            self.live.named = named
-        if self.recorded is not None:
-            self.recorded.choose(named)
+        if self.moved_by is not None:
+            self.moved_by.choose(named)
             notes = (*self._options.notes, *self.problems_of_recording())
             self._options = self._options.having(notes=notes)
 

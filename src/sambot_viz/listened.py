@@ -12,11 +12,11 @@ from types import MappingProxyType
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.message import SourceTopic
+from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.websocket.runner import LONGEST_SILENCE
 from sambot_viz.topics.live_files import fetch_files
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 CONNECTED_WITHIN = LONGEST_SILENCE + 2.0
 """A robot that has told no topics after this time is not there; by then it is known
@@ -43,10 +43,10 @@ class Listened:
         SourceError: there is no robot, or this computer cannot keep what it says.
     """
 
-    def __init__(self, live: LiveRobot, seconds: float, at: float | None) -> None:
+    def __init__(self, live: SourceRobot, seconds: float, at: float | None) -> None:
         self.seconds = seconds
         self.topics: Mapping[str, SourceTopic] = MappingProxyType({})
-        self.recorded: RecordedRobot | None = None
+        self.recorded: SourceRobot | None = None
         self.missing: tuple[Problem, ...] = ()
         self.lost: tuple[Problem, ...] = ()
         self._folder = tempfile.TemporaryDirectory(prefix="sambot-viz-live-")
@@ -55,10 +55,8 @@ class Listened:
             path = Path(self._folder.name, "messages.mcap")
             if self._listen(live, path):
                 types = live.decoding.types
-                recording = open_recording(path)
-                self.recorded = RecordedRobot(
-                    recording, types, live.name, at, is_heard=True
-                )
+                heard = RecordingPlayback(open_recording(path), live.name)
+                self.recorded = SourceRobot(heard, types, at=at, is_heard=True)
                 text = self.recorded.description or ""
                 self.missing = fetch_files(live.source, text, self.packages)
         except BaseException:
@@ -70,10 +68,10 @@ class Listened:
     def close(self) -> None:
         """Forget what came; a second call does nothing."""
         if self.recorded is not None:
-            self.recorded.recording.close()
+            self.recorded.close()
         self._folder.cleanup()
 
-    def _listen(self, live: LiveRobot, path: Path) -> bool:
+    def _listen(self, live: SourceRobot, path: Path) -> bool:
         """Write what comes to a file; False when that is nothing."""
         source, changed = live.source, threading.Event()
         live.on_status.append(changed.set)
@@ -101,7 +99,7 @@ class Listened:
             raise SourceError(f"{live.name}: {status.trouble}")
         return status.messages > 0
 
-    def _wait_for_topics(self, live: LiveRobot, changed: threading.Event) -> None:
+    def _wait_for_topics(self, live: SourceRobot, changed: threading.Event) -> None:
         source, until = live.source, time.monotonic() + CONNECTED_WITHIN
         # It may have left already: then what it said until then is shown.
         while not source.topics():

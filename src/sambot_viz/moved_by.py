@@ -1,4 +1,4 @@
-"""What moves a robot beside its sliders: recordings, or a live robot."""
+"""What moves a robot beside its sliders: its sources."""
 
 from __future__ import annotations
 
@@ -14,37 +14,72 @@ if TYPE_CHECKING:
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.rviz.yaml.document import Document
     from sambot_viz.rviz.yaml.nodes import Map
-    from sambot_viz.topics.live_robot import LiveRobot
-    from sambot_viz.topics.recorded_robot import RecordedRobot
+    from sambot_viz.sources.source import Source
+    from sambot_viz.topics.source_robot import SourceRobot
 
 
-def open_live(options: Options) -> LiveRobot | None:
-    """Return the live robot of the options, not connected yet; None without one.
+def open_moved_by(options: Options) -> SourceRobot | None:
+    """Open the sources of the options; None when there are none.
+
+    A live robot is not connected yet.
 
     Raises:
-        UsageError: there are further sources beside it, or it cannot be recorded
+        UsageError: there are sources beside a live robot, or it cannot be recorded
             where the options say.
+        SourceError: a recording cannot be opened.
     """
-    if not options.live_sources:
+    if not options.sources:
         return None
-    if len(options.source) > 1:
+    from sambot_viz.messages import MessageTypes
+    from sambot_viz.topics.source_robot import SourceRobot
+
+    types = MessageTypes([Path(folder) for folder in options.msg_path])
+    if not options.live_sources:
+        return SourceRobot(_recordings(options), types, at=options.at)
+    if len(options.sources) > 1:
         given = ", ".join(str(one) for one in options.source)
         raise UsageError(
             "a live robot is not shown together with recordings or another robot; "
             f"name one of these alone: {given}"
         )
-    from sambot_viz.messages import MessageTypes
-    from sambot_viz.sources.recorder import check_file, check_folder
     from sambot_viz.sources.registry import open_source
-    from sambot_viz.topics.live_robot import LiveRobot
 
-    types = MessageTypes([Path(folder) for folder in options.msg_path])
+    source = open_source(options.live_sources[0].uri)
+    return SourceRobot(source, types, recordings=_checked_folder(options))
+
+
+def _checked_folder(options: Options) -> Path | None:
+    """Return the folder for recordings of the page's users, if they may record.
+
+    Raises:
+        UsageError: a live robot cannot be recorded where the options say.
+    """
+    from sambot_viz.sources.recorder import check_file, check_folder
+
     folder = None if options.record_dir is None else Path(options.record_dir)
     if folder is not None:
         check_folder(folder)
     if options.record is not None:
         check_file(Path(options.record))
-    return LiveRobot(open_source(options.live_sources[0].uri), types, folder)
+    return folder
+
+
+def _recordings(options: Options) -> Source:
+    """Open all recordings of the options as one.
+
+    Raises:
+        SourceError: one of them cannot be opened.
+    """
+    from sambot_viz.sources.bag import open_recording
+    from sambot_viz.sources.playback import RecordingPlayback
+
+    paths = [Path(given.path) for given in options.sources]
+    name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
+    recording = open_recording(paths)
+    # What is large and without an index is looked through now: a second or two a GB.
+    while not recording.index_more():
+        pass
+    return RecordingPlayback(recording, name)
 
 
 def refuse_time_of_live(options: Options) -> None:
@@ -57,28 +92,6 @@ def refuse_time_of_live(options: Options) -> None:
         raise UsageError(
             "--at is a time of a recording; of a live robot the last messages are shown"
         )
-
-
-def open_recorded(options: Options) -> RecordedRobot | None:
-    """Open the recordings of the options; None when there are none.
-
-    Raises:
-        SourceError: one of them cannot be opened.
-    """
-    if not options.source:
-        return None
-    from sambot_viz.messages import MessageTypes
-    from sambot_viz.sources.bag import open_recording
-    from sambot_viz.topics.recorded_robot import RecordedRobot
-
-    paths = [Path(given.path) for given in options.sources]
-    types = MessageTypes([Path(folder) for folder in options.msg_path])
-    name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
-    recording = open_recording(paths)
-    # What is large and without an index is looked through now: a second or two a GB.
-    while not recording.index_more():
-        pass
-    return RecordedRobot(recording, types, name, options.at)
 
 
 def named_descriptions(config: Document | RvizConfig | None) -> tuple[str, ...]:

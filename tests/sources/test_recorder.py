@@ -32,7 +32,7 @@ from sambot_viz.sources.recording_thread import RecordingStatus
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Source
 from sambot_viz.sources.websocket import delivery
-from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 
 @pytest.fixture(params=[FoxglovePeer, RosbridgePeer])
@@ -213,7 +213,7 @@ def test_a_live_robot_that_is_closed_ends_its_recording_with_all_that_came(
 ) -> None:
     path = tmp_path / "closed.mcap"
     foxglove_peer.advertise("/a")
-    live = LiveRobot(source, MessageTypes(), tmp_path)
+    live = SourceRobot(source, MessageTypes(), recordings=tmp_path)
     came: list[object] = []
     live.recorder.start(path)
     source.open()

@@ -108,11 +108,11 @@ class SharedPage:
                 MeshCache(),
                 models,
                 options=inputs.options,
-                moved_by=inputs.recorded,
+                moved_by=inputs.moved_by,
             )
             try:
                 session.document.show()
-                if inputs.options.model is not None or inputs.recorded is not None:
+                if inputs.options.model is not None or inputs.moved_by is not None:
                     session.show_robot(inputs.robot())
                 if session.data is not None and session.data.player is not None:
                     session.data.player.pause()

@@ -10,9 +10,10 @@ from made_recording import START, write_recording
 
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import open_recording
+from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.topics.reasons import TopicReason
-from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.report import TopicReport
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 Ask = Callable[[Sequence[tuple[float, float]], float], TopicReason | None]
@@ -26,7 +27,9 @@ def ask(tmp_path: Path) -> Ask:
         told = [("/tf", 3.0 + n / 10, {"base": "odom"}) for n in range(171)]
         path = write_recording(tmp_path / "scans.mcap", {}, told, scans=scans)
         with open_recording(path) as recording:
-            survey = Survey(RecordedRobot(recording, MessageTypes(), path.name))
+            survey = Survey(
+                SourceRobot(RecordingPlayback(recording, path.name), MessageTypes())
+            )
             survey.finish()
             at_ns = START * 10**9 + round(at * 1e9)
             return TopicReport(survey).status("/scan", at_ns).reason

@@ -15,7 +15,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import jump
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 SECONDS = 60
 FRAMES = ("map", "odom", "base", "arm", "hand", "wheel", "laser")
@@ -97,7 +97,7 @@ def state(history: FrameHistory, frames: tuple[str, ...]) -> dict[str, Any]:
     }
 
 
-def played(recorded: RecordedRobot, at_ns: int) -> dict[str, Any]:
+def played(recorded: SourceRobot, at_ns: int) -> dict[str, Any]:
     history = FrameHistory()
     transforms = recorded.transforms(history)
     for message in recorded.recording.messages(None, at_ns, transforms.topics):
@@ -105,7 +105,7 @@ def played(recorded: RecordedRobot, at_ns: int) -> dict[str, Any]:
     return state(history, FRAMES)
 
 
-def jumped(recorded: RecordedRobot, at_ns: int) -> dict[str, Any]:
+def jumped(recorded: SourceRobot, at_ns: int) -> dict[str, Any]:
     history = FrameHistory()
     jump(recorded.recording, at_ns, (recorded.transforms(history),))
     return state(history, FRAMES)
@@ -118,7 +118,7 @@ def test_a_jump_leaves_the_frames_as_playing_to_it_does(
     path = written(tmp_path / "any.mcap", AnyRecording(seed).messages())
     chance = random.Random(seed)
     with Inputs(Options(path)) as inputs:
-        recorded = inputs.recorded
+        recorded = inputs.moved_by
         assert recorded is not None
         start, end = recorded.recording.start_ns, recorded.recording.end_ns
         assert start is not None and end is not None
@@ -133,7 +133,7 @@ def test_a_second_jump_reads_only_what_holds(
     sent += [("/tf", n / 10, n / 10, {"base": "odom"}) for n in range(1, 600)]
     read: list[Recorded] = []
     with Inputs(Options(written(tmp_path / "long.mcap", sent))) as inputs:
-        recorded = inputs.recorded
+        recorded = inputs.moved_by
         assert recorded is not None
         end = recorded.recording.end_ns
         assert end is not None
@@ -163,7 +163,7 @@ def reported(shared: Path) -> Path:
 
 def frames_of(path: Path, at: float | None = None) -> FrameTree:
     with Inputs(Options(source=f"bag:{path}", at=at)) as inputs:
-        robot, recorded = inputs.robot(), inputs.recorded
+        robot, recorded = inputs.robot(), inputs.moved_by
         assert recorded is not None
         return recorded.frames(robot, inputs.options.start_pose.state(robot))
 

@@ -24,8 +24,8 @@ from sambot_viz.topics.transforms import problems_of_transforms
 @contextmanager
 def surveyed(path: Path) -> Iterator[Survey]:
     with Inputs(Options(path)) as inputs:
-        assert inputs.recorded is not None
-        survey = Survey(inputs.recorded)
+        assert inputs.moved_by is not None
+        survey = Survey(inputs.moved_by)
         survey.finish()
         yield survey
 

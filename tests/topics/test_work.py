@@ -13,8 +13,9 @@ from work import steps
 from sambot_viz.commands.topics import topics_text
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import open_recording
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.topics.report import TopicReport
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 FEW, MANY = 100, 400
@@ -24,7 +25,9 @@ TRANSFORMS = "tf2_msgs/msg/TFMessage"
 def topics(path: Path, at: float | None) -> str:
     """What ``sambot-viz topics`` prints, and what the page asks of each topic."""
     with open_recording(path) as recording:
-        recorded = RecordedRobot(recording, MessageTypes(), path.name, at)
+        recorded = SourceRobot(
+            RecordingPlayback(recording, path.name), MessageTypes(), at=at
+        )
         survey = Survey(recorded)
         survey.finish()
         report = TopicReport(survey)

@@ -300,7 +300,7 @@ def posed_frames(robot: Robot, inputs: Inputs) -> FrameTree:
     """
     from sambot_viz.frames.robot_frames import robot_frames
 
-    options, recorded = inputs.options, inputs.recorded
+    options, recorded = inputs.options, inputs.moved_by
     positions = start_state(robot, options)
     if recorded is None:
         tree = robot_frames(robot, positions.all_positions())

@@ -142,7 +142,7 @@ def parser() -> Parser:
 def _report_recording(inputs: Inputs) -> None:
     """Write what a recording of the command line has, when it has ended."""
     live, path = inputs.live, inputs.options.record
-    if live is None or path is None:
+    if live is None or live.recorder is None or path is None:
         return
     # The first one: the button of the page may have made others since.
     status = (*live.recorder.ended, live.recorder.status)[0]

@@ -51,7 +51,7 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
     options, (width, height) = inputs.options, size
     with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
         session = viz.server.sessions.all()[0]
-        if inputs.recorded is not None:
+        if inputs.moved_by is not None and inputs.moved_by.can("seek"):
             # The page would play it.
             viz.player.pause()
             viz.player.jump(viz.player.duration if options.at is None else options.at)

@@ -12,14 +12,14 @@ from typing import Any
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.listened import Listened
-from sambot_viz.moved_by import open_live, open_recorded, refuse_time_of_live
+from sambot_viz.moved_by import open_moved_by, refuse_time_of_live
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
 from sambot_viz.topics.live_reasons import silent_topics
-from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.report import TopicReport, TopicStatus
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
 
@@ -49,16 +49,15 @@ def _looked_at(
 ) -> tuple[list[TopicStatus], list[Problem]]:
     """Return what is to be said of each topic, and what is wrong with all of it."""
     refuse_time_of_live(options)
-    live = open_live(options)
-    if live is not None:
-        with closing(Listened(live, seconds, None)) as listened:
-            return _of_live(listened)
-    recorded = open_recorded(options)
-    if recorded is None:
+    moved_by = open_moved_by(options)
+    if moved_by is None:
         raise UsageError(_no_recording(options))
-    with recorded.recording:
-        _say_together(recorded.recording.paths)
-        return _of_recording(recorded, recorded.at_ns)
+    if moved_by.recording is None:
+        with closing(Listened(moved_by, seconds, None)) as listened:
+            return _of_live(listened)
+    with closing(moved_by):
+        _say_together(moved_by.recording.paths)
+        return _of_recording(moved_by, moved_by.at_ns)
 
 
 def _say_together(paths: Sequence[Path]) -> None:
@@ -86,7 +85,7 @@ def _no_recording(options: Options) -> str:
 
 
 def _of_recording(
-    recorded: RecordedRobot, at_ns: int | None
+    recorded: SourceRobot, at_ns: int | None
 ) -> tuple[list[TopicStatus], list[Problem]]:
     survey = Survey(recorded)
     survey.finish()
@@ -102,7 +101,8 @@ def _of_live(listened: Listened) -> tuple[list[TopicStatus], list[Problem]]:
     recorded = listened.recorded
     if recorded is not None:
         # At its end nothing is still to come.
-        rows, found = _of_recording(recorded, recorded.recording.end_ns)
+        end_ns = None if recorded.recording is None else recorded.recording.end_ns
+        rows, found = _of_recording(recorded, end_ns)
         came = {row.name: row for row in rows}
     silent = silent_topics(listened.topics, came, listened.seconds)
     rows = sorted([*came.values(), *silent], key=attrgetter("name"))

@@ -135,9 +135,10 @@ def page_file(
 
 def _played(scene: SessionCopy, motion: Motion) -> tuple[int, int] | None:
     """Return the log times between which a recording is played; None without one."""
-    if scene.recorded is None or motion not in ("past", "recording"):
+    recording = None if scene.recorded is None else scene.recorded.recording
+    if recording is None or motion not in ("past", "recording"):
         return None
-    recording, now = scene.recorded.recording, scene.time_ns
+    now = scene.time_ns
     if motion == "past":
         return max(recording.start_ns or 0, now - round(LONGEST_PAST * 1e9)), now
     return now, min(recording.end_ns or 0, now + round(LONGEST_RECORDING * 1e9))

@@ -11,7 +11,7 @@ from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import OpenedModel, open_text
 from sambot_viz.topics.live_files import fetch_files
-from sambot_viz.topics.live_robot import LiveRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 FRAMES_WITHIN = 2.0
 """The fixed frame is chosen when transforms hold the robot, or after this time [s]."""
@@ -37,7 +37,7 @@ class LiveModel:
 
     def __init__(
         self,
-        live: LiveRobot,
+        live: SourceRobot,
         load: Load,
         show: Callable[[Robot, str, str, tuple[Problem, ...]], object] | None,
         refuse: Callable[[RobotError], object],

@@ -20,8 +20,7 @@ from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.sessions import MakeConfig, Sessions
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 _log = logger(__name__)
 
@@ -62,7 +61,7 @@ class Server:
         poses: Presets | None = None,
         files: Files | None = None,
         ask_page: AskPage | None = None,
-        moved_by: RecordedRobot | LiveRobot | None = None,
+        moved_by: SourceRobot | None = None,
     ) -> None:
         self.options = options
         self._open = threading.Semaphore()

@@ -23,8 +23,7 @@ from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 _log = logger(__name__)
 
@@ -61,7 +60,7 @@ class Sessions:
         make_config: MakeConfig,
         models: ModelThread | None,
         poses: Presets | None,
-        moved_by: RecordedRobot | LiveRobot | None = None,
+        moved_by: SourceRobot | None = None,
     ) -> None:
         self._moved_by = moved_by
         self._server = server

@@ -20,8 +20,8 @@ from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.own_config import fit_own_config, fit_robot
-from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
+from sambot_viz.topics.source_robot import SourceRobot
 
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
@@ -71,7 +71,7 @@ class ShownInputs:
             inputs.presets(),
             self.configs,
             ask_page,
-            inputs.recorded or inputs.live,
+            inputs.moved_by,
         )
 
     def start(self) -> None:
@@ -117,12 +117,13 @@ class ShownInputs:
                     session.scene.apply_enabled()
         sessions.show_robot(robot)
 
-    def _follow_live(self, live: LiveRobot) -> None:
+    def _follow_live(self, live: SourceRobot) -> None:
         """Connect to a live robot, and show it as it describes itself."""
         show = self._show_live if self._inputs.options.model is None else None
         load, refuse = self._inputs.load_described, self._refuse_live
         self._live_model = LiveModel(live, load, show, refuse)
         if self._inputs.options.record is not None:
+            assert live.recorder is not None
             live.recorder.start(Path(self._inputs.options.record))
         live.source.open()
 
@@ -178,11 +179,11 @@ class ShownInputs:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
             fit_own_config(document, robot)
-            recorded = self._inputs.recorded
-            if recorded is not None:
-                _name_description(document, recorded.topics)
-                root = recorded.root_frame(robot)
-                _show_motion(document, recorded.top_frame(root), root)
+            moved_by = self._inputs.moved_by
+            if moved_by is not None and moved_by.can("seek"):
+                _name_description(document, moved_by.topics)
+                root, top = moved_by.root_and_top(robot)
+                _show_motion(document, top, root)
 
     def _follow(self, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""

@@ -49,8 +49,7 @@ from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.views.camera import Camera
 
 
@@ -91,7 +90,7 @@ class Session:
         reader: Reader | None = None,
         options: Options | None = None,
         poses: Presets | None = None,
-        moved_by: RecordedRobot | LiveRobot | None = None,
+        moved_by: SourceRobot | None = None,
     ) -> None:
         self.audience, self.worker, self.lock = audience, worker, worker.lock
         self.options = options = options or Options()
@@ -119,7 +118,7 @@ class Session:
             document, scene, robot, picker, self.display_edits, history
         )
         self.data: RobotData | None = None
-        if isinstance(moved_by, LiveRobot) and frames is not None:
+        if moved_by is not None and frames is not None and moved_by.can("clock"):
             self.data = LiveData(
                 moved_by,
                 frames,
@@ -129,7 +128,7 @@ class Session:
                 worker,
                 scene.fault_of,
             )
-        elif isinstance(moved_by, RecordedRobot) and frames is not None:
+        elif moved_by is not None and frames is not None:
             self.data = RecordedData(
                 moved_by,
                 frames,
@@ -291,14 +290,12 @@ class Session:
             self.data.close()
         self.worker.close()
 
-    def _describe(
-        self, moved_by: RecordedRobot | LiveRobot | None
-    ) -> LiveDescriptions | None:
+    def _describe(self, moved_by: SourceRobot | None) -> LiveDescriptions | None:
         """Let displays ask for the robots of topics; return what is to be closed."""
         is_given, context = self.options.model is not None, self.scene.context
-        if isinstance(moved_by, RecordedRobot):
+        if moved_by is not None and moved_by.can("seek"):
             context.descriptions = RecordedDescriptions(moved_by, is_given)
-        elif isinstance(moved_by, LiveRobot):
+        elif moved_by is not None:
             redraw = partial(context.apply, self.scene.redraw)
             live = LiveDescriptions(moved_by, is_given, self.worker, redraw)
             context.descriptions = live

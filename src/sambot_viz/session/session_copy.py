@@ -14,8 +14,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.user_frames import UserFrame
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +53,15 @@ class SessionCopy:
     trail: tuple[tuple[float, float], ...]
     models: ModelReader | None
     meshes: MeshCache
-    moved_by: RecordedRobot | LiveRobot | None = None
+    moved_by: SourceRobot | None = None
     time_ns: int = 0
     follows: bool = True
 
     @property
-    def recorded(self) -> RecordedRobot | None:
+    def recorded(self) -> SourceRobot | None:
         """The recording that moves the robot; None without one."""
-        return self.moved_by if isinstance(self.moved_by, RecordedRobot) else None
+        moved_by = self.moved_by
+        return moved_by if moved_by is not None and moved_by.can("seek") else None
 
     def before(self, sample: MotionSample) -> SessionCopy:
         """Return the same, with joints and frames where they were."""

@@ -52,7 +52,7 @@ class PlaceInTime:
     def _newest(self, name: str, at_ns: int) -> tuple[str, int]:
         """Return frame and stamp [ns] of the last message; 0 where it has none."""
         recorded = self._survey.recorded
-        message = recorded.recording.last(name, at_ns)
+        message = self._survey.recording.last(name, at_ns)
         if message is None:
             return "", 0
         try:
@@ -67,7 +67,7 @@ class PlaceInTime:
         if self._made is None or self._made[0] != at_ns:
             history = FrameHistory()
             transforms = self._survey.recorded.transforms(history)
-            jump(self._survey.recorded.recording, at_ns, (transforms,))
+            jump(self._survey.recording, at_ns, (transforms,))
             self._made = at_ns, self._survey.with_joints(FrameTree(history))
         return self._made[1]
 
@@ -91,7 +91,7 @@ class PlaceInTime:
         survey, recorded = self._survey, self._survey.recorded
         firsts = (survey.of(topic).first_ns for topic in recorded.topics.moving)
         first = min((time for time in firsts if time is not None), default=None)
-        start = recorded.recording.start_ns
+        start = survey.recording.start_ns
         if first is None or start is None:
             return ""
         return reasons.transforms_begin((first - start) * 1e-9, first > at_ns)

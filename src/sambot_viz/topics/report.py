@@ -9,7 +9,7 @@ from sambot_viz.frames import FrameTree
 from sambot_viz.topics import reasons
 from sambot_viz.topics.at_a_time import PlaceInTime
 from sambot_viz.topics.reasons import TopicReason
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
 
@@ -50,12 +50,12 @@ class TopicReport:
     def __init__(self, survey: Survey, tree: FrameTree | None = None) -> None:
         self._survey = survey
         self._place = PlaceInTime(survey, tree)
-        self._recorded: RecordedRobot = survey.recorded
-        self._topics = survey.recorded.recording.topics
+        self._recorded: SourceRobot = survey.recorded
+        self._topics = survey.recording.topics
 
     def refresh(self) -> None:
         """Know the topics that were found since a recording was opened."""
-        self._topics = self._recorded.recording.topics
+        self._topics = self._survey.recording.topics
 
     def statuses(self, at_ns: int | None = None) -> Iterator[TopicStatus]:
         """Yield a row for each topic, in the order of the recording."""
@@ -89,7 +89,7 @@ class TopicReport:
         Latched messages come when somebody asks for them: they have none. As long as
         its last message was not met, the end of the recording counts.
         """
-        recording = self._recorded.recording
+        recording = self._survey.recording
         count, looked = self._topics[name].count, self._survey.of(name)
         first, last = looked.first_ns, looked.last_ns
         if count is None or count > looked.seen:
@@ -132,7 +132,7 @@ class TopicReport:
         )
 
     def _not_here_yet(self, name: str, at_ns: int | None) -> TopicReason | None:
-        first, start = self.first_ns(name), self._recorded.recording.start_ns
+        first, start = self.first_ns(name), self._survey.recording.start_ns
         if first is None or start is None:
             return None
         if first <= max(start + SOON_NS, at_ns or 0):
@@ -172,7 +172,7 @@ class TopicReport:
         looked, count = self._survey.of(name), self._topics[name].count
         if looked.seen == count and looked.last_ns <= at_ns:
             return looked.last_ns or None
-        last = self._recorded.recording.last(name, at_ns)
+        last = self._survey.recording.last(name, at_ns)
         return None if last is None else last.log_ns
 
     def _stale(self, name: str, at_ns: int | None) -> TopicReason | None:

@@ -20,8 +20,8 @@ from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.reasons import emptiness
-from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.robot_topics import top_frame
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import Transforms, TransformTopics
 
 MOST_MESSAGES = limits.SURVEYED.value
@@ -90,6 +90,7 @@ class Survey:
         recorded: the recording, and which topics of it are transforms.
 
     Attributes:
+        recording: its messages.
         topics: what was seen, by name.
         transforms: what /tf and /tf_static told.
         stamps: the first and the last stamp of the moving transforms [ns]; None
@@ -98,8 +99,10 @@ class Survey:
         is_complete: nothing more is looked at.
     """
 
-    def __init__(self, recorded: RecordedRobot) -> None:
+    def __init__(self, recorded: SourceRobot) -> None:
         self.recorded = recorded
+        assert recorded.recording is not None, "messages are looked at by their times"
+        self.recording = recorded.recording
         self.topics: dict[str, Looked] = {}
         self.stamps: tuple[int, int] | None = None
         self.is_all = False
@@ -152,7 +155,7 @@ class Survey:
     # Looking
 
     def _run(self) -> Iterator[bool]:
-        recording = self.recorded.recording
+        recording = self.recording
         latched = [m for m in recording.latched() if m.topic in self.transforms.always]
         for message in latched:
             self.transforms.take(message)
@@ -171,7 +174,7 @@ class Survey:
 
     def _look_later(self) -> Iterator[bool]:
         """Look at the first messages of topics that begin later."""
-        recording = self.recorded.recording
+        recording = self.recording
         start = recording.start_ns or 0
         waiting = [n for n, t in recording.topics.items() if t.count != 0]
         late = [name for name in waiting if name not in self.topics]

@@ -21,8 +21,9 @@ from sambot_viz import limits
 from sambot_viz.commands.topics import run
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import mcap, open_bag, open_recording, ros1
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.topics.report import TopicReport
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 LIMIT = 40_000
@@ -46,7 +47,9 @@ def limit(monkeypatch: pytest.MonkeyPatch, name: str, value: int = LIMIT) -> Non
 def reasons(path: Path) -> dict[str, str]:
     """What is said of each topic; "" for nothing."""
     with open_recording(path) as recording:
-        survey = Survey(RecordedRobot(recording, MessageTypes(), path.name))
+        survey = Survey(
+            SourceRobot(RecordingPlayback(recording, path.name), MessageTypes())
+        )
         survey.finish()
         rows = TopicReport(survey).statuses()
         found = {row.name: (row.reason, row.count) for row in rows}

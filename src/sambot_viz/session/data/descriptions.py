@@ -21,9 +21,8 @@ from sambot_viz.topics.live_reasons import (
     qos_mismatch,
     transforms_qos,
 )
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.robot_topics import RobotTopics
+from sambot_viz.topics.source_robot import SourceRobot
 
 Level = Literal["Warn", "Error"]
 STRING = "std_msgs/msg/String"
@@ -40,7 +39,7 @@ class RecordedDescriptions:
             recording's.
     """
 
-    def __init__(self, recorded: RecordedRobot, is_given: bool) -> None:
+    def __init__(self, recorded: SourceRobot, is_given: bool) -> None:
         self._recorded = recorded
         self._is_given = is_given
 
@@ -56,7 +55,7 @@ class RecordedDescriptions:
         """Return what a topic says; the QoS of a recording is a matter of the past."""
         del qos
         recorded = self._recorded
-        known = recorded.recording.topics
+        known = recorded.source.topics()
         main = recorded.topics.description
         if topic == main and (self._is_given or recorded.description is not None):
             opened = Description(topic, is_opened=True)
@@ -69,9 +68,9 @@ class RecordedDescriptions:
         type_name = recorded.decoder(known[topic]).type_name
         if meaning_of(type_name) is not Meaning.TEXT:
             return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
-        text = recorded.description_of(topic)
+        text = recorded.last_text(topic)
         if text is not None:
-            return Description(topic, text, f"{recorded.name}:{topic}")
+            return Description(topic, text, recorded.label_of(topic))
         if known[topic].count == 0:
             return _trouble(topic, reasons.no_message(topic).text)
         return _trouble(topic, "none of its messages can be read: record it again")
@@ -89,7 +88,7 @@ class LiveDescriptions:
 
     def __init__(
         self,
-        live: LiveRobot,
+        live: SourceRobot,
         is_given: bool,
         worker: Worker,
         changed: Callable[[], None],
@@ -146,13 +145,13 @@ class LiveDescriptions:
             return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
         refused = qos_mismatch(known.qos, wanted_qos(qos))
         if topic == main:
-            has_come = live.has_description
+            has_come = live.description is not None
             described = Description(topic, is_opened=has_come)
         else:
             self._subscribe(topic)
             text = self._texts.get(topic)
             has_come = text is not None
-            described = Description(topic, text, f"{live.name} {topic}")
+            described = Description(topic, text, live.label_of(topic))
         if topic == main and live.refusal:
             return _with(described, live.refusal, "Error")
         if refused is not None:

@@ -17,8 +17,7 @@ from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.live_reasons import QOS_WORDS, no_publisher, qos_mismatch
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.subscription import Subscription
 
 
@@ -111,7 +110,7 @@ class RecordedDisplayTopics(DisplayTopics):
 
     def __init__(
         self,
-        recorded: RecordedRobot,
+        recorded: SourceRobot,
         player: Player,
         report: Callable[[Exception], None],
     ) -> None:
@@ -126,7 +125,7 @@ class RecordedDisplayTopics(DisplayTopics):
 
     def types(self) -> Mapping[str, str]:
         """Return the types of the messages of all topics, by their names."""
-        topics = self._recorded.recording.topics
+        topics = self._recorded.source.topics()
         if len(self._types) != len(topics):
             # Those of a growing recording become more.
             decoder = self._recorded.decoder
@@ -135,7 +134,7 @@ class RecordedDisplayTopics(DisplayTopics):
 
     def offered(self, topic: str) -> WantedQos | None:
         """Return the quality of service that suits a topic; None if not known."""
-        known = self._recorded.recording.topics.get(topic)
+        known = self._recorded.source.topics().get(topic)
         return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
@@ -144,7 +143,7 @@ class RecordedDisplayTopics(DisplayTopics):
         """Return why a topic gives nothing; QoS is a matter of the past here."""
         del qos
         recorded = self._recorded
-        known = recorded.recording.topics.get(topic)
+        known = recorded.source.topics().get(topic)
         if known is None:
             return not_there(topic, meanings, self.types())
         decoder = recorded.decoder(known)
@@ -174,7 +173,7 @@ class LiveDisplayTopics(DisplayTopics):
 
     def __init__(
         self,
-        live: LiveRobot,
+        live: SourceRobot,
         wake: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:

@@ -22,8 +22,8 @@ from sambot_viz.sources.websocket.clock_topic import CLOCK
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.live_reasons import wrong_clock
-from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import TransformTopics
 
 MOST_WAITING = limits.SESSION_WAITING.value
@@ -56,7 +56,7 @@ class LiveData(RobotData):
 
     def __init__(
         self,
-        live: LiveRobot,
+        live: SourceRobot,
         history: FrameHistory,
         frames: DataFrames,
         robot: RobotState,

@@ -23,9 +23,9 @@ from sambot_viz.topics.live_reasons import (
     stopped,
     unreadable,
 )
-from sambot_viz.topics.live_robot import LiveRobot
 from sambot_viz.topics.reasons import TopicReason, left_out
 from sambot_viz.topics.report import TopicStatus
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.topic import Topic
 
 PERIOD = 1.0
@@ -58,7 +58,7 @@ class LiveTopics:
     is_complete = True
 
     def __init__(
-        self, live: LiveRobot, fault_of: FaultOf, change: Change, worker: Worker
+        self, live: SourceRobot, fault_of: FaultOf, change: Change, worker: Worker
     ) -> None:
         self.looked = Signal(change, None)
         self._fault_of = fault_of

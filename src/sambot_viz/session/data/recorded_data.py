@@ -11,7 +11,7 @@ from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 
 class RecordedData(RobotData):
@@ -28,7 +28,7 @@ class RecordedData(RobotData):
 
     def __init__(
         self,
-        recorded: RecordedRobot,
+        recorded: SourceRobot,
         history: FrameHistory,
         frames: DataFrames,
         robot: RobotState,
@@ -42,7 +42,8 @@ class RecordedData(RobotData):
         topics = recorded.topics
         if topics.moving or topics.joint_states:
             robot.followed.set(recorded.name)
-        source = recorded.source.of_session()
+        source = recorded.source.of_session().playback
+        assert source is not None
         self.player = Player(
             source, self._draw, change, worker, is_begun=recorded.at_ns is not None
         )

@@ -10,8 +10,8 @@ from sambot_viz.frames import FrameTree
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.recorded_robot import RecordedRobot
 from sambot_viz.topics.report import TopicReport, TopicStatus
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 SLICE = 0.01
@@ -40,17 +40,17 @@ class RecordedTopics:
 
     def __init__(
         self,
-        recorded: RecordedRobot,
+        recorded: SourceRobot,
         tree: FrameTree,
         player: Player,
         change: Change,
         worker: Worker,
     ) -> None:
-        self.recording = recorded.recording
         self.looked = Signal(change, None)
         self._player = player
         self._begins: dict[str, int] = {}
         self._survey = Survey(recorded)
+        self.recording = self._survey.recording
         self.report = TopicReport(self._survey, tree)
         self._worker = worker
         self._begun = False

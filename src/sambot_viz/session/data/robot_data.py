@@ -17,8 +17,7 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.joint_states import JointStateTopics
-from sambot_viz.topics.live_robot import LiveRobot
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
 
 AGEING_PERIOD = 0.5
@@ -49,8 +48,8 @@ class RobotData:
         period: the time between two pictures [s].
     """
 
-    recorded: RecordedRobot | None = None
-    live: LiveRobot | None = None
+    recorded: SourceRobot | None = None
+    live: SourceRobot | None = None
     player: Player | None = None
     topics: RecordedTopics | LiveTopics
     messages: RecordedDisplayTopics | LiveDisplayTopics

@@ -16,7 +16,7 @@ from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.sources.subscriber import jump
-from sambot_viz.topics.recorded_robot import RecordedRobot
+from sambot_viz.topics.source_robot import SourceRobot
 
 TOLERANCE = 1e-6
 FRAMES = ("base_footprint", "lidar_link", "drivewhl_l_link", "drivewhl_r_link")
@@ -28,16 +28,16 @@ def square(repository: Path) -> Path:
 
 
 @pytest.fixture
-def opened(square: Path) -> Iterator[RecordedRobot]:
+def opened(square: Path) -> Iterator[SourceRobot]:
     with recorded_in(Options(square)) as recorded:
         yield recorded
 
 
 @contextmanager
-def recorded_in(options: Options) -> Iterator[RecordedRobot]:
+def recorded_in(options: Options) -> Iterator[SourceRobot]:
     with Inputs(options) as inputs:
-        assert inputs.recorded is not None
-        yield inputs.recorded
+        assert inputs.moved_by is not None
+        yield inputs.moved_by
 
 
 def frames_at(path: Path, *times_ns: int) -> Iterator[tuple[int, FrameTree]]:
@@ -50,14 +50,14 @@ def frames_at(path: Path, *times_ns: int) -> Iterator[tuple[int, FrameTree]]:
         at = (times_ns[0] - recorded.recording.start_ns) * 1e-9
     with Inputs(Options(path, at=at)) as inputs:
         yield times_ns[0], frames_of(inputs)
-        assert inputs.recorded is not None
+        assert inputs.moved_by is not None
         for time_ns in times_ns[1:]:
-            inputs.recorded.at_ns = time_ns
+            inputs.moved_by.at_ns = time_ns
             yield time_ns, frames_of(inputs)
 
 
 def frames_of(inputs: Inputs) -> FrameTree:
-    robot, recorded = inputs.robot(), inputs.recorded
+    robot, recorded = inputs.robot(), inputs.moved_by
     assert recorded is not None
     return recorded.frames(robot, inputs.options.start_pose.state(robot))
 
@@ -109,7 +109,7 @@ def test_the_frames_at_all_given_times_are_those_of_tf2(shared: Path) -> None:
 def test_joint_states_place_the_links_where_no_transform_does(shared: Path) -> None:
     path = shared / "data" / "bags" / "made" / "joints_only.mcap"
     with Inputs(Options(path, at=2.0)) as inputs:
-        robot, recorded = inputs.robot(), inputs.recorded
+        robot, recorded = inputs.robot(), inputs.moved_by
         assert recorded is not None
         states = recorded.joint_states()
         jump(recorded.recording, recorded.at_ns or 0, (states,))
@@ -121,7 +121,7 @@ def test_joint_states_place_the_links_where_no_transform_does(shared: Path) -> N
         assert here == pytest.approx(expected[link], abs=1e-9)
 
 
-def played(recorded: RecordedRobot, at_ns: int) -> FrameHistory:
+def played(recorded: SourceRobot, at_ns: int) -> FrameHistory:
     """The frames after all messages up to a time."""
     history = FrameHistory()
     transforms = recorded.transforms(history)
@@ -130,7 +130,7 @@ def played(recorded: RecordedRobot, at_ns: int) -> FrameHistory:
     return history
 
 
-def jumped(recorded: RecordedRobot, *times_ns: int) -> FrameHistory:
+def jumped(recorded: SourceRobot, *times_ns: int) -> FrameHistory:
     history = FrameHistory()
     transforms = recorded.transforms(history)
     for time in times_ns:
@@ -149,7 +149,7 @@ def without_order(history: FrameHistory) -> dict[str, Any]:
     }
 
 
-def test_a_jump_gives_what_playing_up_to_it_gives(opened: RecordedRobot) -> None:
+def test_a_jump_gives_what_playing_up_to_it_gives(opened: SourceRobot) -> None:
     start, end = opened.recording.start_ns, opened.recording.end_ns
     assert start is not None and end is not None
     random = np.random.default_rng(1)

@@ -1,0 +1,399 @@
+"""The robot of a source: its description, and what moves it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sambot_viz.errors import Problem
+from sambot_viz.frames import FrameHistory, FrameTree
+from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.robot_frames import hang_robot
+from sambot_viz.joints import JointState
+from sambot_viz.messages import Decoder, MessageTypes
+from sambot_viz.robot.model import Robot
+from sambot_viz.sources.message import Recorded, SourceTopic
+from sambot_viz.sources.recorder import SourceRecorder
+from sambot_viz.sources.source import Capability, Source
+from sambot_viz.sources.subscriber import jump
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.joint_states import JointStateTopics
+from sambot_viz.topics.robot_topics import (
+    STAND_IN_LINK,
+    STAND_IN_NAME,
+    RobotTopics,
+    base_frame,
+    robot_topics,
+    stand_in_model,
+    top_frame,
+)
+from sambot_viz.topics.transform_index import TransformIndex
+from sambot_viz.topics.transforms import (
+    Transforms,
+    TransformTopics,
+    problems_of_transforms,
+)
+
+# It is opened by who has one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
+
+FIRST_SECONDS = 2.0
+"""The frames that move are learnt from the begin of a recording [s]."""
+ENOUGH = 300
+"""After so many messages of a live robot the frames that there are have been seen."""
+
+_NAMED = 5
+"""So many topics are named where one is missing."""
+
+
+class SourceRobot:
+    """What a source says of a robot; many sessions show it.
+
+    Its listeners are called in the thread of a live source, and must only post.
+
+    Args:
+        source: its messages.
+        types: decodes them.
+        name: what it is called; by default as the source.
+        at: where to begin [s from the first message of a recording]; None plays from
+            there.
+        recordings: the folder of recordings of a live robot that users of the page
+            start; None: they may not.
+        is_heard: whether it is what a live robot has said within some seconds.
+
+    Attributes:
+        source: as given.
+        name: as given.
+        decoding: decodes its messages.
+        at_ns: the log time to begin with [ns]; None as `at`.
+        named: descriptions that a config asks for.
+        topics: those that are the robot's, as far as they are known.
+        description: the URDF, the last one that was sent; None when there is none.
+        refusal: why that cannot be shown; empty when it can.
+        recorder: records what a live source gives; None of a recording.
+        on_description: called with the text of a robot, again when it changes.
+        on_topics: called when the source has other topics.
+        on_status: called when the source is doing otherwise.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        types: MessageTypes,
+        name: str = "",
+        at: float | None = None,
+        recordings: Path | None = None,
+        *,
+        is_heard: bool = False,
+    ) -> None:
+        self.source = source
+        self.name = name or source.uri
+        self.decoding = Decoding(types)
+        self.named: Sequence[str] = ()
+        self.topics = RobotTopics()
+        self.description: str | None = None
+        self.refusal = ""
+        self.on_description: Callable[[str], object] = lambda text: None
+        self.on_topics: list[Callable[[], object]] = []
+        self.on_status: list[Callable[[], object]] = []
+        self.at_ns: int | None = None
+        self._is_heard = is_heard
+        self._framed = threading.Condition()
+        self._seen = 0
+        self._texts: dict[str, str] = {}
+        self._index: TransformIndex | None = None
+        self._told = self._make_transforms(FrameHistory())
+        source.on_topics = self._look
+        source.on_status = self.tell_status
+        self.recorder: SourceRecorder | None = None
+        if self.can("clock"):
+            # It is told of topics first, and passes that on.
+            self.recorder = SourceRecorder(source, recordings, self.tell_status)
+        if source.playback is not None:
+            start = source.playback.recording.start_ns
+            if at is not None and start is not None:
+                self.at_ns = start + round(at * 1e9)
+                source.playback.seek(self.at_ns)
+            self._look()
+
+    def close(self) -> None:
+        """End the recording and the connection; a second call does nothing."""
+        if self.recorder is not None:
+            # What has come is still written.
+            self.recorder.close()
+        self.source.close()
+
+    def choose(self, named: Sequence[str]) -> None:
+        """Take the robot of the first of some topics that is there.
+
+        Args:
+            named: descriptions that a config asks for.
+        """
+        self.named = named
+        self._look()
+
+    def can(self, capability: Capability) -> bool:
+        """Return whether the source can do something."""
+        return capability in self.source.capabilities
+
+    @property
+    def recording(self) -> Bag | None:
+        """The messages by their times; None without the capability seek."""
+        playback = self.source.playback
+        return None if playback is None else playback.recording
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What is wrong with the recording, and what it says of no robot."""
+        recording = self.recording
+        if recording is None:
+            return ()
+        of_frames = problems_of_transforms(self._told, self.name)
+        found = (*recording.problems, *of_frames, *self._problems_of_time(recording))
+        empty = recording.start_ns is None
+        # A recording without messages says so itself, and no model would help.
+        if self.description is not None or (empty and found):
+            return found
+        topics = sorted(recording.topics)
+        more = ", …" if len(topics) > _NAMED else ""
+        told = f"topics: {', '.join(topics[:_NAMED])}{more}" if topics else "no topic"
+        frames = any(True for _ in self._told.pairs())
+        shown = "showing frames only" if frames else "no transforms either"
+        missing = Problem(
+            "warning",
+            "no-description",
+            f"no robot model in {self.name} ({told}); {shown}",
+            "add --model ROBOT.urdf.xacro",
+        )
+        return (*found, missing)
+
+    def _problems_of_time(self, recording: Bag) -> Iterator[Problem]:
+        """Yield that the time to look at is not in the recording."""
+        start, end, at_ns = recording.start_ns, recording.end_ns, self.at_ns
+        if at_ns is None or start is None or end is None or start <= at_ns <= end:
+            return
+        length, asked = (end - start) * 1e-9, (at_ns - start) * 1e-9
+        nearest = "its end" if asked > 0 else "its begin"
+        hint = f"give a time from 0 to {length:.3f} with --at"
+        if self._is_heard:
+            hint = f"{hint}, or listen longer with --for"
+        yield Problem(
+            "warning",
+            "at-outside",
+            f"there is nothing at {asked:g} s of {self.name}, only from 0 to "
+            f"{length:.3f} s; {nearest} is shown",
+            hint,
+        )
+
+    @property
+    def sentence(self) -> str:
+        """How a live source is, and what of the robot is missing."""
+        status = self.source.status
+        if not status.is_connected or self.description is not None:
+            return status.sentence
+        if self.topics.description is None:
+            return (
+                f"{status.sentence}; no /robot_description is published: start "
+                "robot_state_publisher, or give the robot with --model"
+            )
+        return f"{status.sentence}; waiting for {self.topics.description}"
+
+    @property
+    def model(self) -> str:
+        """The XML text of the robot; of a single link while the source has none."""
+        return self.stand_in if self.description is None else self.description
+
+    @property
+    def stand_in(self) -> str:
+        """The XML text of a robot of a single link, at the top of the frames."""
+        pairs = list(self._told.pairs())
+        children = {child for _, child in pairs}
+        roots = [parent for parent, _ in pairs if parent not in children]
+        # Frames that form a loop have no root, and none is invented for them.
+        frames = (*roots, *(parent for parent, _ in pairs), STAND_IN_LINK)
+        return stand_in_model(frames[0])
+
+    @property
+    def label(self) -> str:
+        """What problems of the model name as its file."""
+        return self.label_of(self.topics.description)
+
+    def label_of(self, topic: str | None) -> str:
+        """Return what problems of the robot of a topic name as its file."""
+        if topic is None:
+            return self.name
+        return f"{self.name}{' ' if '://' in self.name else ':'}{topic}"
+
+    def root_and_top(self, robot: Robot, timeout: float = 0.0) -> tuple[str, str]:
+        """Return the frame of a robot's root link, and the one at the top of its tree.
+
+        Args:
+            robot: the robot; its root is the top when nothing is known to hold it. Of a
+                stand-in it is the frame that the missing robot seems to have.
+            timeout: how long to wait for transforms of a live robot that do [s].
+        """
+
+        def is_held() -> bool:
+            root, top = self._root_and_top(robot)
+            return root != top
+
+        with self._framed:
+            if not self.can("seek"):
+                self._framed.wait_for(is_held, timeout)
+            return self._root_and_top(robot)
+
+    def _root_and_top(self, robot: Robot) -> tuple[str, str]:
+        pairs = list(self._told.pairs())
+        base = base_frame(pairs) if robot.name == STAND_IN_NAME else None
+        prefix = frame_prefix(joints_of(robot), pairs)
+        root = base or prefix + plain_name(robot.root)
+        return root, top_frame(root, pairs)
+
+    def frames(self, robot: Robot, joints: JointState) -> FrameTree:
+        """Return where all frames are at the time to look at, or else at the end.
+
+        Args:
+            robot: its joints hold the frames of which messages say nothing.
+            joints: their positions, which messages change.
+        """
+        history = FrameHistory()
+        tree = FrameTree(history)
+        transforms, states = self.transforms(history), self.joint_states()
+        recording = self.recording
+        if recording is not None and recording.end_ns is not None:
+            at_ns = recording.end_ns if self.at_ns is None else self.at_ns
+            jump(recording, at_ns, (transforms, states))
+        known = {n: q for n, q in states.changed().items() if n in joints.free}
+        joints.set_all(known)
+        frames = DataFrames(tree)
+        frames.changed, frames.pairs = transforms.changed, transforms.pairs
+        by_joints = not frames.places_links(robot)
+        robot_joints = robot.joints.values() if by_joints else ()
+        fixed = [joint.name for joint in robot_joints if joint.type != "floating"]
+        kinematics, prefix = joints.kinematics, frames.prefix_of(robot)
+        hang_robot(tree, robot, kinematics, joints.all_positions(), fixed, prefix)
+        frames.settle()
+        return tree
+
+    def transforms(self, history: FrameHistory) -> TransformTopics:
+        """Return what takes the transforms into a history.
+
+        Those of a recording expect the frames that its begin tells of.
+
+        Args:
+            history: an empty one.
+        """
+        made = self._make_transforms(history)
+        if self.recording is not None:
+            made.expect_as(self._told)
+        return made
+
+    def joint_states(self) -> JointStateTopics:
+        """Return what takes the positions of joints."""
+        decoding = Decoding(self.decoding.types)
+        return JointStateTopics(self.topics.joint_states, decoding.decode)
+
+    def decode(self, message: Recorded) -> Any:
+        """Return a message as an object with its fields.
+
+        Raises:
+            DecodeError: its bytes are not what its type says.
+        """
+        return self.decoding.decode(message)
+
+    def decoder(self, topic: SourceTopic) -> Decoder:
+        """Return the decoder of a topic, with the reason when there is none."""
+        return self.decoding.types.decoder(topic.schema, topic.message_encoding)
+
+    def transform_decoder(self) -> Callable[[Recorded], Transforms]:
+        """Return what reads the transforms of a message; it raises DecodeError."""
+        return Decoding(self.decoding.types).transforms
+
+    def last_text(self, topic: str) -> str | None:
+        """Return the last text that a topic of a recording has sent, if it has."""
+        recording = self.recording
+        if recording is None:
+            return None
+        if topic not in self._texts:
+            latched = [m for m in recording.latched() if m.topic == topic]
+            # Not every topic of strings is latched, or has the name of one that is.
+            last = recording.last(topic, recording.end_ns or 0) if not latched else None
+            texts = map(self.decoding.text, latched if last is None else [last])
+            self._texts[topic] = next((t for t in reversed([*texts]) if t), "")
+        return self._texts[topic] or None
+
+    def tell_status(self) -> None:
+        """Say that the source or its recording is doing otherwise; in any thread."""
+        for listener in list(self.on_status):
+            listener()
+
+    # What the source tells
+
+    def _look(self) -> None:
+        """Find the topics of the robot; in the thread of a live source."""
+        known = {
+            name: self.decoder(topic).type_name
+            for name, topic in self.source.topics().items()
+            if topic.reason is None
+        }
+        before, self.topics = self.topics, robot_topics(known, self.named)
+        if self.recording is None:
+            self._listen(before)
+        elif self._index is None or self.topics != before:
+            self._read(self.recording)
+        for listener in list(self.on_topics):
+            listener()
+        if self.topics != before:
+            self.tell_status()
+
+    def _read(self, recording: Bag) -> None:
+        """Take what a recording says of the robot, at whatever time."""
+        self.description = self.last_text(self.topics.description or "")
+        decode = self.transform_decoder()
+        self._index = TransformIndex(recording, self.topics.moving, decode)
+        # What the begin tells of frames; every session starts from it.
+        self._told = self._make_transforms(FrameHistory())
+        self._told.expect(self._first_transforms(recording))
+
+    def _listen(self, before: RobotTopics) -> None:
+        """Ask a live source for what it says of the robot."""
+        self._told.set_topics(self.topics.moving, self.topics.static)
+        if self.topics.description not in (None, before.description):
+            self.source.subscribe(self.topics.description or "", self._describe)
+        for topic in (*self.topics.moving, *self.topics.static):
+            if self._seen < ENOUGH:
+                self.source.subscribe(topic, self._expect)
+
+    def _describe(self, message: Recorded) -> None:
+        text = self.decoding.text(message)
+        if text and text != self.description:
+            self.description = text
+            self.on_description(text)
+            self.tell_status()
+
+    def _expect(self, message: Recorded) -> None:
+        with self._framed:
+            self._told.expect([message])
+            self._framed.notify_all()
+        self._seen += 1
+        if self._seen == ENOUGH:
+            for topic in (*self.topics.moving, *self.topics.static):
+                self.source.unsubscribe(topic, self._expect)
+
+    def _make_transforms(self, history: FrameHistory) -> TransformTopics:
+        topics, decode = self.topics, self.transform_decoder()
+        return TransformTopics(
+            history, topics.moving, topics.static, decode, self._index
+        )
+
+    def _first_transforms(self, recording: Bag) -> Iterator[Recorded]:
+        start, moving = recording.start_ns, self.topics.moving
+        if start is not None and moving:
+            end = start + round(FIRST_SECONDS * 1e9)
+            yield from recording.messages(start, end, moving)
+        yield from (m for m in recording.latched() if m.topic in self._told.always)
