@@ -29,8 +29,9 @@ FORMS = {
 }
 """The placeholder of an option with numbers → how they stand in its value."""
 OTHERS = {
-    "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI", "[NAME=]URI",
-    "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE", "JOINT", "SOURCE", "TARGET", "HOST",
+    "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI",
+    "[NAME=]URI", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE", "JOINT", "SOURCE",
+    "TARGET", "HOST",
     None,
 }  # fmt: skip
 """Placeholders of what is no number."""

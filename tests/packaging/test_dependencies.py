@@ -34,7 +34,8 @@ def imported(repository: Path) -> set[str]:
         for name in imports(ast.parse(path.read_text("utf-8")))
     }
     others = names - set(sys.stdlib_module_names) - {"sambot_viz"}
-    return {homes[name][0].lower() for name in others}
+    # Python 3.10 does not know of packages that only list their files.
+    return {homes.get(name, [name])[0].lower() for name in others}
 
 
 def imports(node: ast.AST) -> Iterator[str]:

@@ -107,7 +107,7 @@ class Tried:
 
 def hash_of(text: str) -> int:
     """A number that is the same in each run."""
-    return int.from_bytes(text.encode()) % 1_000_003
+    return int.from_bytes(text.encode(), "big") % 1_000_003
 
 
 def broken(data: bytes, seed: int) -> bytes:

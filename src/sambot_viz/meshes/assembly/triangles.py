@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from typing import TypeVar
 
 import mapbox_earcut
@@ -16,6 +17,8 @@ _Number = TypeVar("_Number", bound=np.generic)
 _BLANK = b" \t\r\n\f\v"
 _WHOLE = b"0123456789+-" + _BLANK
 _DECIMAL = _WHOLE + b".eE"
+_ONLY_WARNS = sys.version_info < (3, 11)
+"""Numpy 2.2, the newest for Python 3.10, stops at what is no number, and warns."""
 DECIMAL_COMMA = re.compile(rb"[+-]?\d+,\d+")
 """A number as programs write it in the language of many countries."""
 WITH_POINTS = "export the mesh again with points in its numbers (0.5), not commas (0,5)"
@@ -30,7 +33,7 @@ def parse_floats(text: bytes) -> npt.NDArray[np.float32] | None:
         if text.translate(None, _DECIMAL):
             return np.fromiter(map(float, text.split()), dtype=np.float32)
         return _numpy_reader(text, np.float32)
-    except ValueError:
+    except (ValueError, DeprecationWarning):
         return None
 
 
@@ -40,14 +43,17 @@ def parse_ints(text: bytes) -> npt.NDArray[np.int64] | None:
         return None
     try:
         return _numpy_reader(text, np.int64)
-    except ValueError:
+    except (ValueError, DeprecationWarning):
         return None
 
 
 def _numpy_reader(text: bytes, dtype: type[_Number]) -> npt.NDArray[_Number]:
     if not text.strip():
         return np.empty(0, dtype=dtype)
-    return np.fromstring(text, dtype=dtype, sep=" ")
+    found = np.fromstring(text, dtype=dtype, sep=" ")
+    if _ONLY_WARNS and found.size != len(text.split()):
+        raise ValueError("something else is among the numbers")
+    return found
 
 
 def triples(count: int) -> npt.NDArray[np.int64]:
