@@ -184,6 +184,40 @@ def test_reset_leaves_a_fixed_frame_that_was_chosen_alone(
         assert session.scene.context.fixed_frame == "drivewhl_l_link"
 
 
+def test_reset_takes_odom_away_and_undo_brings_it_back(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    tree = session.scene.context.tree
+    before = set(tree.frames)
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.motion.advance(1.0)
+        assert set(tree.frames) == before | {"odom"}
+        edit(panel, "drive/reset", None)
+        assert set(tree.frames) == before
+        assert session.scene.context.fixed_frame in before
+    session.history.undo(client.client_id)
+    assert tree.lookup("odom", "base_link").translation[0] == 0
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.motion.advance(1.0)
+    assert tree.lookup("odom", "base_link").translation[0] == pytest.approx(1.0)
+    while session.history.undo(client.client_id) is not None:
+        assert session.scene.context.fixed_frame in tree.frames
+
+
+def test_reset_leaves_an_odom_that_somebody_uses(
+    panel: DrivePanel, session: Session, client: Client
+) -> None:
+    with session.history.acting(client.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.motion.advance(1.0)
+        still = Transform.from_xyz_rpy((0, 0, 0), (0, 0, 0))
+        session.frames.add("map", "odom", still)
+        edit(panel, "drive/reset", None)
+    assert session.scene.context.tree.parent("base_link") == "odom"
+
+
 def test_a_fixed_frame_in_the_world_stays(panel: DrivePanel, session: Session) -> None:
     session.drive.enter_odom()
     session.frames.add(

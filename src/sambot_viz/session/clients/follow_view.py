@@ -115,9 +115,10 @@ class FollowView:
         self._driving.to(self._drive.pose_changed, self._frames)
 
     def put_back(self) -> None:
-        """Undo what driving has changed: the fixed frame, and the way of the camera.
+        """Undo what driving has changed: fixed frame, way of the camera, frame odom.
 
-        The fixed frame goes back by an edit that can be undone.
+        Fixed frame and odom change by edits that can be undone; odom stays while the
+        fixed frame is odom or something else is in it.
         """
         with self._lock:
             self._driving.to()
@@ -128,6 +129,8 @@ class FollowView:
                 config, fixed = before
                 if config is self._document.config:
                     self._document.set_option("Fixed Frame", fixed)
+            if self._context.fixed_frame != ODOM:
+                self._drive.leave_odom()
 
     def follow(self, place: Vector | None) -> None:
         """Bring the robot back when it moves and is not in the picture.

@@ -209,6 +209,20 @@ class Drive:
             T = Transform.trusted(self._matrix())
             self._frames.add(ODOM, self.root, T, static=False)
 
+    def leave_odom(self) -> None:
+        """Take odom away, if driving has made it and nothing else is in it.
+
+        That is an edit that can be undone.
+        """
+        tree, added = self._frames.tree, self._frames.added.get(self.root)
+        made = added is not None and added.parent == ODOM and not added.static
+        alone = tree.parent(ODOM) is None and tuple(tree.children(ODOM)) == (self.root,)
+        if made and alone:
+            # Its undo finds the robot at the start, where it is now.
+            start = Transform.trusted(self._matrix())
+            self._frames.add(ODOM, self.root, start, static=False)
+            self._frames.remove(self.root)
+
     def _tell_pose(self) -> None:
         self._drawing.to()
         self.pose_changed.touch()
