@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { outside, withinTurn } from "../../src/sambot_viz/page/cells/units.js";
+import { outside, unitBeside, withinTurn } from "../../src/sambot_viz/page/cells/units.js";
 
 const LIMITED = { id: "a", in: "", kind: "slider", unit: "rad", min: -1, max: 1 };
 const WHEEL = { ...LIMITED, min: -Math.PI, max: Math.PI, wheel: true };
@@ -26,4 +26,11 @@ test("a joint with limits does not turn round, and says which they are", () => {
   assert.equal(withinTurn(LIMITED, 9), 9);
   assert.equal(outside(LIMITED, 9), "9 rad is outside −1 … 1 rad");
   assert.equal(outside(LIMITED, 1.00001), "");
+});
+
+test("a unit that the name of a row says is not written again", () => {
+  const row = { ...LIMITED, unit: "m", name: "Size (m)" };
+  assert.equal(unitBeside(row, "m"), "");
+  assert.equal(unitBeside({ ...row, name: "Length" }, "m"), "m");
+  assert.equal(unitBeside({ ...row, name: "Turn (m)" }, "°"), "°");
 });

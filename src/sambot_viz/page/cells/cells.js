@@ -11,7 +11,7 @@ import { refusals, refuse } from "../window/notices.js";
 import { NumberCell, SliderCell } from "./number_cells.js";
 import { formatNumber, parseNumber } from "./numbers.js";
 import { degrees, useData, wantedRow } from "../state.js";
-import { shownUnit } from "./units.js";
+import { shownUnit, unitBeside } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -48,6 +48,7 @@ function TextCell({ row, tab }) {
 function VectorCell({ row, tab }) {
   degrees.use();
   const { unit, factor } = shownUnit(row);
+  const beside = unitBeside(row, unit);
   const texts = row.value.map((/** @type {number} */ part) => formatNumber(part * factor, 5));
   /** @param {string} typed */
   const accept = (typed) => {
@@ -67,7 +68,7 @@ function VectorCell({ row, tab }) {
   };
   return html`<span class="number"><${Field} row=${row} tab=${tab} shown=${texts.join("; ")}
     accept=${accept} />
-    ${unit && html`<span class="unit">${unit}</span>`}</span>`;
+    ${beside && html`<span class="unit">${beside}</span>`}</span>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

@@ -18,7 +18,7 @@ import {
   writtenNumber,
 } from "./numbers.js";
 import { degrees, useData } from "../state.js";
-import { formula, outside, shownUnit, withinTurn } from "./units.js";
+import { formula, outside, shownUnit, unitBeside, withinTurn } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -101,6 +101,7 @@ export function NumberCell({ row, tab, room }) {
 function NumberField({ row, tab, held, room }) {
   degrees.use();
   const { unit, factor, step } = shownUnit(row);
+  const beside = unitBeside(row, unit);
   const free = !row.fixed && !row.off;
   /** @param {string} typed */
   const accept = (typed) => {
@@ -155,7 +156,7 @@ function NumberField({ row, tab, held, room }) {
       title=${exact === shown ? "" : exact}
       full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release}
         grab=${free ? grab : undefined} shown=${shown} />
-    ${unit && html`<span class="unit">${unit}</span>`}
+    ${beside && html`<span class="unit">${beside}</span>`}
   </span>`;
 }
 

@@ -19,6 +19,10 @@ export function shownUnit(row, inDegrees = degrees.value) {
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
 }
 
+/** The unit to write beside a number: none where the row's name ends with it, as in "Size (m)".
+ * @param {Row} row @param {string} unit as it is shown */
+export const unitBeside = (row, unit) => (row.name?.endsWith(`(${unit})`) ? "" : unit);
+
 /** A typed value; of a joint that turns without limits, the same angle from −π to π.
  * @param {Row} row @param {number} value */
 export function withinTurn(row, value) {
