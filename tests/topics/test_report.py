@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 import yaml
 
@@ -136,31 +134,6 @@ def test_before_its_first_message_a_topic_says_when_it_begins(
     assert before.code == "not-here-yet"
 
 
-@pytest.mark.parametrize(
-    ("message", "what"),
-    [
-        ({"width": 0, "height": 4, "point_step": 16}, "0 points"),
-        ({"width": 3, "height": 4, "point_step": 16}, ""),
-        ({"width": 0, "height": 0}, "0 × 0 pixels"),
-        (
-            {"ranges": np.array([np.nan, 40.0]), "range_min": 0.1, "range_max": 30.0},
-            "all 2 ranges are out of range",
-        ),
-        ({"ranges": np.array([]), "range_min": 0.1, "range_max": 30.0}, "0 ranges"),
-        ({"ranges": np.array([1.0]), "range_min": 0.1, "range_max": 30.0}, ""),
-        ({"poses": []}, "0 poses"),
-        ({"particles": []}, "0 particles"),
-        ({"markers": [1], "poses": [], "erases": []}, ""),
-        ({"markers": [1]}, ""),
-        ({"data": ""}, ""),
-    ],
-)
-def test_an_empty_message_says_what_it_has_nothing_of(
-    message: dict[str, Any], what: str
-) -> None:
-    assert reasons.emptiness(SimpleNamespace(**message)) == what
-
-
 def test_each_reason_is_one_of_those_that_are_documented() -> None:
     made = [
         reasons.no_such_topic("/scna", ["/scan", "/tf"]),
@@ -168,6 +141,7 @@ def test_each_reason_is_one_of_those_that_are_documented() -> None:
         reasons.off("TF"),
         reasons.no_message("/a"),
         reasons.empty("0 points"),
+        reasons.not_drawn("It has no fields"),
         reasons.stale(12.0),
     ]
     assert {reason.code for reason in made} <= set(reasons.SEVERITIES)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from sambot_viz.errors import Severity, did_you_mean, nearest
 from sambot_viz.frames.errors import LookupRefused
@@ -30,6 +29,7 @@ SEVERITIES: Mapping[str, Severity] = {
     "two-clocks": "warning",
     "no-transform": "warning",
     "empty": "warning",
+    "not-drawn": "warning",
     "no-display": "info",
     "wrong-type": "warning",
     "off": "info",
@@ -256,6 +256,11 @@ def empty(what: str) -> TopicReason:
     return TopicReason("empty", f"{what}: look at what publishes it")
 
 
+def not_drawn(why: str) -> TopicReason:
+    """Say that messages come, and their display cannot draw them."""
+    return TopicReason("not-drawn", f"cannot be shown: {why}")
+
+
 def no_display(type_name: str, fields: Collection[str]) -> TopicReason:
     """Say that nothing draws messages of a type, and what they have."""
     if type_name.endswith("_Event") and "/srv/" in type_name:
@@ -273,27 +278,3 @@ def stale(age: float) -> TopicReason:
     """Say that nothing has come for long, on the clock of the recording [s]."""
     text = f"the last message came {age:.1f} s ago: whatever publishes it had stopped"
     return TopicReason("stale", text)
-
-
-def emptiness(message: Any) -> str:
-    """Return what there is nothing of in a message; empty when it has something."""
-    ranges = getattr(message, "ranges", None)
-    if ranges is not None and hasattr(message, "range_max"):
-        if not len(ranges):
-            return "0 ranges"
-        # A comparison with nan is false.
-        good = (ranges >= message.range_min) & (ranges <= message.range_max)
-        return "" if good.any() else f"all {len(ranges)} ranges are out of range"
-    if hasattr(message, "width") and hasattr(message, "height"):
-        if message.width * message.height == 0:
-            is_cloud = hasattr(message, "point_step")
-            return "0 points" if is_cloud else "0 × 0 pixels"
-        return ""
-    if hasattr(message, "erases"):
-        # An update of interactive markers has what has changed, and may have nothing.
-        return ""
-    for field in ("markers", "poses", "particles", "points", "detections"):
-        listed = getattr(message, field, None)
-        if listed is not None and len(listed) == 0:
-            return f"0 {field}"
-    return ""

@@ -125,9 +125,13 @@ class TopicReport:
             return self._of_display(name, decoder.type_name) or late
         if decoder.note is not None:
             return TopicReason(decoder.note.code, decoder.note.text)
+        nothing = looked.nothing
+        # What is not drawn in any frame needs no transform.
+        if nothing is not None and nothing.code == "not-drawn":
+            return nothing
         return (
             self._of_frame(name, at_ns)
-            or (reasons.empty(looked.empty) if looked.empty else None)
+            or nothing
             or self._of_display(name, decoder.type_name)
         )
 

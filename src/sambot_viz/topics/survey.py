@@ -19,7 +19,8 @@ from sambot_viz.frames.transform import Transform
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.reasons import emptiness
+from sambot_viz.topics.contents import content_reason
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import Transforms, TransformTopics
@@ -47,7 +48,7 @@ class Looked:
         frame: of the headers; empty when they have none.
         stamps: the least and the greatest of the headers [ns]; None without.
         fields: the names in a message.
-        empty: what the messages have nothing of; empty when one of them has something.
+        nothing: why nothing of the messages is seen; None when something of one is.
     """
 
     seen: int = 0
@@ -59,7 +60,7 @@ class Looked:
     frame: str = ""
     stamps: tuple[int, int] | None = None
     fields: tuple[str, ...] = ()
-    empty: str = ""
+    nothing: TopicReason | None = None
     _has_content: bool = field(default=False)
 
     def note(self, message: Any) -> None:
@@ -70,8 +71,8 @@ class Looked:
         if header is not None:
             self._note_header(header)
         if not self._has_content:
-            self.empty = emptiness(message)
-            self._has_content = not self.empty
+            self.nothing = content_reason(message)
+            self._has_content = self.nothing is None
 
     def _note_header(self, header: Any) -> None:
         frame, stamp = getattr(header, "frame_id", ""), getattr(header, "stamp", None)

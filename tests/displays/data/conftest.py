@@ -59,6 +59,13 @@ class Opened:
                 pictures.want(key)
         return unpacked(pictures.frames([key])[key][1])
 
+    def look_away(self) -> None:
+        """Look at the pictures no longer, as a page whose panel is closed."""
+        session, key = session_of(self.viz), self.display.key
+        with session.lock:
+            session.scene.context.pictures.leave(key)
+            self.display.redraw()
+
     def glb(self) -> bytes:
         """The GLB file of the only node of the display."""
         (node,) = self._nodes.values()

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from camera_messages import cube, file, image, info, pose
+from camera_messages import cube, file, image, info, pose, unpacked
 from inside import session_of
 from made_messages import Make
 from PIL import Image
@@ -171,9 +171,24 @@ def test_a_picture_waits_for_the_place_of_its_camera(messages: Open) -> None:
 
 
 def test_nothing_is_made_before_somebody_looks(messages: Open) -> None:
+    shown = messages("Camera", placed(0, 0, 0), info(INFO, NUMBERS), picture())
+    assert "Image" not in shown.statuses
+    session, key = session_of(shown.viz), shown.display.key
+    pictures = session.scene.context.pictures
+    assert unpacked(pictures.frames([key])[key][1])[0]["type"] == ""
+
+
+def test_what_cannot_be_shown_says_so_whether_or_not_somebody_looks(
+    messages: Open,
+) -> None:
     made = image("/a", "8UC7", GREY)
     shown = messages("Camera", placed(0, 0, 0), info(INFO, NUMBERS), made)
-    assert "Image" not in shown.statuses
+    before = shown.statuses["Image"]
+    assert before[0] == "Error"
+    assert before[1].startswith("Unsupported image encoding [8UC7]. ")
+    shown.look()
+    shown.look_away()
+    assert shown.statuses["Image"] == before
 
 
 def test_what_is_the_same_is_not_sent_again(messages: Open) -> None:

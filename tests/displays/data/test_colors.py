@@ -124,6 +124,8 @@ def cloud2(rows: np.ndarray, count: int | None = None) -> SimpleNamespace:
         width=len(rows) if count is None else count,
         height=1,
         point_step=rows.dtype.itemsize,
+        row_step=rows.dtype.itemsize * (len(rows) if count is None else count),
+        is_bigendian=rows.dtype[0].str[0] == ">",
         fields=fields,
         data=np.frombuffer(rows.tobytes(), np.uint8),
     )
@@ -139,6 +141,15 @@ def test_points_that_are_nowhere_are_dropped_with_their_fields() -> None:
     found = cloud_of_cloud2(cloud2(rows))
     assert found.points[:, 0].tolist() == [0, 2]
     assert found.fields["ring"].tolist() == [1, 3]
+
+
+def test_a_cloud_of_the_other_byte_order_is_read_in_it() -> None:
+    """RViz reads all as little endian: its points are at 0, with wrong intensities."""
+    row = [("x", ">f4"), ("y", ">f4"), ("z", ">f4"), ("ring", ">i2"), ("t", ">f8")]
+    cloud = cloud_of_cloud2(cloud2(np.array([(1, 2, 3, 4, 5), (6, 7, 8, 9, 10)], row)))
+    assert cloud.points.tolist() == [[1, 2, 3], [6, 7, 8]]
+    assert cloud.fields["ring"].tolist() == [4, 9]
+    assert cloud.fields["t"].tolist() == [5, 10]
 
 
 def test_a_cloud_that_says_another_size_is_refused_whatever_it_says() -> None:

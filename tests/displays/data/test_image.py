@@ -150,14 +150,43 @@ def test_the_range_is_the_median_of_the_last_pictures(messages: Open) -> None:
     assert pixels(shown) == [[0, 127]]
 
 
-def test_nothing_is_decoded_before_somebody_looks(messages: Open) -> None:
-    shown = messages("Image", raw("8UC7", octets(1)))
+def test_no_picture_is_made_before_somebody_looks(messages: Open) -> None:
+    shown = messages("Image", raw("mono8", octets(1, 2)))
     pictures = session_of(shown.viz).scene.context.pictures
     key = shown.display.key
     assert "Image" not in shown.statuses
     assert unpacked(pictures.frames([key])[key][1])[0]["type"] == ""
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        raw("8UC7", octets(1)),
+        raw("rgb8", octets(1, 2)),
+        file_message(b"nonsense"),
+        # Only those who look find out that it ends early.
+        file_message(b"\xff\xd8\xff"),
+    ],
+)
+def test_what_cannot_be_shown_says_so_also_when_nobody_looks_any_longer(
+    messages: Open, make: Make
+) -> None:
+    shown = messages("Image", make)
     shown.look()
-    assert shown.statuses["Image"][0] == "Error"
+    seen = shown.statuses["Image"]
+    assert seen[0] == "Error"
+    shown.look_away()
+    assert shown.statuses["Image"] == seen
+
+
+def test_what_cannot_be_shown_says_so_before_somebody_looks(messages: Open) -> None:
+    bad, good = raw("8UC7", octets(1)), raw("mono8", octets(1, 2))
+    shown = messages("Image", bad, bad, good)
+    shown.viz.player.jump(0.0)
+    assert shown.statuses["Image"][1].startswith("Unsupported image encoding [8UC7]")
+    # One that is good again takes the error away.
+    shown.viz.player.jump(shown.viz.player.duration)
+    assert "Image" not in shown.statuses
 
 
 def test_without_a_picture_the_status_says_so(messages: Open) -> None:

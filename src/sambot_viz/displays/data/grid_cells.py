@@ -22,6 +22,7 @@ from sambot_viz.displays.scene.points import PointNode, PointStyle
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, DisplayConfig
+from sambot_viz.topics.contents.grids import cells_fault
 
 Cells = tuple[Floats, Vector3]
 """Middles (N, 3) and edges of cells [m]."""
@@ -48,10 +49,8 @@ class GridCellsDisplay(NewestMessageDisplay[Cells]):
         """Return the middles of the cells, and their size [m]."""
         width, height = float(message.cell_width), float(message.cell_height)
         require_finite([width, height])
-        for name, edge in (("width", width), ("height", height)):
-            if edge <= 0.0:
-                text = f"Cell {name} is zero, cells will be invisible."
-                raise MessageRefused(text, TOPIC)
+        if fault := cells_fault(message):
+            raise MessageRefused(fault, TOPIC)
         return points_of(message.cells), (width, height, 0.0)
 
     def draw_read(self, read: Cells, wxyz: Wxyz, position: Vector3) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz import limits
 from sambot_viz.displays.data.map_properties import (
     HEIGHT,
     MAP_PROPERTIES,
@@ -33,12 +31,12 @@ from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.contents.grids import map_fault
 from sambot_viz.topics.decoding import frame_and_stamp
 
 MAP, UPDATE = "Map", "Update"
 """Keys of statuses."""
-MOST_CELLS = limits.MAP_CELLS.value
-"""A map of more cells is not drawn."""
+_NONE_YET = "No map received"
 MOST_UPDATES = 2000
 """So many updates since the last map are applied after a jump in a recording."""
 Cells = npt.NDArray[np.uint8]
@@ -130,7 +128,7 @@ class MapDisplay(TopicDisplay):
         if self._cells is None:
             if self.context.messages is not None and self.topic:
                 if MESSAGE not in self.status.rows:
-                    self.status.set(MESSAGE, "Warn", "No map received")
+                    self.status.set(MESSAGE, "Warn", _NONE_YET)
             return
         place = self._place()
         if place is None:
@@ -213,24 +211,17 @@ class MapDisplay(TopicDisplay):
     def _take_map(self, message: Any) -> None:
         info, data = message.info, np.asarray(message.data, np.int8)
         width, height = int(info.width), int(info.height)
+        fault = map_fault(message)
         if not len(data):
+            if self._cells is None:
+                self.status.set(MESSAGE, "Warn", f"{_NONE_YET}. {fault}")
             return
         require_finite([float(info.resolution)])
         x, y, z = point_of(info.origin.position)
         w, qx, qy, qz = wxyz_of(info.origin.orientation)
-        if width * height == 0:
-            raise MessageRefused(f"Map is zero-sized ({width}x{height})")
-        if width * height != len(data):
-            raise MessageRefused(
-                f"Data size doesn't match width*height: width = {width}, height = "
-                f"{height}, data size = {len(data)}"
-            )
-        if len(data) > MOST_CELLS:
-            text = f"It has {len(data):,} cells: at most {MOST_CELLS:,} are drawn"
-            raise MessageRefused(text)
+        if fault:
+            raise MessageRefused(fault)
         resolution = float(info.resolution)
-        if not 0.0 < resolution < math.inf:
-            raise MessageRefused(f"Its cells are {resolution:g} m wide")
         frame, self._stamp_ns = frame_and_stamp(message)
         self._frame = frame or "map"
         T = np.eye(4)

@@ -15,6 +15,7 @@ from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.topics import reasons
+from sambot_viz.topics.contents import content_reason
 from sambot_viz.topics.live_reasons import (
     no_publisher,
     not_listened,
@@ -243,9 +244,7 @@ class LiveTopics:
         header = getattr(decoded, "header", None)
         if header is not None and message.topic not in self._live.topics.all:
             heard.frame = plain_name(str(getattr(header, "frame_id", "")))
-        empty = reasons.emptiness(decoded)
-        if empty:
-            heard.reason = reasons.empty(empty)
+        heard.reason = content_reason(decoded)
 
     def _stale(self, topic: SourceTopic, heard: _Heard) -> TopicReason | None:
         age, period = self.age(topic.name), heard.topic.period

@@ -11,14 +11,15 @@ import numpy.typing as npt
 
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.picking.rays import Indices
+from sambot_viz.topics.contents.clouds import (
+    POINT_TYPES,
+    channels_fault,
+    cloud_fault,
+)
 from sambot_viz.topics.decoding import numbers_of
 
 Points = npt.NDArray[np.float32]
 Values = npt.NDArray[Any]
-
-_TYPES = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
-"""The datatype of a sensor_msgs/PointField → that of its values."""
-_FLOAT32 = 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,34 +72,25 @@ def finite_cloud(
 def cloud_of_cloud2(message: Any) -> Cloud:
     """Return the points of a sensor_msgs/PointCloud2, as RViz reads them.
 
-    The length of a row and the byte order are not looked at.
+    The length of a row is not looked at. RViz does not look at the byte order either.
 
     Raises:
         MessageRefused: its data has another size than it says, or x, y and z are no
             32-bit floats.
     """
+    if fault := cloud_fault(message):
+        raise MessageRefused(fault)
     step, count = int(message.point_step), int(message.width) * int(message.height)
-    data = np.frombuffer(message.data, np.uint8)
-    if len(data) != count * step:
-        raise MessageRefused(
-            f"Data size ({len(data)} bytes) does not match width ({message.width}) "
-            f"times height ({message.height}) times point_step ({step}).  Dropping "
-            "message."
-        )
+    data, order = np.frombuffer(message.data, np.uint8), "<>"[message.is_bigendian]
     rows: npt.NDArray[np.uint8] = np.reshape(data, (count, step))
-    found: dict[str, tuple[int, Values]] = {}
+    found: dict[str, Values] = {}
     for one in message.fields:
-        kind, offset = _TYPES.get(int(one.datatype)), int(one.offset)
+        kind, offset = POINT_TYPES.get(int(one.datatype)), int(one.offset)
         if kind is not None and 0 <= offset <= step - np.dtype(kind).itemsize:
-            values = _column(rows, offset, kind)
-            found[str(one.name)] = (int(one.datatype), values)
-    place = [found.pop(axis, None) for axis in "xyz"]
-    if any(axis is None or axis[0] != _FLOAT32 for axis in place):
-        raise MessageRefused("No position transformer available for cloud")
-    points = np.stack([axis[1] for axis in place if axis is not None], axis=1)
-    fields = {name: values for name, (_, values) in found.items()}
+            found[str(one.name)] = _column(rows, offset, order + kind)
+    points = np.stack([found.pop(axis) for axis in "xyz"], axis=1)
     names = [str(one.name) for one in message.fields]
-    return finite_cloud(points.astype(np.float32, copy=False), fields, names)
+    return finite_cloud(points.astype(np.float32, copy=False), found, names)
 
 
 def _column(rows: npt.NDArray[np.uint8], offset: int, kind: str) -> Values:
@@ -119,15 +111,11 @@ def cloud_of_cloud(message: Any) -> Cloud:
     Raises:
         MessageRefused: a channel has not a value for each point.
     """
+    if fault := channels_fault(message):
+        raise MessageRefused(fault)
     with np.errstate(over="ignore"):
         points = numbers_of(message.points, "x", "y", "z").astype(np.float32)
     fields: dict[str, Values] = {}
     for channel in message.channels:
-        values = np.asarray(channel.values, np.float32)
-        if len(values) != len(points):
-            raise MessageRefused(
-                f"Channel {channel.name} has {len(values)} values for {len(points)} "
-                "points"
-            )
-        fields[str(channel.name)] = values
+        fields[str(channel.name)] = np.asarray(channel.values, np.float32)
     return finite_cloud(points, fields)

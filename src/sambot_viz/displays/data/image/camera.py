@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +15,12 @@ from sambot_viz.displays.data.image.camera_info import (
     numbers_of,
     size_doubt,
 )
-from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
+from sambot_viz.displays.data.image.encodings import (
+    IMAGE,
+    Bytes,
+    Values,
+    require_shown,
+)
 from sambot_viz.displays.data.image.files import picture_of
 from sambot_viz.displays.data.image.image import NONE_YET
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
@@ -194,8 +199,10 @@ class CameraDisplay(MessageFilterDisplay):
         message, T_fixed_camera = self._taken
         camera = self._camera()
         if not self.context.pictures.is_wanted(self.key):
-            self._made = None
-            self.status.remove(IMAGE)
+            # A picture that could not be made is not made again to say so.
+            if self._made != NO_PICTURE:
+                self._made = None
+                self._is_refused(lambda: require_shown(message))
             return
         if self._made is None:
             self._made = self._picture(message)
@@ -206,15 +213,22 @@ class CameraDisplay(MessageFilterDisplay):
 
     def _picture(self, message: Any) -> CameraPicture:
         """Return the picture of a message, or say why there is none."""
+        made = list[CameraPicture]()
+        if self._is_refused(lambda: made.append(picture_of(message, self._grey))):
+            return NO_PICTURE
+        return made[0]
+
+    def _is_refused(self, look: Callable[[], object]) -> bool:
+        """Look at a picture, and say in the status what is wrong with it."""
         try:
             # Files of pictures break in more ways than those of a message.
             with refusing(IMAGE, "shown", OSError, SyntaxError):
-                picture = picture_of(message, self._grey)
+                look()
         except MessageRefused as refused:
             self.status.set(IMAGE, "Error", refused.text)
-            return NO_PICTURE
+            return True
         self.status.remove(IMAGE)
-        return picture
+        return False
 
     def _show(self, picture: CameraPicture) -> None:
         if picture != self._put and self.key in self.context.pictures:

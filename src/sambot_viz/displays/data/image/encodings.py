@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz import limits
 from sambot_viz.displays.data.image.bayer import BAYER, demosaiced
 from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.topics.contents.pictures import CHROMA_SHARE, picture_fault
 
 IMAGE = "Image"
 """The key of the status."""
-MOST_PIXELS = limits.IMAGE.value
-"""A larger picture is not shown."""
 Bytes = npt.NDArray[np.uint8]
 Values = npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 
@@ -46,22 +44,18 @@ _YUV = {
     "yuv422_yuy2": (0, 1, 3),
 }
 """Encoding → where the first Y, U and V are among four bytes of two pixels."""
-_PLANES = {"nv12": (0, 1, 2), "nv21": (1, 0, 2), "nv24": (0, 1, 1)}
-"""Encoding → where U and V are in a pair, and of how many columns and rows it is."""
+_PLANES = {"nv12": (0, 1), "nv21": (1, 0), "nv24": (0, 1)}
+"""Encoding → where U and V are in a pair."""
 
 
-def require_size(width: int, height: int) -> None:
-    """Refuse a picture without pixels, or with too many.
+def require_shown(message: Any) -> None:
+    """Refuse an image, of whichever kind, that cannot be shown.
 
     Raises:
-        MessageRefused: it is one.
+        MessageRefused: it is one, and what to do.
     """
-    size = f"{width:,} × {height:,} pixels"
-    if width <= 0 or height <= 0:
-        raise MessageRefused(f"The image has {size}", IMAGE)
-    if width * height > MOST_PIXELS:
-        most = f"at most {MOST_PIXELS / 1e6:.0f} million are shown"
-        raise MessageRefused(f"The image has {size}: {most}", IMAGE)
+    if fault := picture_fault(message):
+        raise MessageRefused(fault, IMAGE)
 
 
 def read_values(message: Any) -> Values | None:
@@ -73,6 +67,7 @@ def read_values(message: Any) -> Values | None:
     native: Any = _SCALED.get(str(message.encoding))
     if native is None:
         return None
+    require_shown(message)
     return _numbers(message, native)
 
 
@@ -89,15 +84,14 @@ def read_image(message: Any, scale: Callable[[Values], Bytes]) -> Bytes:
     encoding, values = str(message.encoding), read_values(message)
     if values is not None:
         return scale(values)
+    require_shown(message)
     if encoding in _YUV:
         return _from_pairs(_rows(message, 2), *_YUV[encoding])
     if encoding in _PLANES:
-        return _from_planes(message, *_PLANES[encoding])
+        return _from_planes(message, CHROMA_SHARE[encoding], *_PLANES[encoding])
     if encoding in BAYER:
         return _from_bayer(message, *BAYER[encoding], scale)
-    places = _CHANNELS.get(encoding)
-    if places is None:
-        raise MessageRefused(f"Unsupported image encoding [{encoding}]", IMAGE)
+    places = _CHANNELS[encoding]
     rows = _rows(message, len(places))
     if len(places) == 1:
         return rows
@@ -123,25 +117,15 @@ def _rows(message: Any, pixel: int) -> Bytes:
 
 
 def _block(message: Any, first: int, shape: tuple[int, int], step: int) -> Bytes:
-    """Return rows of bytes of a message.
+    """Return rows of bytes of a message, which has as many.
 
     Args:
         message: with its fields.
         first: where they begin [bytes].
         shape: so many rows, of so many bytes.
         step: from one to the next [bytes].
-
-    Raises:
-        MessageRefused: it has fewer.
     """
-    width, height = int(message.width), int(message.height)
-    require_size(width, height)
     data = np.ascontiguousarray(message.data, np.uint8)
-    needed = first + step * (shape[0] - 1) + shape[1]
-    if len(data) < needed:
-        what = f"{width} × {height} pixels of {message.encoding}"
-        text = f"The image has {len(data):,} bytes; {what} are {needed:,}"
-        raise MessageRefused(text, IMAGE)
     return np.lib.stride_tricks.as_strided(data[first:], shape, (step, 1))
 
 
@@ -161,12 +145,11 @@ def _from_pairs(rows: Bytes, first: int, u_at: int, v_at: int) -> Bytes:
     return _from_yuv(luma, pairs[..., u_at], pairs[..., v_at], (1, 2))
 
 
-def _from_planes(message: Any, u_at: int, v_at: int, share: int) -> Bytes:
+def _from_planes(message: Any, share: int, u_at: int, v_at: int) -> Bytes:
     """Return the colours of an image whose U and V come after all of its Y."""
     height, width = int(message.height), int(message.width)
     step = max(int(message.step), width)
     rows, columns = -(-height // share), -(-width // share)
-    # One that is too short is refused for all of its bytes.
     chroma = _block(message, step * height, (rows, 2 * columns), step * 2 // share)
     luma = _block(message, 0, (height, width), step)
     u, v = chroma[:, u_at::2], chroma[:, v_at::2]

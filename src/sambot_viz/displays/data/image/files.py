@@ -16,16 +16,21 @@ from sambot_viz.displays.data.image.encodings import (
     Values,
     read_image,
     read_values,
-    require_size,
+    require_shown,
 )
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.pictures import CameraPicture
+from sambot_viz.topics.contents.pictures import (
+    DEPTH,
+    DEPTH_HEADER,
+    not_a_picture,
+    size_fault,
+)
 
 FEW_PIXELS = 100_000
 """Up to so many the pixels are kept exactly; a larger picture becomes a JPEG."""
 QUALITY = 90
-_DEPTH, _DEPTH_HEADER = "compressedDepth", 12
 _TYPES = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
 
 
@@ -69,8 +74,9 @@ def compressed(message: Any, scale: Callable[[Values], Bytes]) -> CameraPicture:
     Raises:
         MessageRefused: it cannot be shown, and why.
     """
+    require_shown(message)
     content, of = bytes(message.data), str(message.format)
-    if _DEPTH in of:
+    if DEPTH in of:
         return file_of(scale(_depths(content, of)))
     image = _open(content, of)
     if image.mode.startswith(("I", "F")):
@@ -87,10 +93,11 @@ def read_depths(message: Any) -> Values:
     values = None
     if not hasattr(message, "format"):
         kind, values = str(message.encoding), read_values(message)
-    elif _DEPTH in (kind := str(message.format)):
+    elif DEPTH in (kind := str(message.format)):
         values = _depths(bytes(message.data), kind)
     if values is None:
-        raise MessageRefused(f"An image of {kind[:60]} has no depths", IMAGE)
+        text = f"An image of {kind[:60]} has no depths: choose one of 16UC1 or 32FC1"
+        raise MessageRefused(text, IMAGE)
     return values
 
 
@@ -123,15 +130,15 @@ def _open(content: bytes, of: str) -> Any:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             image = Image.open(io.BytesIO(content), formats=tuple(_TYPES))
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
-        text = f"The image of the format '{of[:60]}' is not a JPEG, PNG or WebP"
-        raise MessageRefused(text, IMAGE) from None
-    require_size(image.width, image.height)
+        raise MessageRefused(not_a_picture(of, content), IMAGE) from None
+    if fault := size_fault(image.width, image.height):
+        raise MessageRefused(fault, IMAGE)
     return image
 
 
 def _depths(content: bytes, of: str) -> Values:
     """Return the depths of a picture behind a short head of their own, (H, W)."""
-    image = _open(content[_DEPTH_HEADER:], of)
+    image = _open(content[DEPTH_HEADER:], of)
     stored = np.asarray(image, np.uint16)
     if not of.startswith("32FC1"):
         return stored

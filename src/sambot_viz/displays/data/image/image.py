@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from sambot_viz.displays.data.image.encodings import IMAGE, Bytes, Values
+from sambot_viz.displays.data.image.encodings import (
+    IMAGE,
+    Bytes,
+    Values,
+    require_shown,
+)
 from sambot_viz.displays.data.image.files import picture_of
 from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
 from sambot_viz.displays.data.image.transports import (
@@ -33,7 +38,7 @@ NORMALIZE = "Normalize Range"
 class ImageDisplay(TopicDisplay):
     """The newest picture of sensor_msgs/Image or CompressedImage.
 
-    It is decoded while some page shows it.
+    Its pixels are unpacked while some page shows it.
     """
 
     kind = "rviz_default_plugins/Image"
@@ -80,6 +85,7 @@ class ImageDisplay(TopicDisplay):
         self._ranges = Ranges()
         self._measured: Recorded | None = None
         self._made: tuple[object, ...] | None = None
+        self._judged: Recorded | None = None
 
     @property
     def topic(self) -> str:
@@ -111,7 +117,7 @@ class ImageDisplay(TopicDisplay):
 
     def forget(self) -> None:
         """Show no picture."""
-        self._newest = self._measured = self._made = None
+        self._newest = self._measured = self._made = self._judged = None
         self._ranges.clear()
         self.status.remove(IMAGE)
         if self.key in self.context.pictures:
@@ -125,8 +131,9 @@ class ImageDisplay(TopicDisplay):
                 self.status.set(IMAGE, "Warn", NONE_YET)
             return
         if not pictures.is_wanted(self.key):
-            self.status.remove(IMAGE)
+            self._judge(self._newest)
             return
+        self._judged = self._newest
         names = (NORMALIZE, "Min Value", "Max Value", "Median window")
         made = (self._newest, *(self.config.get(name) for name in names))
         if self._made is not None and all(map(_same, made, self._made)):
@@ -136,6 +143,27 @@ class ImageDisplay(TopicDisplay):
             # Files of pictures break in more ways than those of a message.
             with refusing(IMAGE, "shown", OSError, SyntaxError):
                 self._show(self._newest)
+        except MessageRefused as refused:
+            self._refuse(refused.text)
+        else:
+            self.status.remove(IMAGE)
+
+    def _judge(self, newest: Recorded) -> None:
+        """Say of a picture that nobody looks at whether it could be shown.
+
+        The first one answers for those that follow; after one that cannot be shown each
+        is looked at. No pixel is unpacked.
+        """
+        status = self.status.rows.get(IMAGE)
+        is_bad = status is not None and status.level == "Error"
+        if self.subscription is None or newest is self._judged:
+            return
+        if self._judged is not None and not is_bad:
+            return
+        self._judged = newest
+        try:
+            with refusing(IMAGE, "shown"):
+                require_shown(self.subscription.decode(newest))
         except MessageRefused as refused:
             self._refuse(refused.text)
         else:

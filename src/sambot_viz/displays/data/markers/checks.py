@@ -14,6 +14,7 @@ from sambot_viz.displays.data.markers.textures import has_texture, texture_of
 from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.display import Level
 from sambot_viz.meshes.textures import TextureError
+from sambot_viz.topics.contents.amounts import WITH_POINTS
 from sambot_viz.topics.decoding import numbers_of
 
 (
@@ -34,7 +35,6 @@ from sambot_viz.topics.decoding import numbers_of
 SOLIDS = (ARROW, CUBE, SPHERE, CYLINDER)
 LISTS = (CUBE_LIST, SPHERE_LIST, POINTS)
 LINES = (LINE_STRIP, LINE_LIST)
-_WITH_POINTS = (*LINES, *LISTS, TRIANGLES)
 
 MOST_POINTS = limits.MARKER_POINTS.value
 """A marker with more points is not drawn."""
@@ -139,12 +139,12 @@ def _warnings(marker: Any, kind: int) -> Iterator[str]:
             texture_of(marker)
         except TextureError as error:
             yield f"The texture cannot be shown: {error}."
-    if kind not in _WITH_POINTS or not marker.colors:
+    if kind not in WITH_POINTS or not marker.colors:
         if marker.color.a == 0.0 and not _has_own_colors(marker, kind):
             yield "Marker is fully transparent (color.a is 0.0)."
     elif kind != TRIANGLES and not numbers_of(marker.colors, "a").any():
         yield "All points are fully transparent (colors[].a is 0.0)."
-    if kind not in (ARROW, *_WITH_POINTS) and len(marker.points):
+    if kind not in (ARROW, *WITH_POINTS) and len(marker.points):
         yield "Non-empty points array is ignored."
     if kind != TEXT and marker.text:
         yield "Non-empty text is ignored."
@@ -180,7 +180,7 @@ def _errors(marker: Any, kind: int) -> tuple[Sequence[str], bool]:
     if kind == ARROW and count not in (0, 2):
         found.append("Number of points for an ARROW marker should be either 0 or 2.")
         hidden = count == 1
-    elif kind in _WITH_POINTS:
+    elif kind in WITH_POINTS:
         found += _wrong_count(kind, count)
         hidden = bool(found)
         colors = len(marker.colors)

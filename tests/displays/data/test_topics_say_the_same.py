@@ -1,0 +1,82 @@
+"""What a display refuses, the list of topics says in the same words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from filled_messages import on_topic, pose
+from image_messages import Make, file_message, octets, raw
+
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+from sambot_viz.topics.report import TopicReport
+from sambot_viz.topics.survey import Survey
+
+Open = Callable[..., Any]
+
+
+def cloud(**fields: Any) -> Make:
+    return on_topic("sensor_msgs/msg/PointCloud2", **fields)
+
+
+def grid(width: int, height: int, cells: int) -> Make:
+    info = {"width": width, "height": height, "resolution": 0.1, "origin": pose(0)}
+    return on_topic("nav_msgs/msg/OccupancyGrid", info=info, data=[0] * cells)
+
+
+def marker(kind: int) -> Make:
+    fields = {"pose": pose(0), "type": kind, "scale": {"x": 1.0, "y": 1.0, "z": 1.0}}
+    color = {"r": 1.0, "a": 1.0}
+    return on_topic("visualization_msgs/msg/Marker", color=color, text="A", **fields)
+
+
+SHORT = {"width": 2, "height": 1, "point_step": 12, "data": [0] * 25}
+OLD = {"points": [{"x": 1.0}], "channels": [{"name": "a", "values": [1.0, 2.0]}]}
+
+
+@pytest.mark.parametrize(
+    ("kind", "make", "status"),
+    [
+        ("Image", raw("8UC7", octets(1)), "Image"),
+        ("Image", raw("rgba16", octets(1)), "Image"),
+        ("Image", raw("rgb8", octets(1, 2)), "Image"),
+        ("Image", raw("rgb8", octets(1), 2**20, 2**20), "Image"),
+        ("Image", file_message(b"\0\0\0\1", "h264"), "Image"),
+        ("PointCloud2", cloud(), "Message"),
+        ("PointCloud2", cloud(**SHORT), "Message"),
+        ("PointCloud", on_topic("sensor_msgs/msg/PointCloud", **OLD), "Message"),
+        ("Map", grid(0, 0, 0), "Message"),
+        ("Map", grid(0, 5, 4), "Map"),
+        ("Map", grid(2, 2, 3), "Map"),
+        ("GridCells", on_topic("nav_msgs/msg/GridCells"), "Topic"),
+    ],
+)
+def test_a_topic_says_what_its_display_says(
+    messages: Open, tmp_path: Path, kind: str, make: Make, status: str
+) -> None:
+    shown = messages(kind, make)
+    said = reason(tmp_path)
+    assert said.startswith("not-drawn: cannot be shown: ")
+    text = said.removeprefix("not-drawn: cannot be shown: ")
+    assert text in shown.statuses[status][1]
+
+
+@pytest.mark.parametrize("kind", [0, 1, 2, 3, 9])
+def test_a_marker_that_is_drawn_is_not_said_to_be_empty(
+    messages: Open, tmp_path: Path, kind: int
+) -> None:
+    shown = messages("Marker", marker(kind))
+    assert shown.node_names()
+    assert reason(tmp_path) == ""
+
+
+def reason(folder: Path) -> str:
+    with Inputs(Options(folder / "messages.mcap")) as inputs:
+        assert inputs.recorded is not None
+        survey = Survey(inputs.recorded)
+        survey.finish()
+        found = TopicReport(survey).status("/a").reason
+    return "" if found is None else f"{found.code}: {found.text}"
