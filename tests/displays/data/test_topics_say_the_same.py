@@ -75,8 +75,8 @@ def test_a_marker_that_is_drawn_is_not_said_to_be_empty(
 
 def reason(folder: Path) -> str:
     with Inputs(Options(folder / "messages.mcap")) as inputs:
-        assert inputs.recorded is not None
-        survey = Survey(inputs.recorded)
+        assert inputs.moved_by is not None
+        survey = Survey(inputs.moved_by)
         survey.finish()
         found = TopicReport(survey).status("/a").reason
     return "" if found is None else f"{found.code}: {found.text}"
