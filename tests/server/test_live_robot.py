@@ -22,9 +22,9 @@ from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.robot.load import expand
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.viser_camera import VISER_FIRST_POSITION
-from sambot_viz.session.data import live_data
+from sambot_viz.session.data import inbox
 from sambot_viz.session.data.live_clock import ClockState
-from sambot_viz.session.data.live_data import LiveData
+from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.message import Recorded
 
@@ -51,7 +51,7 @@ def looks(client: Client) -> list[float]:
 
 def sentence(viz: Visualizer) -> str:
     data = session_of(viz).data
-    assert isinstance(data, LiveData)
+    assert isinstance(data, RobotData)
     return SourcePanel(data).data()[0].value["sentence"]
 
 
@@ -241,7 +241,7 @@ def test_a_simulation_that_is_reset_begins_again(
 ) -> None:
     """Its clock goes back: what moved is forgotten, as in RViz, and it is said."""
     data = session_of(viz).data
-    assert isinstance(data, LiveData) and peer.server is not None
+    assert isinstance(data, RobotData) and peer.server is not None
     peer.server.broadcast_time(9_050_000_000)
     eventually(lambda: data.time_s() == pytest.approx(9.05))
     peer.play(9.05)
@@ -357,7 +357,7 @@ def test_a_recording_needs_a_live_robot(peer: RobotPeer, tmp_path: Path) -> None
         Visualizer(source=peer.uri, record_dir=tmp_path / "none")
 
 
-def bytes_taken(data: LiveData, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+def bytes_taken(data: RobotData, monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """The size of each message of transforms that a session takes from now on."""
     taken: list[int] = []
     take = data.transforms.take
@@ -373,14 +373,15 @@ def bytes_taken(data: LiveData, monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
     viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(live_data, "SLICE", 2000)
+    monkeypatch.setattr(inbox, "SLICE", 2000)
     data, worker = session_of(viz).data, session_of(viz).worker
-    assert isinstance(data, LiveData)
+    assert isinstance(data, RobotData)
     came: list[str] = []
     taken = bytes_taken(data, monkeypatch)
     # What this one has got, the session has got before.
+    source = data.moved_by.source
     for topic in ("/tf", "/joint_states"):
-        data.live.source.subscribe(topic, lambda message: came.append(message.topic))
+        source.subscribe(topic, lambda message: came.append(message.topic))
     with worker.lock:
         peer.play(9.05)
         eventually(lambda: came.count("/tf") > 300)
@@ -394,11 +395,11 @@ def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
 def test_what_waits_for_a_session_is_limited_in_bytes(
     viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(live_data, "MOST_BYTES", 10_000)
+    monkeypatch.setattr(inbox, "MOST_BYTES", 10_000)
     data, worker = session_of(viz).data, session_of(viz).worker
-    assert isinstance(data, LiveData)
+    assert isinstance(data, RobotData)
     came: list[str] = []
-    data.live.source.subscribe("/tf", lambda message: came.append(message.topic))
+    data.moved_by.source.subscribe("/tf", lambda message: came.append(message.topic))
     with worker.lock:
         taken = bytes_taken(data, monkeypatch)
         peer.play(9.05, topics=["/tf"])
@@ -406,7 +407,7 @@ def test_what_waits_for_a_session_is_limited_in_bytes(
     # The last ones are kept, so that the robot is where it is.
     eventually(lambda: place(viz) == (1.0, 1.0))
     assert 5000 < sum(taken) <= 10_000 + max(taken) * (len(peer.subscribed()) + 2)
-    assert data.lost > 0
+    assert data.inbox.lost > 0
 
 
 def test_drawing_takes_at_most_half_of_the_time(

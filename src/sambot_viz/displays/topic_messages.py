@@ -87,8 +87,8 @@ class TopicMessages(Protocol):
         """Let those draw for whom something has come, or who wait for a transform."""
         ...
 
-    def now_ns(self) -> int:
-        """Return the time of the messages [ns]."""
+    def now_ns(self, topic: str) -> int:
+        """Return the time of the source of a topic [ns]."""
         ...
 
     def types(self) -> Mapping[str, str]:

@@ -25,7 +25,6 @@ from sambot_viz.panels.sources.player import PlayerPanel
 from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.data.live_data import LiveData
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
 _NUMBERS = ("int", "float", "slider")
@@ -89,7 +88,7 @@ class Window:
         data = session.data
         if data is not None and data.player is not None:
             panels.append(PlayerPanel(data.player, data.name))
-        if isinstance(data, LiveData):
+        if data is not None and data.moved_by.can("clock"):
             panels.append(SourcePanel(data, not session.private))
         if joints:
             arrow = JointArrow(scene, session.worker)

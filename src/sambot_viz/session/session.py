@@ -9,7 +9,6 @@ streams at the config's Frame Rate.
 from __future__ import annotations
 
 import threading
-from functools import partial
 
 import viser
 
@@ -27,9 +26,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.data.descriptions import LiveDescriptions, RecordedDescriptions
-from sambot_viz.session.data.live_data import LiveData
-from sambot_viz.session.data.recorded_data import RecordedData
+from sambot_viz.session.data.descriptions import SourceDescriptions
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
@@ -66,15 +63,15 @@ class Session:
         reader: reads mesh files in the background; None reads them while drawing.
         options: the start pose, the static transforms and the wheels.
         poses: the named poses; None keeps new ones in memory.
-        moved_by: the robot of a recording or of a live source, which moves this one;
-            None leaves it to the sliders.
+        moved_by: the robot of its sources, which moves this one; None leaves it to the
+            sliders.
 
     Attributes:
         lock: the worker's; held while the state changes.
         change: changes the state, sends that, and tells it.
         private: whether only one client sees it.
         own_model: whether its robot is its own: that of the server is not shown in it.
-        data: what a recording moves; None without one.
+        data: what messages move; None without a source.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -118,29 +115,16 @@ class Session:
             document, scene, robot, picker, self.display_edits, history
         )
         self.data: RobotData | None = None
-        if moved_by is not None and frames is not None and moved_by.can("clock"):
-            self.data = LiveData(
-                moved_by,
-                frames,
-                data_frames,
-                robot,
-                change,
-                worker,
-                scene.fault_of,
+        self._descriptions: SourceDescriptions | None = None
+        if moved_by is not None and frames is not None:
+            self.data = RobotData(
+                moved_by, frames, data_frames, robot, change, worker, scene.fault_of
             )
-        elif moved_by is not None and frames is not None:
-            self.data = RecordedData(
-                moved_by,
-                frames,
-                data_frames,
-                robot,
-                change,
-                worker,
-            )
-        if self.data is not None:
             scene.context.now = self.data.time_s
             scene.context.messages = self.data.messages
-        self._descriptions = self._describe(moved_by)
+            is_given, redraw = options.model is not None, self._redraw
+            self._descriptions = SourceDescriptions(moved_by, is_given, worker, redraw)
+            scene.context.descriptions = self._descriptions
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker)
@@ -241,7 +225,7 @@ class Session:
                 trail=self.drive.trail,
                 models=context.models,
                 meshes=context.assets.cache,
-                moved_by=None if data is None else data.recorded or data.live,
+                moved_by=None if data is None else data.moved_by,
                 time_ns=0 if player is None else player.time_ns,
                 follows=bool(self.robot.followed.value),
             )
@@ -290,17 +274,9 @@ class Session:
             self.data.close()
         self.worker.close()
 
-    def _describe(self, moved_by: SourceRobot | None) -> LiveDescriptions | None:
-        """Let displays ask for the robots of topics; return what is to be closed."""
-        is_given, context = self.options.model is not None, self.scene.context
-        if moved_by is not None and moved_by.can("seek"):
-            context.descriptions = RecordedDescriptions(moved_by, is_given)
-        elif moved_by is not None:
-            redraw = partial(context.apply, self.scene.redraw)
-            live = LiveDescriptions(moved_by, is_given, self.worker, redraw)
-            context.descriptions = live
-            return live
-        return None
+    def _redraw(self) -> None:
+        """Draw again, after a topic describes another robot."""
+        self.scene.context.apply(self.scene.redraw)
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

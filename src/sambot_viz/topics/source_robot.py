@@ -147,6 +147,10 @@ class SourceRobot:
         playback = self.source.playback
         return None if playback is None else playback.recording
 
+    def has_recorded(self, topic: str) -> bool:
+        """Return whether a topic is of a recording, and not of a live robot."""
+        return self.recording is not None and topic in self.recording.topics
+
     @property
     def problems(self) -> tuple[Problem, ...]:
         """What is wrong with the recording, and what it says of no robot."""

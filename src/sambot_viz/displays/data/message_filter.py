@@ -258,7 +258,7 @@ class MessageFilterDisplay(TopicDisplay):
         if said is not None and said.level == "Error":
             return
         oldest = self._held[0]
-        waited = messages.now_ns() - oldest.recorded.log_ns
+        waited = messages.now_ns(oldest.recorded.topic) - oldest.recorded.log_ns
         # That the fixed frame does not exist is no matter of a second, and while a
         # recording is paused no time passes.
         frames = self.context.tree.frames

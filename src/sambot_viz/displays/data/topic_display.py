@@ -239,7 +239,7 @@ class TopicDisplay(Display):
         count = subscription.count[self.topic] if subscription is not None else 0
         if not count or subscription is None:
             return Status("Ok", "OK")
-        rate = subscription.rate(self.topic, messages.now_ns())
+        rate = subscription.rate(self.topic, messages.now_ns(self.topic))
         return Status("Ok", f"{count} messages received at {rate:.1f} hz.")
 
     def _doubt(self) -> TopicDoubt | None:

@@ -103,7 +103,7 @@ class JointsPanel(Panel):
             return _NO_ROBOT
         if data is None or model.name != STAND_IN_NAME:
             return _NOTHING_TO_MOVE
-        return _NOT_RECORDED if data.live is None else _NOT_HERE_YET
+        return _NOT_HERE_YET if data.moved_by.can("clock") else _NOT_RECORDED
 
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began."""

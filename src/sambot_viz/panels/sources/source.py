@@ -8,7 +8,7 @@ from typing import Any
 from sambot_viz.panels.command import command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json
-from sambot_viz.session.data.live_data import LiveData
+from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.signals import Signal
 from sambot_viz.topics.live_reasons import lagging
 
@@ -19,7 +19,7 @@ class SourcePanel(Panel):
     """Says what is connected, missing, lost and recorded; starts and stops recordings.
 
     Args:
-        live: the messages of the robot.
+        data: the messages of a live robot.
         offers_recording: whether users of this session may record, if the command
             line has named a folder for it.
     """
@@ -27,23 +27,21 @@ class SourcePanel(Panel):
     name = "source"
     period = 1.0
 
-    def __init__(self, live: LiveData, offers_recording: bool = False) -> None:
-        self.remade_by = (live.status,)
-        self._live = live
+    def __init__(self, data: RobotData, offers_recording: bool = False) -> None:
+        self.remade_by = (data.status,)
+        self._data = data
         self._offers_recording = offers_recording
-        self._recorder = None if live.live is None else live.live.recorder
+        self._recorder = data.moved_by.recorder
 
     def data(self) -> Sequence[Data]:
         """Return the sentence of the source, and whether messages can come."""
-        robot = self._live.live
-        if robot is None:
-            return []
+        robot = self._data.moved_by
         status, sentence = robot.source.status, robot.sentence
         if status.retry_s is not None and not status.is_connected:
             sentence += f"; next attempt in {max(1, round(status.retry_s))} s"
-        if self._live.doubt is not None:
-            sentence += f"; {self._live.doubt.text}"
-        behind = lagging(status.dropped + self._live.lost, "this computer")
+        if self._data.doubt is not None:
+            sentence += f"; {self._data.doubt.text}"
+        behind = lagging(status.dropped + self._data.inbox.lost, "this computer")
         if behind is not None:
             sentence += f"; {behind.text}"
         return [
@@ -62,14 +60,14 @@ class SourcePanel(Panel):
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
         """The clock of the robot, when a page cannot know it by itself."""
-        return (self._live.clock.state,)
+        return (self._data.clock.state,)
 
     def values(self) -> dict[str, Json]:
         """Return the time of the robot."""
         return {CLOCK: self._clock()}
 
     def _clock(self) -> Json:
-        state = self._live.clock.state.value
+        state = self._data.clock.state.value
         return {"simulated": state.simulated, "time": state.time, "rate": state.rate}
 
     def _recording(self) -> Json:

@@ -30,93 +30,52 @@ _OFFERED = {word: offered for offered, word in QOS_WORDS.items()}
 """RViz's word → that of ROS; System Default is not here: it adapts to publishers."""
 
 
-class RecordedDescriptions:
-    """The descriptions in a recording: the last one of each topic.
+class SourceDescriptions:
+    """The descriptions in a recording, or of a live robot as they are published.
 
     Args:
-        recorded: the recording.
+        moved_by: the robot.
         is_given: the robot was named on the command line, and takes the place of the
-            recording's.
-    """
-
-    def __init__(self, recorded: SourceRobot, is_given: bool) -> None:
-        self._recorded = recorded
-        self._is_given = is_given
-
-    def topics(self) -> Sequence[str]:
-        """Return the topics that describe robots."""
-        return descriptions_of(self._recorded.topics)
-
-    def transform_doubts(self) -> Mapping[str, str]:
-        """Return nothing: what was recorded has come."""
-        return {}
-
-    def of(self, topic: str, qos: WantedQos) -> Description:
-        """Return what a topic says; the QoS of a recording is a matter of the past."""
-        del qos
-        recorded = self._recorded
-        known = recorded.source.topics()
-        main = recorded.topics.description
-        if topic == main and (self._is_given or recorded.description is not None):
-            opened = Description(topic, is_opened=True)
-            why = recorded.refusal
-            return _with(opened, why, "Error") if why else opened
-        if topic not in known:
-            if self._is_given and stands_for_opened(topic, self.topics()):
-                return Description(topic, is_opened=True)
-            return not_there(topic, self.topics(), _missing_in(recorded.name, topic))
-        type_name = recorded.decoder(known[topic]).type_name
-        if meaning_of(type_name) is not Meaning.TEXT:
-            return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
-        text = recorded.last_text(topic)
-        if text is not None:
-            return Description(topic, text, recorded.label_of(topic))
-        if known[topic].count == 0:
-            return _trouble(topic, reasons.no_message(topic).text)
-        return _trouble(topic, "none of its messages can be read: record it again")
-
-
-class LiveDescriptions:
-    """The descriptions of a live robot, which come when its publishers send them.
-
-    Args:
-        live: the robot.
-        is_given: as for `RecordedDescriptions`.
+            source's.
         worker: runs `changed`.
         changed: called when a topic says something else.
     """
 
     def __init__(
         self,
-        live: SourceRobot,
+        moved_by: SourceRobot,
         is_given: bool,
         worker: Worker,
         changed: Callable[[], None],
     ) -> None:
-        self._live = live
+        self._moved_by = moved_by
         self._is_given = is_given
         self._worker = worker
         self._changed = changed
-        self._decoding = Decoding(live.decoding.types)
+        self._decoding = Decoding(moved_by.decoding.types)
         self._texts: dict[str, str] = {}
         self._subscribed: dict[str, Callable[[Recorded], object]] = {}
         self._doubts: Mapping[str, str] = {}
         self._told: dict[tuple[str, WantedQos], Description] = {}
         self._look = partial(worker.post, self._look_again)
-        live.on_topics.append(self._look)
-        live.on_status.append(self._look)
+        moved_by.on_topics.append(self._look)
+        moved_by.on_status.append(self._look)
 
     def topics(self) -> Sequence[str]:
         """Return the topics that describe robots."""
-        return descriptions_of(self._live.topics)
+        return descriptions_of(self._moved_by.topics)
 
     def transform_doubts(self) -> Mapping[str, str]:
-        """Return the topics of transforms that RViz would get nothing from."""
-        topics, known = self._live.topics, self._live.source.topics()
+        """Return the topics of transforms that RViz would get nothing from.
+
+        What was recorded has come.
+        """
+        topics, known = self._moved_by.topics, self._moved_by.source.topics()
         doubts: dict[str, str] = {}
         for name in (*topics.moving, *topics.static):
-            qos = known[name].qos if name in known else None
-            doubt = transforms_qos(qos, is_static=name in topics.static)
+            if name not in known or self._moved_by.has_recorded(name):
+                continue
+            doubt = transforms_qos(known[name].qos, is_static=name in topics.static)
             if doubt is not None:
                 doubts[name] = capitalized(doubt.text)
         return doubts
@@ -127,47 +86,63 @@ class LiveDescriptions:
         return told
 
     def _of(self, topic: str, qos: WantedQos) -> Description:
-        live, source = self._live, self._live.source
+        moved_by, source = self._moved_by, self._moved_by.source
         known = source.topics().get(topic)
-        main = live.topics.description
+        main = moved_by.topics.description
         is_gone = known is None and stands_for_opened(topic, self.topics())
         if self._is_given and (is_gone or topic == main):
             return Description(topic, is_opened=True)
         if known is None:
             if not source.status.is_connected:
                 return _trouble(topic, source.status.sentence, "Warn")
-            missing = f"start the node that publishes it (ros2 topic info {topic})"
-            return not_there(topic, self.topics(), missing, "Warn")
+            if moved_by.can("clock"):
+                missing = f"start the node that publishes it (ros2 topic info {topic})"
+                return not_there(topic, self.topics(), missing, "Warn")
+            return not_there(topic, self.topics(), _missing_in(moved_by.name, topic))
         if known.reason is not None:
             return _trouble(topic, known.reason)
-        type_name = live.decoder(known).type_name
-        if meaning_of(type_name) is not Meaning.TEXT:
+        type_name = moved_by.decoder(known).type_name
+        if topic != main and meaning_of(type_name) is not Meaning.TEXT:
             return _trouble(topic, reasons.wrong_type(STRING, type_name).text)
+        described = self._described(topic)
+        if topic == main and moved_by.refusal:
+            return _with(described, moved_by.refusal, "Error")
+        if moved_by.has_recorded(topic):
+            return described
         refused = qos_mismatch(known.qos, wanted_qos(qos))
-        if topic == main:
-            has_come = live.description is not None
-            described = Description(topic, is_opened=has_come)
-        else:
-            self._subscribe(topic)
-            text = self._texts.get(topic)
-            has_come = text is not None
-            described = Description(topic, text, live.label_of(topic))
-        if topic == main and live.refusal:
-            return _with(described, live.refusal, "Error")
         if refused is not None:
             return _with(described, refused.text)
-        if has_come:
+        if described.is_opened or described.text is not None:
             return described
         silent = no_publisher(topic, known.publishers)
         why = "no message yet: wait for its publisher, or start it again"
         return _with(described, why if silent is None else silent.text)
 
+    def _described(self, topic: str) -> Description:
+        """Return what has come of a topic that is there, and ask for the rest."""
+        moved_by = self._moved_by
+        if topic == moved_by.topics.description and (
+            moved_by.description is not None or not moved_by.has_recorded(topic)
+        ):
+            is_opened = moved_by.description is not None
+            return Description(topic, is_opened=is_opened)
+        if not moved_by.has_recorded(topic):
+            self._subscribe(topic)
+            text = self._texts.get(topic)
+            return Description(topic, text, moved_by.label_of(topic))
+        text = moved_by.last_text(topic)
+        if text is not None:
+            return Description(topic, text, moved_by.label_of(topic))
+        if moved_by.source.topics()[topic].count == 0:
+            return _trouble(topic, reasons.no_message(topic).text)
+        return _trouble(topic, "none of its messages can be read: record it again")
+
     def close(self) -> None:
         """Take nothing any more."""
-        self._live.on_topics.remove(self._look)
-        self._live.on_status.remove(self._look)
+        self._moved_by.on_topics.remove(self._look)
+        self._moved_by.on_status.remove(self._look)
         for topic, receive in self._subscribed.items():
-            self._live.source.unsubscribe(topic, receive)
+            self._moved_by.source.unsubscribe(topic, receive)
         self._subscribed.clear()
 
     def _look_again(self) -> None:
@@ -186,7 +161,7 @@ class LiveDescriptions:
 
         if topic not in self._subscribed:
             self._subscribed[topic] = receive
-            self._live.source.subscribe(topic, receive)
+            self._moved_by.source.subscribe(topic, receive)
 
     def _take(self, message: Recorded) -> None:
         """Keep a description; runs in the worker."""

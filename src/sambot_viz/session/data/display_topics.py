@@ -1,4 +1,4 @@
-"""The messages that displays draw: those of a recording, or of a live robot."""
+"""The messages that displays draw."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.data.descriptions import wanted_qos
-from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.feed import Feed
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
 from sambot_viz.text import capitalized
@@ -22,21 +22,29 @@ from sambot_viz.topics.subscription import Subscription
 
 
 class DisplayTopics:
-    """Keeps what displays have subscribed to; the two kinds of sources derive from it.
+    """Keeps what displays have subscribed to.
 
     Args:
-        decoding: of their messages.
+        moved_by: decodes the messages.
+        feed: has them.
+        wake: called in the thread of a live source when something has come.
         report: tells an exception that no display should have raised.
     """
 
     def __init__(
         self,
-        decoding: Decoding,
+        moved_by: SourceRobot,
+        feed: Feed,
+        wake: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:
-        self._decoding = decoding
+        self._moved_by = moved_by
+        self._feed = feed
+        self._wake = wake
         self._report = report
+        self._decoding = Decoding(moved_by.decoding.types)
         self._subscriptions: list[Subscription] = []
+        self._types: tuple[object, Mapping[str, str]] = (None, {})
 
     def subscribe(
         self,
@@ -59,13 +67,13 @@ class DisplayTopics:
             minds_older=minds_older,
         )
         self._subscriptions.append(made)
-        self._begin(made)
+        self._feed.add(made, partial(self._receive, made))
         return made
 
     def unsubscribe(self, subscription: Subscription) -> None:
         """Ask for them no longer."""
         self._subscriptions.remove(subscription)
-        self._end(subscription)
+        self._feed.remove(subscription)
 
     @property
     def has_news(self) -> bool:
@@ -92,142 +100,52 @@ class DisplayTopics:
         for one in list(self._subscriptions):
             self.unsubscribe(one)
 
-    def _begin(self, subscription: Subscription) -> None:
-        raise NotImplementedError
-
-    def _end(self, subscription: Subscription) -> None:
-        raise NotImplementedError
-
-
-class RecordedDisplayTopics(DisplayTopics):
-    """The messages of a recording, at the time of its player.
-
-    Args:
-        recorded: the recording.
-        player: gives its messages.
-        report: as for `DisplayTopics`.
-    """
-
-    def __init__(
-        self,
-        recorded: SourceRobot,
-        player: Player,
-        report: Callable[[Exception], None],
-    ) -> None:
-        super().__init__(Decoding(recorded.decoding.types), report)
-        self._recorded = recorded
-        self._player = player
-        self._types: Mapping[str, str] = {}
-
-    def now_ns(self) -> int:
-        """Return the log time of the player [ns]."""
-        return self._player.time_ns
+    def now_ns(self, topic: str) -> int:
+        """Return the time of the source of a topic [ns]."""
+        return self._feed.time_ns(topic)
 
     def types(self) -> Mapping[str, str]:
         """Return the types of the messages of all topics, by their names."""
-        topics = self._recorded.source.topics()
-        if len(self._types) != len(topics):
-            # Those of a growing recording become more.
-            decoder = self._recorded.decoder
-            self._types = {name: decoder(one).type_name for name, one in topics.items()}
-        return self._types
+        topics = self._feed.source.topics()
+        if self._types[0] is not topics:
+            # New topics, or those of a growing recording, come as another mapping.
+            decoder = self._moved_by.decoder
+            types = {name: decoder(one).type_name for name, one in topics.items()}
+            self._types = topics, types
+        return self._types[1]
 
     def offered(self, topic: str) -> WantedQos | None:
         """Return the quality of service that suits a topic; None if not known."""
-        known = self._recorded.source.topics().get(topic)
+        known = self._feed.source.topics().get(topic)
         return None if known is None else _suiting(known.qos, known.is_latched)
 
     def doubt(
         self, topic: str, meanings: Collection[Meaning], qos: WantedQos
     ) -> TopicDoubt | None:
-        """Return why a topic gives nothing; QoS is a matter of the past here."""
-        del qos
-        recorded = self._recorded
-        known = recorded.source.topics().get(topic)
-        if known is None:
-            return not_there(topic, meanings, self.types())
-        decoder = recorded.decoder(known)
-        if meaning_of(decoder.type_name) not in meanings:
-            return wrong_type(meanings, decoder.type_name)
-        if decoder.reason is not None:
-            return TopicDoubt("Error", capitalized(decoder.reason.text))
-        if known.count == 0:
-            return TopicDoubt("Warn", capitalized(reasons.no_message(topic).text))
-        return None
+        """Return why a topic gives nothing, also what its publishers do not offer.
 
-    def _begin(self, subscription: Subscription) -> None:
-        self._player.add(subscription)
-
-    def _end(self, subscription: Subscription) -> None:
-        self._player.remove(subscription)
-
-
-class LiveDisplayTopics(DisplayTopics):
-    """The messages of a live robot, as they come.
-
-    Args:
-        live: the robot.
-        wake: called in the thread of the source when something has come.
-        report: as for `DisplayTopics`.
-    """
-
-    def __init__(
-        self,
-        live: SourceRobot,
-        wake: Callable[[], None],
-        report: Callable[[Exception], None],
-    ) -> None:
-        super().__init__(Decoding(live.decoding.types), report)
-        self._live = live
-        self._wake = wake
-        self._receivers: dict[Subscription, Callable[[Recorded], object]] = {}
-
-    def now_ns(self) -> int:
-        """Return the time of the robot, which may be simulated [ns]."""
-        return self._live.source.clock_ns()
-
-    def types(self) -> Mapping[str, str]:
-        """Return the types of the messages of all topics, by their names."""
-        live = self._live
-        known = live.source.topics().items()
-        return {name: live.decoder(one).type_name for name, one in known}
-
-    def offered(self, topic: str) -> WantedQos | None:
-        """Return the quality of service that suits a topic; None if not known."""
-        known = self._live.source.topics().get(topic)
-        return None if known is None else _suiting(known.qos, known.is_latched)
-
-    def doubt(
-        self, topic: str, meanings: Collection[Meaning], qos: WantedQos
-    ) -> TopicDoubt | None:
-        """Return why a topic gives nothing, also what its publishers do not offer."""
-        source = self._live.source
+        The QoS of a recording is a matter of the past.
+        """
+        source = self._feed.source
         known = source.topics().get(topic)
         if known is None:
             if not source.status.is_connected:
                 return TopicDoubt("Warn", source.status.sentence)
-            return not_there(topic, meanings, self.types(), "Warn")
+            # What is not published may come.
+            level = "Warn" if "clock" in source.capabilities else "Error"
+            return not_there(topic, meanings, self.types(), level)
         if known.reason is not None:
             return TopicDoubt("Error", capitalized(known.reason))
-        decoder = self._live.decoder(known)
+        decoder = self._moved_by.decoder(known)
         if meaning_of(decoder.type_name) not in meanings:
             return wrong_type(meanings, decoder.type_name)
         if decoder.reason is not None:
             return TopicDoubt("Error", capitalized(decoder.reason.text))
-        why = no_publisher(topic, known.publishers)
-        why = why or qos_mismatch(known.qos, wanted_qos(qos))
+        why = reasons.no_message(topic) if known.count == 0 else None
+        if not self._feed.is_recorded(topic):
+            why = no_publisher(topic, known.publishers)
+            why = why or qos_mismatch(known.qos, wanted_qos(qos))
         return None if why is None else TopicDoubt("Warn", capitalized(why.text))
-
-    def _begin(self, subscription: Subscription) -> None:
-        receive = partial(self._receive, subscription)
-        self._receivers[subscription] = receive
-        for topic in subscription.topics:
-            self._live.source.subscribe(topic, receive)
-
-    def _end(self, subscription: Subscription) -> None:
-        receive = self._receivers.pop(subscription)
-        for topic in subscription.topics:
-            self._live.source.unsubscribe(topic, receive)
 
     def _receive(self, subscription: Subscription, message: Recorded) -> None:
         """Leave a message to the worker; runs in the thread of the source."""

@@ -127,6 +127,10 @@ class RecordedTopics:
         del name
         return {}
 
+    def close(self) -> None:
+        """Look at nothing more."""
+        self._survey.is_complete = True
+
     def _look_again(self) -> None:
         """Tell when topics have begun of which it was said that they are to come."""
         now = self._player.time_ns

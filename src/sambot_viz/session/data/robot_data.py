@@ -1,24 +1,30 @@
-"""The robot of a session, moved by messages."""
+"""The robot of a session, moved by the messages of its sources."""
 
 from __future__ import annotations
 
-import time
+import re
+from functools import partial
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
-from sambot_viz.session.data.display_topics import (
-    LiveDisplayTopics,
-    RecordedDisplayTopics,
-)
-from sambot_viz.session.data.live_topics import LiveTopics
+from sambot_viz.frames.history import FrameHistory
+from sambot_viz.frames.samples import Sample
+from sambot_viz.session.data.display_topics import DisplayTopics
+from sambot_viz.session.data.feed import Feed
+from sambot_viz.session.data.inbox import Inbox
+from sambot_viz.session.data.live_clock import LiveClock
+from sambot_viz.session.data.live_topics import FaultOf, LiveTopics
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.recorded_topics import RecordedTopics
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.joint_states import JointStateTopics
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.websocket.clock_topic import CLOCK
+from sambot_viz.topics.live_reasons import wrong_clock
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
-from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
+from sambot_viz.topics.transforms import problems_of_transforms
 
 AGEING_PERIOD = 0.5
 """So often frames grow older [s]."""
@@ -27,65 +33,114 @@ AGEING_PERIOD = 0.5
 class RobotData:
     """Moves a robot and its frames as messages say.
 
+    What can seek has a player. Messages that come by themselves wait in an inbox.
+
     Args:
-        name: of the recording or the live robot.
-        transforms: takes /tf and /tf_static.
-        joint_states: takes /joint_states.
-        frames: those of the session, as they are drawn.
+        moved_by: the robot's messages.
+        history: of the session's frames.
+        frames: the same, as they are drawn.
         robot: is moved.
-        change: tells what is wrong.
-        worker: its clock says when frames have grown older.
+        change: tells what is wrong, and how a live source is.
+        worker: takes the messages.
+        fault_of: says why a frame has no place in the picture; None when it has one.
 
     Attributes:
-        name: as given.
-        transforms: as given.
-        recorded: the recording; None for a live robot.
-        live: the live robot; None for a recording.
-        player: the time of the recording; None for a live robot.
+        moved_by: as given.
+        name: of the recording or the live robot.
+        transforms: takes /tf and /tf_static.
+        player: the time of a recording; None without one.
+        inbox: what has come of a live robot.
         topics: what is said of the topics.
         messages: those that displays draw.
         problems: what the transforms that were taken had wrong.
-        period: the time between two pictures [s].
+        status: told when a live source is doing otherwise.
+        clock: the time of a live robot.
+        doubt: what is wrong with that time.
     """
-
-    recorded: SourceRobot | None = None
-    live: SourceRobot | None = None
-    player: Player | None = None
-    topics: RecordedTopics | LiveTopics
-    messages: RecordedDisplayTopics | LiveDisplayTopics
 
     def __init__(
         self,
-        name: str,
-        transforms: TransformTopics,
-        joint_states: JointStateTopics,
+        moved_by: SourceRobot,
+        history: FrameHistory,
         frames: DataFrames,
         robot: RobotState,
         change: Change,
         worker: Worker,
+        fault_of: FaultOf,
     ) -> None:
-        self.name = name
-        self._change = change
-        self._worker = worker
+        self.moved_by = moved_by
+        self.name = moved_by.name
+        self.transforms = moved_by.transforms(history)
         self.problems = Signal[tuple[Problem, ...]](change, ())
-        self._said: tuple[int, str] = (0, "")
-        self._looked = float("-inf")
-        self.transforms = transforms
-        self.period = 1 / 30
-        self._joint_states = joint_states
+        self.status = Signal(change, None)
+        self.doubt: TopicReason | None = None
+        self._joint_states = moved_by.joint_states()
         self._frames = frames
         self._robot = robot
-        frames.changed = transforms.changed
-        frames.pairs = transforms.pairs
+        self._change = change
+        self._worker = worker
+        self._period = 1 / 30
+        self._said: tuple[int, str] = (0, "")
+        self._doubted = ""
+        self._looked = float("-inf")
+        self._closed = False
+        source = self.source = moved_by.source.of_session()
+        self.player: Player | None = None
+        if source.playback is not None:
+            is_begun = moved_by.at_ns is not None
+            self.player = Player(source.playback, self._draw, change, worker, is_begun)
+        self.inbox = Inbox(
+            worker, self._look_back, self._take, partial(self._draw, False)
+        )
+        self.clock = LiveClock(source, change)
+        self._feed = Feed(source, self.player)
+        self.messages = DisplayTopics(
+            moved_by, self._feed, self.inbox.wake, worker.report
+        )
+        self.topics: RecordedTopics | LiveTopics
+        if self.player is not None:
+            tree = frames.tree
+            self.topics = RecordedTopics(moved_by, tree, self.player, change, worker)
+        else:
+            self.topics = LiveTopics(moved_by, fault_of, change, worker)
+        frames.changed = self.transforms.changed
+        frames.pairs = self.transforms.pairs
+        frames.ahead = self._ahead
+        self._moves = self._has_motion()
+        if self._moves:
+            robot.followed.set(self.name)
+        for subscriber in (self.transforms, self._joint_states):
+            self._feed.add(subscriber, self.inbox.put)
+        self._tell_status = partial(worker.post, self.status.touch)
+        self._look = partial(worker.post, self._listen)
+        moved_by.on_topics.append(self._look)
+        moved_by.on_status.append(self._tell_status)
+        if moved_by.can("clock"):
+            self._tick()
+
+    @property
+    def period(self) -> float:
+        """The time between two pictures [s]."""
+        return self._period
+
+    @period.setter
+    def period(self, period: float) -> None:
+        self._period = self.inbox.period = period
+        if self.player is not None:
+            self.player.period = period
 
     def begin(self) -> None:
-        """Begin when the first page is there."""
+        """Play a recording when the first page is there, unless it was stopped."""
+        if self.player is not None:
+            self.player.begin()
 
     def resume(self) -> None:
         """Show what messages say now, after another robot is shown."""
-
-    def close(self) -> None:
-        """Take nothing any more."""
+        if self.player is not None:
+            self.player.resume()
+        else:
+            self._robot.note_followed(self._joint_states.last)
+            self._robot.draw_moved()
 
     def follow(self, follow: bool) -> None:
         """Let the messages move the joints, or users; frames such as odom move on."""
@@ -95,13 +150,52 @@ class RobotData:
 
     def time_s(self) -> float:
         """Return the time of the messages [s since 1970]."""
-        return time.time()
+        return self.source.clock_ns() * 1e-9
+
+    def close(self) -> None:
+        """Take nothing any more."""
+        self._closed = True
+        self.moved_by.on_topics.remove(self._look)
+        self.moved_by.on_status.remove(self._tell_status)
+        self.topics.close()
+        self.messages.close()
+        for subscriber in (self.transforms, self._joint_states):
+            self._feed.remove(subscriber)
+        if self.player is not None:
+            self.player.close()
+
+    def _ahead(self) -> dict[str, Sample]:
+        if self.player is None:
+            return {}
+        return self.transforms.to_come(self.player.time_ns)
+
+    def _has_motion(self) -> bool:
+        topics = self.moved_by.topics
+        return bool(topics.moving or topics.joint_states)
+
+    def _listen(self) -> None:
+        """Ask for the topics of the robot that are new; runs in the worker."""
+        topics = self.moved_by.topics
+        self.transforms.set_topics(topics.moving, topics.static)
+        self._joint_states.topics = topics.joint_states
+        if not self._moves and self._has_motion():
+            self._moves = True
+            self._robot.set_followed(self.name)
+        if not self._closed:
+            for one in (self.transforms, self._joint_states):
+                self._feed.listen(one, one.topics)
+
+    def _take(self, message: Recorded) -> None:
+        if message.topic in self.transforms.topics:
+            self.transforms.take(message)
+        else:
+            self._joint_states.take(message)
 
     def _draw(self, jumped: bool) -> None:
         said = (self.transforms.turned_back_by, self.transforms.limit.left_out)
         if said != self._said:
             self._said = said
-            is_live = self.live is not None
+            is_live = self.player is None
             self.problems.set(
                 problems_of_transforms(self.transforms, self.name, is_live=is_live)
             )
@@ -121,3 +215,40 @@ class RobotData:
         if jumped or now - self._looked >= AGEING_PERIOD:
             self._looked = now
             self._robot.time_passed()
+
+    # The time of a live robot
+
+    def _tick(self) -> None:
+        """Let frames of a robot that has fallen silent grow old; runs in the worker."""
+        if not self._closed:
+            self._look_back()
+            self._look_at_time()
+            self._look_at_clock()
+            self._worker.post_later(AGEING_PERIOD, self._tick)
+
+    def _look_back(self) -> None:
+        """Forget what RViz forgets when a simulation is reset; runs in the worker."""
+        back = self.clock.went_back()
+        if back > 0.0:
+            self.transforms.go_back(round(back * 1e9))
+            self._joint_states.clear()
+            self.messages.reset()
+            self._draw(True)
+
+    def _look_at_clock(self) -> None:
+        self.clock.look()
+        source = self.source
+        doubt = None
+        if source.status.is_connected and self._moves:
+            stamp, now = self.transforms.newest_ns * 1e-9, self.time_s()
+            has_topic = CLOCK in source.topics()
+            doubt = wrong_clock(stamp, now, has_topic, source.has_clock)
+        # What is so only until the first message is no news, nor that its times go on.
+        last, self._doubted = self._doubted, _without_times(doubt)
+        if self._doubted == last and last != _without_times(self.doubt):
+            self.doubt = doubt
+            self.status.touch()
+
+
+def _without_times(doubt: TopicReason | None) -> str:
+    return "" if doubt is None else re.sub(r"[0-9.]+", "", doubt.text)

@@ -243,7 +243,7 @@ class CloudDisplay(MessageFilterDisplay):
     def _let_decay(self) -> None:
         messages, decay = self.context.messages, self._decay_s
         if messages is not None and decay > 0.0:
-            oldest = messages.now_ns() - round(decay * _NS)
+            oldest = messages.now_ns(self.topic) - round(decay * _NS)
             while self._clouds and self._clouds[0].came_ns < oldest:
                 self._clouds.pop(0).node.remove()
         count = sum(len(shown.cloud.points) for shown in self._clouds)

@@ -154,7 +154,7 @@ class MarkerDisplay(MessageFilterDisplay):
         messages, (_, stamp_ns) = self.context.messages, frame_and_stamp(message)
         if messages is None or stamp_ns is None:
             return came.log_ns
-        waited = came.log_ns < stamp_ns <= messages.now_ns()
+        waited = came.log_ns < stamp_ns <= messages.now_ns(self.topic)
         return stamp_ns if waited else came.log_ns
 
     def messages_came(self) -> None:
@@ -182,7 +182,7 @@ class MarkerDisplay(MessageFilterDisplay):
         """Draw the markers that are other ones, without those that are too old."""
         messages = self.context.messages
         if messages is not None:
-            self._markers.expire(messages.now_ns())
+            self._markers.expire(messages.now_ns(self.topic))
         self._markers.draw()
 
     def redraw(self) -> None:

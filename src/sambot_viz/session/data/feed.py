@@ -1,0 +1,63 @@
+"""Where the messages of a session come from: its player, or a robot by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from sambot_viz.session.data.player import Player
+from sambot_viz.sources.source import OnMessage, Source
+from sambot_viz.sources.subscriber import Subscriber
+
+
+class Feed:
+    """Gives subscribers their messages, whatever source has their topics.
+
+    Args:
+        source: as the session sees it.
+        player: moves the time of what can seek; None without that.
+    """
+
+    def __init__(self, source: Source, player: Player | None) -> None:
+        self.source = source
+        self.player = player
+        self._receivers: dict[Subscriber, tuple[OnMessage, dict[str, None]]] = {}
+
+    def is_recorded(self, topic: str) -> bool:
+        """Return whether the player has the messages of a topic."""
+        return self.player is not None and topic in self.player.recording.topics
+
+    def time_ns(self, topic: str) -> int:
+        """Return the time of the source of a topic [ns]."""
+        if self.player is not None and self.is_recorded(topic):
+            return self.player.time_ns
+        return self.source.clock_ns()
+
+    def add(self, subscriber: Subscriber, receive: OnMessage) -> None:
+        """Give one more the messages of its topics; recorded ones of now at once.
+
+        Args:
+            subscriber: takes what is recorded, in the session's worker.
+            receive: gets what comes by itself, in the thread of its source.
+        """
+        if self.player is not None:
+            self.player.add(subscriber)
+        self._receivers[subscriber] = (receive, {})
+        self.listen(subscriber, subscriber.topics)
+
+    def listen(self, subscriber: Subscriber, topics: Iterable[str]) -> None:
+        """Ask for topics that one that was added may have got since."""
+        if "clock" not in self.source.capabilities:
+            return
+        receive, asked = self._receivers[subscriber]
+        for topic in topics:
+            if topic not in asked and not self.is_recorded(topic):
+                asked[topic] = None
+                self.source.subscribe(topic, receive)
+
+    def remove(self, subscriber: Subscriber) -> None:
+        """Give one that was added no more messages."""
+        if self.player is not None:
+            self.player.remove(subscriber)
+        receive, asked = self._receivers.pop(subscriber)
+        for topic in asked:
+            self.source.unsubscribe(topic, receive)
