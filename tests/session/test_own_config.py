@@ -1,4 +1,4 @@
-"""The config of a robot that has none: the tutorial's, of the size of the robot."""
+"""The config of a robot that has none: opaque, with frames, of the robot's size."""
 
 from __future__ import annotations
 
@@ -61,12 +61,12 @@ TUTORIAL = {"alpha": 0.6, "frames": True, "cell": 1.0, "scale": 0.3}
 @pytest.mark.parametrize(
     ("side", "cell"), [(0.1, 0.05), (0.45, 0.2), (2.1, 1.0), (30.0, 20.0)]
 )
-def test_a_robot_without_a_config_has_frames_and_a_grid_of_its_size(
+def test_a_robot_without_a_config_is_opaque_with_frames_on_a_grid_of_its_size(
     side: float, cell: float, tmp_path: Path
 ) -> None:
     with Visualizer(write(tmp_path, side), port=0) as viz:
         session = session_of(viz)
-        expected = {"alpha": 0.6, "frames": True, "cell": cell, "scale": cell}
+        expected = {"alpha": 1.0, "frames": True, "cell": cell, "scale": cell}
         assert shown(session) == expected
         assert displays(session.document.config)["TF"].get("Show Names") is True
         assert session.scene.context.fixed_frame == "hull"
@@ -192,7 +192,7 @@ def test_another_size_of_the_robot_is_followed_until_a_user_chooses(
         session.display_edits.set_property(session.scene.displays[0], "Cell Size", 0.25)
         session.show_robot(load_robot(write(tmp_path, 4.0)))
         assert shown(session) == {
-            "alpha": 0.6,
+            "alpha": 1.0,
             "frames": True,
             "cell": 0.25,
             "scale": 2.0,
@@ -206,7 +206,7 @@ def test_each_private_session_has_it(
         for _ in range(2):
             protocol(viz.viser.get_port()).settle(viz.viser)
         sessions = viz.server.sessions.all()
-        expected = {"alpha": 0.6, "frames": True, "cell": 0.05, "scale": 0.05}
+        expected = {"alpha": 1.0, "frames": True, "cell": 0.05, "scale": 0.05}
         assert list(map(shown, sessions)) == [expected, expected]
 
 
@@ -220,7 +220,7 @@ def test_a_live_robot_has_it_as_soon_as_it_comes() -> None:
             box = BOX.format(name="lab", geometry="<box size='0.1 0.1 0.1'/>")
             peer.publish("/robot_description", box)
             eventually(lambda: getattr(session.robot.model, "name", "") == "lab")
-            expected = {"alpha": 0.6, "frames": True, "cell": 0.05, "scale": 0.05}
+            expected = {"alpha": 1.0, "frames": True, "cell": 0.05, "scale": 0.05}
             eventually(lambda: shown(session) == expected)
             assert session.scene.displays[2].shown
     finally:

@@ -1,7 +1,8 @@
 """The config that comes with the program, for a robot that has none of its own.
 
 It was made for the tutorial's robot: each frame has its axes and its name, and the
-robot can be seen through. Other robots are shown so too, with sizes that fit them.
+robot can be seen through. Other robots have frames too, but are opaque, and sizes fit
+them.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from sambot_viz import bundled
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.displays.scene_size import SceneSize, frame_spacing
 from sambot_viz.displays.tf.tf import TfDisplay
 from sambot_viz.frames.hierarchy import plain_name
@@ -30,6 +32,8 @@ TUTORIAL = "sam_bot"
 """The name of the tutorial's robot, which those who change a copy of it keep."""
 MOST_NAMES = 30
 """The names and arrows of more frames would cover each other."""
+_ALPHA = 0.6
+"""Of the robot, in the file."""
 _IN_FILE = {
     (GridDisplay.kind, "Cell Size"): 1.0,
     (TfDisplay.kind, "Marker Scale"): 0.3,
@@ -44,17 +48,19 @@ def take_root(document: RvizConfig, robot: Robot) -> None:
 
 
 def fit_robot(document: RvizConfig, robot: Robot) -> None:
-    """Let sizes follow a robot, unless it is the tutorial's, and name few frames.
+    """Show a robot opaque and let sizes follow it, unless it is the tutorial's.
 
-    A robot without a visual shape has no size; its frames keep theirs.
+    Many frames have no names. A robot without a visual shape has no size; its frames
+    keep theirs.
     """
     document.fits_robot = robot.name != TUTORIAL and any(
         link.visuals for link in robot.links.values()
     )
-    if len(robot.links) <= MOST_NAMES:
-        return
     for display in document.displays:
-        if display.kind == TfDisplay.kind:
+        if display.kind == RobotModelDisplay.kind:
+            if document.fits_robot and display.get("Alpha") == _ALPHA:
+                display.set("Alpha", 1.0)
+        elif display.kind == TfDisplay.kind and len(robot.links) > MOST_NAMES:
             display.set("Show Names", False)
             display.set("Show Arrows", False)
 
