@@ -99,7 +99,7 @@ ROOMS: Mapping[str, Row] = {
     "frames": Row("robot", "numpy"),
     "joints": Row("robot", "numpy yaml"),
     "drive": Row("joints robot", "numpy"),
-    "messages": Row("", "google numpy rosbags"),
+    "messages": Row("", "google msgspec numpy rosbags"),
     # What they mean, whatever they are written in.
     "meanings": Row("messages", "numpy"),
     # From recordings and robots on the network to messages as bytes.
@@ -528,7 +528,7 @@ def test_a_light_command_imports_neither_viser_nor_a_mesh_library(
         "except SystemExit:\n"
         "    pass\n"
         "heavy = {'viser', 'trimesh', 'yourdfpy', 'scipy', 'PIL', 'rosbags', "
-        "'google.protobuf', 'flatbuffers'}\n"
+        "'google.protobuf'}\n"
         f"heavy -= {known!r}\n"
         "heavy &= set(sys.modules)\n"
         "assert not heavy, heavy\n"

@@ -283,10 +283,10 @@ def test_a_field_that_is_not_read_is_named_and_no_folder_is_asked_for(
 def test_a_definition_in_another_language_is_named(
     types: MessageTypes, tmp_path: Path
 ) -> None:
-    schema = Schema("my_lab/msg/Level", "omgidl", "struct Level { double value; };")
+    schema = Schema("my_lab/msg/Level", "asn1", "Level ::= REAL")
     reason = types.decoder(schema, "cdr").reason
     assert reason is not None and reason.code == "encoding"
-    assert "its definition is omgidl, which is not read yet" in reason.text
+    assert "its definition is asn1, which is not read yet" in reason.text
     # The remedy that it names.
     assert "--msg-path" in reason.text
     folder = tmp_path / "my_lab" / "msg"
@@ -297,6 +297,13 @@ def test_a_definition_in_another_language_is_named(
     # ROS's own types need no text.
     known = types.decoder(Schema("geometry_msgs::msg::dds_::Point_", "omgidl"), "cdr")
     assert known.decode(b"\0\1\0\0" + struct.pack("<3d", 1, 2, 3)).z == 3
+
+
+def test_definitions_in_the_idl_of_omg_are_read(types: MessageTypes) -> None:
+    text = "module my_lab { module msg { struct Level { double value; }; }; };"
+    for name in ("my_lab/msg/Level", "my_lab::msg::Level", "my_lab::msg::dds_::Level_"):
+        decoder = types.decoder(Schema(name, "omgidl", text), "cdr")
+        assert decoder.decode(struct.pack("<4sd", b"\0\1\0\0", 2.5)).value == 2.5
 
 
 @pytest.mark.parametrize("name", ["tf2_msgs/TFMessage", "tf/tfMessage"])

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from sambot_viz.meanings.row import SENSOR_POSE, SchemaRow
+from sambot_viz.errors import DecodeError
+from sambot_viz.meanings.row import SENSOR_POSE, Fields, SchemaRow
 from sambot_viz.meanings.schemas import row_of
 from sambot_viz.messages import Decoder, KeptElements, MessageTypes
 from sambot_viz.messages.decoder import Payload
@@ -47,8 +48,20 @@ class _MeaningReader:
 
     def __call__(self, payload: Payload, kept: KeptElements | None = None) -> Any:
         fields = fields_of(self._decoder.decode(payload, kept))
+        try:
+            return self._in_look(fields)
+        except DecodeError:
+            raise
+        except Exception as error:
+            # A field of another kind than its schema has; tables do not check each.
+            cause = f"its fields are not those of {self._decoder.type_name}"
+            raise DecodeError(cause) from error
+
+    def _in_look(self, fields: Fields) -> Any:
         if self._look is not None:
             fields = self._look(fields)
+        elif fields.keys().isdisjoint(self._shape.fields):
+            raise DecodeError(f"it has no field of {self._shape.name}")
         message = self._shape.filled(fields)
         pose = fields.get(SENSOR_POSE)
         if pose is not None:

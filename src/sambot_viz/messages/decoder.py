@@ -6,9 +6,8 @@ tolerant of trailing bytes and never to trust a length.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
-from typing import Any, cast
+from typing import Any
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import TypeDefinition
@@ -17,6 +16,8 @@ from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.reason import Reason
 
 Payload = bytes | bytearray | memoryview
+_XCDR2 = tuple(bytes((0, number)) for number in range(6, 12))
+"""How messages in the newer CDR of DDS begin."""
 _PADDING = 3
 """CDR pads messages to four bytes."""
 _ZEROS = 8
@@ -62,22 +63,6 @@ class Decoder:
             DecodeError: the bytes are no such message; a short cause.
         """
         raise DecodeError(self.reason.text if self.reason else "it cannot be read")
-
-
-class JsonDecoder(Decoder):
-    """Reads messages that are JSON objects."""
-
-    def decode(
-        self, payload: Payload, kept: KeptElements | None = None
-    ) -> dict[str, Any]:
-        """Return a message as a dict."""
-        try:
-            message: object = json.loads(bytes(payload))
-        except (ValueError, RecursionError):
-            raise DecodeError("it is not JSON") from None
-        if not isinstance(message, dict):
-            raise DecodeError("it is not a JSON object")
-        return cast("dict[str, Any]", message)
 
 
 class _Store:
@@ -130,7 +115,7 @@ class _Layout:
         else:
             head = bytes(payload[:2])
             if len(payload) < 4 or head not in (b"\0\0", b"\0\1"):
-                raise DecodeError(f"it begins with {head.hex() or 'nothing'}, not CDR")
+                raise DecodeError(_not_cdr(head))
             function = own.deserialize_cdr_le if head[1] else own.deserialize_cdr_be
             payload = payload[4:]
             if not payload and self.definition.is_empty:
@@ -216,6 +201,13 @@ def definition_wrong(fault: str, type_name: str) -> Reason:
         f"the definition that came with it {fault}, so the standard {type_name} is "
         "used; record with the same version of the package as the publisher",
     )
+
+
+def _not_cdr(head: bytes) -> str:
+    found = f"it begins with {head.hex() or 'nothing'}, not CDR"
+    if head in _XCDR2:
+        return f"{found} but XCDR2; have its writer use XCDR1"
+    return found
 
 
 def _cause(error: Exception) -> str:

@@ -23,8 +23,9 @@ from sambot_viz.messages.definition import (
 if TYPE_CHECKING:
     from rosbags.interfaces.typing import Fielddefs
 
-LANGUAGES = ("ros2msg", "ros2idl", "ros1msg")
+LANGUAGES = ("ros2msg", "ros2idl", "omgidl", "ros1msg")
 """The encodings of definitions that can be parsed."""
+_IDLS = ("ros2idl", "omgidl")
 _LONGEST = limits.DEFINITION.value
 """A longer text is none of a message: MoveIt's largest has 60 kB."""
 _LONGEST_WITHOUT_COMMENTS = 1 << 17
@@ -79,7 +80,7 @@ def parsed_types(name: str, language: str, text: str | bytes) -> Types:
     if len(text) > _LONGEST:
         raise DecodeError(f"its definition is longer than {_LONGEST:,} characters")
     text = text.replace("\r\n", "\n")
-    if language != "ros2idl":
+    if language not in _IDLS:
         # Most of a text; rosbags takes 20 µs for each line.
         text = _COMMENTS.sub("", text)
         # rosbags' parser stops at it; the bound changes nothing in a message.
@@ -103,13 +104,13 @@ def _parsed(name: str, language: str, text: str) -> Types:
     from rosbags.typesys import get_types_from_idl, get_types_from_msg
 
     def read(name: str, text: str) -> Types:
-        if language == "ros2idl":
+        if language in _IDLS:
             parts = [get_types_from_idl(part) for part in _IDL.split(text) if part]
         else:
             parts = [get_types_from_msg(text, name)]
         return {name: types[name][1] for types in parts for name in types}
 
-    if name.endswith("_Event") and (language == "ros2idl" or _PARTING.search(text)):
+    if name.endswith("_Event") and (language in _IDLS or _PARTING.search(text)):
         return _service_event(name, language, text, read)
     types = read(name, text)
     if name not in types:
@@ -125,7 +126,7 @@ def _service_event(name: str, language: str, text: str, read: _Read) -> Types:
     rosbag2 writes the text of the service, a request and a response.
     """
     service = name.removesuffix("_Event")
-    if language == "ros2idl":
+    if language in _IDLS:
         types = dict(read(service, text))
         if name in types:
             return types

@@ -14,6 +14,7 @@ from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.decoder import Decoder, Payload
 from sambot_viz.messages.kept_elements import KeptElements
+from sambot_viz.messages.plain_fields import within_limit
 from sambot_viz.messages.schema import Schema
 
 if TYPE_CHECKING:
@@ -57,11 +58,9 @@ class ProtobufDecoder(Decoder):
         """Return the fields of a message; one that is not set is not there."""
         from google.protobuf.message import DecodeError as CannotDecodeError
 
-        if len(payload) > limits.FIELDS_MESSAGE.value:
-            raise DecodeError(f"it has {limits.FIELDS_MESSAGE.said(len(payload))}")
         message = self._class()
         try:
-            message.ParseFromString(bytes(payload))
+            message.ParseFromString(bytes(within_limit(payload)))
         except CannotDecodeError:
             raise DecodeError("it is cut off or of another type") from None
         return self._fields(message, self._type)
@@ -118,17 +117,13 @@ def _descriptor(schema: Schema) -> Descriptor:
 
     data = schema.text
     if not isinstance(data, bytes) or not data:
-        raise DecodeError(
-            "its messages are protobuf, and its channel has no descriptor of them"
-        )
+        raise DecodeError("its messages are protobuf, and have no descriptor")
     if len(data) > limits.DEFINITION.value:
         raise DecodeError(f"its descriptor has {limits.DEFINITION.said(len(data))}")
     try:
         files = FileDescriptorSet.FromString(data).file
     except CannotDecodeError:
-        raise DecodeError(
-            "its messages are protobuf, and their descriptor is damaged"
-        ) from None
+        raise DecodeError("its descriptor is damaged") from None
     pool = DescriptorPool()
     _add(pool, {one.name: one for one in files})
     try:

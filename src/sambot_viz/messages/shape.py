@@ -48,6 +48,10 @@ class MessageShape:
 
     Args:
         definition: of the type.
+
+    Attributes:
+        name: of the type.
+        fields: their names.
     """
 
     def __init__(self, definition: TypeDefinition) -> None:
@@ -58,6 +62,8 @@ class MessageShape:
             store.register({n: ([], fields) for n, fields in definition.types.items()})
         self._classes: Mapping[str, Any] = store.types
         self._types = definition.types
+        self.name = definition.name
+        self.fields = tuple(name for name, _ in definition.types[definition.name])
         self._fills: dict[str, Fill] = {}
         self._fill = self._of_type(definition.name)
 

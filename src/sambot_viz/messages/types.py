@@ -11,18 +11,21 @@ from sambot_viz.errors import DecodeError
 from sambot_viz.messages.decoder import (
     Decoder,
     FieldDecoder,
-    JsonDecoder,
     definition_wrong,
 )
 from sambot_viz.messages.definition import UnreadFieldError, closed
 from sambot_viz.messages.definition_text import LANGUAGES, canonical_name, parse
+from sambot_viz.messages.flatbuffer import FlatBufferDecoder
 from sambot_viz.messages.known_types import KnownTypes
+from sambot_viz.messages.plain_fields import PLAIN_ENCODINGS, PlainFieldsDecoder
 from sambot_viz.messages.protobuf import ProtobufDecoder
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.schema import Schema
 from sambot_viz.messages.shape import MessageShape
 
-_READ = ("cdr", "ros1", "json", "protobuf")
+_BY_FIELDS = ("cdr", "ros1")
+_BY_SCHEMA = {"protobuf": ProtobufDecoder, "flatbuffer": FlatBufferDecoder}
+"""Encodings with definitions of their own."""
 
 
 class MessageTypes:
@@ -73,15 +76,18 @@ class MessageTypes:
 
     def _made(self, schema: Schema, encoding: str) -> Decoder:
         name = canonical_name(schema.name)
-        if encoding not in _READ:
-            return Decoder(name, encoding, _not_read(name, encoding))
-        if encoding == "json":
-            return JsonDecoder(name, encoding)
-        if encoding == "protobuf":
+        if encoding in PLAIN_ENCODINGS:
+            return PlainFieldsDecoder(name, encoding)
+        if encoding in _BY_SCHEMA:
             try:
-                return ProtobufDecoder(schema)
-            except DecodeError as error:
-                return Decoder(name, encoding, Reason("encoding", str(error)))
+                return _BY_SCHEMA[encoding](schema)
+            except Exception as error:
+                # The library's errors are of several kinds, by what is broken.
+                known = isinstance(error, DecodeError)
+                cause = str(error) if known else f"its {encoding} schema is damaged"
+                return Decoder(name, encoding, Reason("encoding", cause))
+        if encoding not in _BY_FIELDS:
+            return Decoder(name, encoding, _not_read(encoding))
         try:
             return self._by_fields(name, schema, encoding)
         except UnreadFieldError as error:
@@ -118,9 +124,6 @@ class MessageTypes:
         return FieldDecoder(name, encoding, [own], others)
 
 
-def _not_read(name: str, encoding: str) -> Reason:
-    if encoding in ("flatbuffer", "cbor", "msgpack"):
-        of = f" ({name})" if name else ""
-        return Reason("encoding", f"its messages are {encoding}{of}, not read yet")
+def _not_read(encoding: str) -> Reason:
     named = f"encoding is {encoding}" if encoding else "channel has no encoding"
     return Reason("encoding", f"its {named}, which is not known here")

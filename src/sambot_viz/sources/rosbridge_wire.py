@@ -16,7 +16,7 @@ from typing import Any, TypeVar, cast
 import msgspec
 
 from sambot_viz.messages import Schema
-from sambot_viz.sources.cbor import CborError, read_cbor
+from sambot_viz.messages.cbor import CborError, read_cbor
 
 EACH_COUNTS = {
     "tf2_msgs/TFMessage",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.foxglove import packed
+from sambot_viz.meanings.foxglove import packed, scene
 from sambot_viz.meanings.foxglove.parts import (
     header_of,
     part,
@@ -175,6 +175,7 @@ FOXGLOVE: Mapping[str, SchemaRow] = {
     "foxglove.PosesInFrame": SchemaRow(Meaning.POSES, _poses),
     "foxglove.Point3InFrame": SchemaRow(Meaning.POINT, _point),
     "foxglove.Odometry": SchemaRow(Meaning.ODOMETRY, _odometry),
+    "foxglove.SceneUpdate": SchemaRow(Meaning.MARKERS, scene.markers),
     "foxglove.RawImage": SchemaRow(Meaning.IMAGE, _raw_image),
     "foxglove.CompressedImage": SchemaRow(Meaning.IMAGE_FILE, _image_file),
     "foxglove.CompressedVideo": SchemaRow(Meaning.IMAGE_FILE, _image_file),

@@ -8,7 +8,7 @@ import random
 import pytest
 from rosbridge_peer import cbor
 
-from sambot_viz.sources.cbor import CborError, read_cbor
+from sambot_viz.messages.cbor import CborError, read_cbor
 
 
 def plain(value: object) -> object:

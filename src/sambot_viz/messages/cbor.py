@@ -1,4 +1,4 @@
-"""Read CBOR (RFC 8949), as rosbridge sends it: bytes stay views of the frame.
+"""Read CBOR (RFC 8949): bytes stay views, arrays of numbers (RFC 8746) numpy's.
 
 No length of the peer is trusted: what it announces must be there.
 """
@@ -7,13 +7,26 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
 
 DEEPEST = 16
 """Values are nested so deeply at most; rosbridge's have a depth of three."""
 
 _FLOATS = {25: struct.Struct(">e"), 26: struct.Struct(">f"), 27: struct.Struct(">d")}
 _SIMPLE = {20: False, 21: True, 22: None, 23: None}
+_ARRAYS = {
+    **{64 + number: f">u{1 << number}" for number in range(4)},
+    68: "u1",
+    **{68 + number: f"<u{1 << number}" for number in range(1, 4)},
+    **{72 + number: f">i{1 << number}" for number in range(4)},
+    **{76 + number: f"<i{1 << number}" for number in range(1, 4)},
+    **{80 + number: f">f{2 << number}" for number in range(3)},
+    **{84 + number: f"<f{2 << number}" for number in range(3)},
+}
+"""Tags of arrays of numbers → numpy's type of their elements."""
 _T = TypeVar("_T")
 _BREAK = 0xFF
 _ENDLESS = 31
@@ -26,6 +39,7 @@ Value = (
     | memoryview
     | list["Value"]
     | dict["Value", "Value"]
+    | npt.NDArray[Any]
     | None
 )
 
@@ -34,7 +48,7 @@ class CborError(ValueError):
     """Bytes that are not CBOR, or not as many as they announce."""
 
 
-def read_cbor(frame: bytes) -> Value:
+def read_cbor(frame: bytes | memoryview) -> Value:
     """Return the value that a frame holds; arrays of bytes are views of it.
 
     Raises:
@@ -88,7 +102,7 @@ class _CborReader:
         if major == 3:
             return self.string(self.take(number))
         if major == 6:  # a tag says how to understand what follows
-            return self.value(depth + 1)
+            return _tagged(number, self.value(depth + 1))
         # Each entry takes a byte at least.
         if number > len(self.view) - self.at:
             raise CborError(f"{number} entries are announced")
@@ -134,3 +148,13 @@ class _CborReader:
             return str(view, "utf-8")
         except UnicodeDecodeError as error:
             raise CborError("a text is not UTF-8") from error
+
+
+def _tagged(tag: int, value: Value) -> Value:
+    """Return a value as its tag says it is to be understood."""
+    kind = _ARRAYS.get(tag)
+    if kind is None or not isinstance(value, memoryview):
+        return value
+    if len(value) % np.dtype(kind).itemsize:
+        raise CborError(f"{len(value)} bytes are no array of the tag {tag}")
+    return np.frombuffer(value, kind)
