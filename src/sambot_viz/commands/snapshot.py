@@ -60,7 +60,8 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:
             camera = session.document_view.camera
-            if fit or session.document.config.fits_robot:
+            config = session.document.config
+            if fit or config.fits_robot or config.unasked:
                 viz.server.sessions.wait_for_meshes(LONGEST_WAIT)
                 camera = session.document_view.camera_on_robot(width, height)
             return snapshot(viz.server, chromium, width, height, camera)
@@ -87,7 +88,7 @@ def parser() -> Parser:
         "--fit",
         action="store_true",
         help="show the whole robot, whatever distance the config says (RViz's default "
-        "is 10 m); so does a robot without a config",
+        "is 10 m); so does a robot or a recording without a config",
     )
     return made
 

@@ -82,7 +82,11 @@ class Window:
             self._displays,
             ProblemsPanel(session.problems, remake, self._folders),
             DisplayCommands(
-                session.display_edits, self._displays, session.scene, remake
+                session.display_edits,
+                self._displays,
+                session.scene,
+                session.document,
+                remake,
             ),
         ]
         data = session.data

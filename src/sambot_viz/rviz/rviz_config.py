@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 
 from sambot_viz.errors import Problem
-from sambot_viz.rviz.class_items import GlobalOptions, ToolConfig
+from sambot_viz.rviz.class_items import DisplayConfig, GlobalOptions, ToolConfig
 from sambot_viz.rviz.declarations import Declarations, kind_of, short_name
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.item import ConfigItem
@@ -39,12 +39,17 @@ class RvizConfig(DisplayList, ViewList):
         tools: the tools of the toolbar.
         fits_robot: whether its sizes are to be those of the robot that is shown,
             because it is no user's; it is not saved.
+        unasked: its displays of what a recording or a robot has, as no config says
+            what of it is to be shown; that they are is not saved.
+        offered: the topics that have got such a display, also if it was taken out.
     """
 
     def __init__(self, document: Document, declarations: Declarations):
         """Read a document; use `load` or `parse`."""
         super().__init__(document, declarations)
         self.fits_robot = False
+        self.unasked: tuple[DisplayConfig, ...] = ()
+        self.offered: set[str] = set()
         _report_duplicates(document.root, self._findings)
         self.global_options = GlobalOptions(
             ConfigItem(document.root, (), self._findings),
@@ -90,6 +95,9 @@ class RvizConfig(DisplayList, ViewList):
         """Return the same document once more, with the edits that are not saved."""
         made = RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
         made.fits_robot = self.fits_robot
+        places = [n for n, one in enumerate(self.displays) if one in self.unasked]
+        made.offered = set(self.offered)
+        made.unasked = tuple(made.displays[place] for place in places)
         return made
 
     @property

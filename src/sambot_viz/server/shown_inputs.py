@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from sambot_viz.displays.robot_display import Description
+from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.errors import JointError, Problem, RobotError
 from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
@@ -19,6 +20,8 @@ from sambot_viz.server.live_model import LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.first_sight import is_map, show_topics
 from sambot_viz.session.own_config import fit_own_config, fit_robot
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
 from sambot_viz.topics.source_robot import SourceRobot
@@ -59,6 +62,8 @@ class ShownInputs:
         )
         fits_any = inputs.takes_bundled_config and options.fixed_frame is None
         self._stand_in = document if fits_any else None
+        if self._stand_in is not None and inputs.moved_by is not None:
+            self._show_data(document, inputs.moved_by)
         self._stand_in_frame = document.global_options.get("Fixed Frame")
         self._reloader: Reloader | None = None
         self._live_model: LiveModel | None = None
@@ -125,7 +130,31 @@ class ShownInputs:
         if self._inputs.options.record is not None:
             assert live.recorder is not None
             live.recorder.start(Path(self._inputs.options.record))
+        if self._stand_in is not None:
+            live.on_topics.append(partial(self._post_data, live))
         live.source.open()
+
+    def _show_data(self, document: RvizConfig, moved_by: SourceRobot) -> None:
+        """Show what the sources have, in the config that comes with the program."""
+        points_of = moved_by.first_messages.points_of
+        show_topics(document, moved_by.types, points_of)
+        missing = moved_by.description is None and self._inputs.options.model is None
+        if document.unasked and missing and moved_by.can("seek"):
+            _without_robot(document)
+
+    def _post_data(self, live: SourceRobot) -> None:
+        """Let all sessions show what a live robot has; in the thread of the source."""
+        if self._stand_in is not self.configs.current:
+            return
+        for session in self.server.sessions.all():
+            show = partial(self._show_live_data, session.document, live)
+            session.worker.post(show)
+
+    def _show_live_data(self, shown: ShownDocument, live: SourceRobot) -> None:
+        before = len(shown.config.unasked)
+        self._show_data(shown.config, live)
+        if len(shown.config.unasked) > before:
+            shown.show()
 
     def _load_described(self, described: Description) -> Robot:
         """Load the robot of a topic that is not the opened one."""
@@ -203,8 +232,16 @@ class ShownInputs:
 def _show_motion(document: RvizConfig, top: str, root: str) -> None:
     """Let a robot that moves in a frame be seen to move, and not leave the picture."""
     document.global_options.set("Fixed Frame", top)
-    if top != root:
+    # What stands beside a map is seen to move when the map stands still.
+    if top != root and not any(is_map(display) for display in document.displays):
         document.view.set("Target Frame", root)
+
+
+def _without_robot(document: RvizConfig) -> None:
+    """Switch off what shows a robot that is not there, and nobody has asked for."""
+    for display in document.displays:
+        if display.kind == RobotModelDisplay.kind:
+            display.set_enabled(False)
 
 
 def _name_description(document: RvizConfig, topics: RobotTopics) -> None:

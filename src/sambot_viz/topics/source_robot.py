@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, Severity
 from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
@@ -21,6 +21,8 @@ from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import Capability, Source
 from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.first_messages import FirstMessages
+from sambot_viz.topics.first_sight import shown_at_first
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.robot_topics import (
     STAND_IN_LINK,
@@ -75,6 +77,7 @@ class SourceRobot:
         topics: those that are the robot's, as far as they are known.
         description: the URDF, the last one that was sent; None when there is none.
         refusal: why that cannot be shown; empty when it can.
+        first_messages: of a recording.
         recorder: records what a live source gives; None of a recording.
         on_description: called with the text of a robot, again when it changes.
         on_topics: called when the source has other topics.
@@ -107,6 +110,7 @@ class SourceRobot:
         self._seen = 0
         self._texts: dict[str, str] = {}
         self._index: TransformIndex | None = None
+        self.first_messages = FirstMessages(self.recording, self.decode)
         self._told = self._make_transforms(FrameHistory())
         source.on_topics = self._look
         source.on_status = self.tell_status
@@ -168,8 +172,12 @@ class SourceRobot:
         told = f"topics: {', '.join(topics[:_NAMED])}{more}" if topics else "no topic"
         frames = any(True for _ in self._told.pairs())
         shown = "showing frames only" if frames else "no transforms either"
+        severity: Severity = "warning"
+        if shown_at_first(self.types):
+            # Who wants to see a sensor has not asked for a robot.
+            severity, shown = "info", "showing its data"
         missing = Problem(
-            "warning",
+            severity,
             "no-description",
             f"no robot model in {self.name} ({told}); {shown}",
             "add --model ROBOT.urdf.xacro",
@@ -218,9 +226,12 @@ class SourceRobot:
         pairs = list(self._told.pairs())
         children = {child for _, child in pairs}
         roots = [parent for parent, _ in pairs if parent not in children]
-        # Frames that form a loop have no root, and none is invented for them.
-        frames = (*roots, *(parent for parent, _ in pairs), STAND_IN_LINK)
-        return stand_in_model(frames[0])
+        if not roots:
+            # Frames that form a loop have no root, and data without transforms have
+            # the frame of their messages: none is invented.
+            of_data = self.first_messages.frames(self.types)
+            roots = [parent for parent, _ in pairs] or [*of_data]
+        return stand_in_model(roots[0] if roots else STAND_IN_LINK)
 
     @property
     def label(self) -> str:
@@ -331,6 +342,15 @@ class SourceRobot:
             self._texts[topic] = next((t for t in reversed([*texts]) if t), "")
         return self._texts[topic] or None
 
+    @property
+    def types(self) -> Mapping[str, str]:
+        """Topic → the type of its messages; "" where nobody reads them."""
+        return {
+            name: self.decoder(topic).type_name
+            for name, topic in self.source.topics().items()
+            if topic.reason is None
+        }
+
     def tell_status(self) -> None:
         """Say that the source or its recording is doing otherwise; in any thread."""
         for listener in list(self.on_status):
@@ -340,12 +360,7 @@ class SourceRobot:
 
     def _look(self) -> None:
         """Find the topics of the robot; in the thread of a live source."""
-        known = {
-            name: self.decoder(topic).type_name
-            for name, topic in self.source.topics().items()
-            if topic.reason is None
-        }
-        before, self.topics = self.topics, robot_topics(known, self.named)
+        before, self.topics = self.topics, robot_topics(self.types, self.named)
         if self.recording is None:
             self._listen(before)
         elif self._index is None or self.topics != before:

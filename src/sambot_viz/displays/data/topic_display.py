@@ -60,6 +60,7 @@ class TopicDisplay(Display):
             come; empty for nothing.
     """
 
+    is_data = True
     meanings: ClassVar[frozenset[Meaning]]
     """What the messages mean that it draws."""
     topic_path: ClassVar[str] = TOPIC

@@ -27,6 +27,7 @@ export function TopicsPanel() {
     if (shown === false) act("topics/show", [true]);
   }, [shown]);
   useEffect(() => () => act("topics/show", [false]), []);
+  const unasked = useData("displays/unasked");
   const topic = topicOf(useRow(selected.use().topics || "none"));
   const kind = topic?.display;
   const name = topic?.name || "";
@@ -40,6 +41,12 @@ export function TopicsPanel() {
       <button class="needs-control" disabled=${!kind} onClick=${add}
         title="Add a display that draws the selected topic">Add display</button>
     </div>
+    ${
+      unasked &&
+      html`<button class="needs-control wide" onClick=${() => act("displays/only_config", [])}
+        title="Take out the displays that were added for what is in the recording or on the robot">
+        Show only what the config says</button>`
+    }
     <${Tree} panel="topics" label="Topics" drag=${dragTopic} />
   </div>`;
 }

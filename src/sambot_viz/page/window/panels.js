@@ -15,8 +15,9 @@ import { reveal, Tree } from "../tree/tree.js";
 import { rows } from "../wire/channel.js";
 import { hidden, shape } from "./splitters.js";
 
-/** The chosen tab at the right, or in the sheet of a phone. */
-export const tab = new Cell("joints", "tab");
+/** The chosen tab at the right, or in the sheet of a phone; "" until somebody chooses one.
+ * @type {Cell<string>} */
+export const tab = new Cell("", "tab");
 
 /**
  * The panels that are chosen by tabs; a new one is a file and a line here.
@@ -126,8 +127,14 @@ export function tabNames(of) {
   );
 }
 
+/** What is in front until somebody chooses: data, where there is no joint to move. */
+function firstTab() {
+  if (!rows.get("joints/none")) return "joints";
+  return rows.panels.get("images")?.length ? "images" : "topics";
+}
+
 /** @param {Record<string, any>} of */
 export function shownTab(of) {
   const names = tabNames(of);
-  return names.includes(tab.value) ? tab.value : names[0];
+  return [tab.value, firstTab(), names[0]].find((name) => names.includes(name));
 }

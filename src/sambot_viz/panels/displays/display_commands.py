@@ -15,6 +15,7 @@ from sambot_viz.panels.rows.row import Data, Json
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.rviz.declarations import row_text
 from sambot_viz.session.document.display_edits import DisplayEdits
+from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.topics import reasons
 
@@ -32,6 +33,7 @@ class DisplayCommands(Panel):
     Args:
         displays: the rows of the displays.
         scene: has what is drawn.
+        document: has the displays that no config names.
         remake: called when a display was made.
     """
 
@@ -42,8 +44,10 @@ class DisplayCommands(Panel):
         display_edits: DisplayEdits,
         displays: DisplaysPanel,
         scene: Scene,
+        document: ShownDocument,
         remake: Callable[[Panel], None],
     ) -> None:
+        self.remade_by = (document.displays, document.replaced)
         self._display_edits = display_edits
         self._displays = displays
         self._scene = scene
@@ -52,7 +56,11 @@ class DisplayCommands(Panel):
 
     def data(self) -> Sequence[Data]:
         """Return what the Add dialog offers, and the last display that was made."""
-        return [Data("displays/types", TYPES), Data("displays/made", self._made)]
+        return [
+            Data("displays/types", TYPES),
+            Data("displays/made", self._made),
+            Data("displays/unasked", self._display_edits.has_unasked),
+        ]
 
     @command("displays/add", TEXT, TEXT, TEXT, name="Add")
     def _add(self, kind: str, name: str, mark: str) -> None:
@@ -123,6 +131,10 @@ class DisplayCommands(Panel):
     @command("displays/remove", TEXT, name="Remove")
     def _delete(self, row_id: str) -> None:
         self._display_edits.remove_display(self._displays.display_of(row_id))
+
+    @command("displays/only_config", name="Show only what the config says")
+    def _only_config(self) -> None:
+        self._display_edits.remove_unasked()
 
     @command("displays/rename", TEXT, TEXT, name="Rename")
     def _rename(self, row_id: str, name: str) -> None:

@@ -119,7 +119,7 @@ class ClientView:
         self._owner = ViewOwner(self)
         self._tell_others = lead
         self._last_target = WORLD
-        self._framing = RobotFraming(client, scene, robot, picker)
+        self._framing = RobotFraming(client, document, scene, robot, picker)
         self._take(document.config.detached_view())
         self.shown = ClientCamera(self.view.local_camera(), self._followed)
         self._reader = Throttle(worker, READ_PERIOD, self._read)

@@ -1,4 +1,4 @@
-"""Showing the whole robot at first, where the config says no distance."""
+"""Showing the whole robot and all data at first, where the config says no distance."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import viser
 
 from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.robot.model import Robot
+from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.document.document_view import first_box
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
@@ -24,13 +26,15 @@ def window_of(client: viser.ClientHandle) -> Size:
 
 
 class RobotFraming:
-    """When a browser's camera is to be moved so that it shows the whole robot.
+    """When a browser's camera is to be moved so that it shows robot and data whole.
 
     That is when the robot comes, once its meshes are read, when more of its links have
-    a place, and in a window of another size; never after the user has moved the camera.
+    a place, when one more display has drawn data, and in a window of another size;
+    never after the user has moved the camera.
 
     Args:
         client: the client.
+        document: says whether data are shown that no config names.
         scene: reads the meshes.
         robot: what is to be shown.
         picker: finds how large it is.
@@ -39,10 +43,12 @@ class RobotFraming:
     def __init__(
         self,
         client: viser.ClientHandle,
+        document: ShownDocument,
         scene: Scene,
         robot: RobotState,
         picker: Picker,
     ) -> None:
+        self._document = document
         self._scene = scene
         self._robot = robot
         self._picker = picker
@@ -52,6 +58,7 @@ class RobotFraming:
         # How many links had no place when the robot was shown, and in which state of
         # the tree they were counted; infinite until its meshes are read.
         self._missing, self._version = math.inf, -1
+        self._data_drawn = 0
 
     @property
     def wanted(self) -> bool:
@@ -79,16 +86,20 @@ class RobotFraming:
             return None
         window = window_of(self._client)
         if window != self._window:
-            self._missing, self._version = math.inf, -1
+            self._missing, self._version, self._data_drawn = math.inf, -1, 0
         all_read = self._scene.context.assets.progress is None
         missing = self._without_place(robot) if all_read else math.inf
-        if window == self._window and missing >= self._missing:
+        unasked = self._document.config.unasked
+        drawn = self._picker.data_drawn if unasked else 0
+        is_more = missing < self._missing or drawn > self._data_drawn
+        if window == self._window and not is_more:
             if all_read:
                 self._missing = missing
             return None
-        found = self._picker.robot_box()
+        found = first_box(self._document, self._picker)
         if found is not None:
             self._window, self._missing = window, missing
+            self._data_drawn = max(drawn, self._data_drawn)
         return found
 
     def _without_place(self, robot: Robot) -> float:

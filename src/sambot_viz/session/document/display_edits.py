@@ -237,6 +237,32 @@ class DisplayEdits:
         remove()
         self._history.record(f"Remove {config.name}", put_back, remove, touched=config)
 
+    def remove_unasked(self) -> None:
+        """Take out the displays of data that no config names: RViz shows none."""
+        document = self._document.config
+        there = [one for one in document.unasked if document.holds(one)]
+        removals = [self._removal(one) for one in there]
+
+        def remove() -> None:
+            with self._change():
+                for take_out, _ in removals:
+                    take_out()
+
+        def put_back() -> None:
+            with self._change():
+                for _, put in reversed(removals):
+                    put()
+
+        if removals:
+            remove()
+            self._history.record("Show only what the config says", put_back, remove)
+
+    @property
+    def has_unasked(self) -> bool:
+        """Whether there are displays of data that no config names."""
+        document = self._document.config
+        return any(document.holds(one) for one in document.unasked)
+
     def _removal(self, config: DisplayConfig) -> tuple[Restore, Restore]:
         """Functions that take a display out, and put the same one back."""
         document = self._document.config

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import FIXED_FRAME, RvizConfig, ViewConfig
 from sambot_viz.rviz.yaml.document import ConfigFindings
@@ -46,14 +47,15 @@ class DocumentView:
         return view.camera(target_of(self._scene, view))
 
     def camera_on_robot(self, width: int, height: int) -> Camera:
-        """Return that camera, moved to where it shows the whole robot.
+        """Return that camera, moved to where it shows what is seen at first.
 
         Args:
             width: of the picture [pixels].
             height: of the picture [pixels].
         """
         view = self.view
-        target, box = target_of(self._scene, view), self._picker.robot_box()
+        target = target_of(self._scene, view)
+        box = first_box(self._document, self._picker)
         if box is not None:
             for path, value in view.fit(*box, width, height, target).items():
                 view.config.set(path, value)
@@ -140,6 +142,14 @@ class DocumentView:
         config.store_view(view.config)
         if placed:
             config.view.fill()
+
+
+def first_box(document: ShownDocument, picker: Picker) -> Corners | None:
+    """Return the box around what is seen at first; None when nothing is drawn.
+
+    That is the robot, and all data where no config says what of it is shown.
+    """
+    return picker.first_box() if document.config.unasked else picker.robot_box()
 
 
 def require_kind(kind: str) -> None:

@@ -104,6 +104,15 @@ class Picker:
         """The box around all links; None while none is drawn."""
         return self._scene.link_box()
 
+    def first_box(self) -> Corners | None:
+        """The box around the robot and all data, or else around all that is drawn."""
+        return self._scene.first_box()
+
+    @property
+    def data_drawn(self) -> int:
+        """How many displays have drawn data."""
+        return self._scene.data_drawn
+
     def close(self) -> None:
         """Follow no more rays."""
         self._thread.shutdown(wait=False, cancel_futures=True)

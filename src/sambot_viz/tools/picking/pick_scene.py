@@ -177,6 +177,26 @@ class PickScene:
         """Return the box around all links; None while none is drawn."""
         return self._box(lambda item: item is not None and item.kind == "link")
 
+    def first_box(self) -> Corners | None:
+        """Return the box around the robot and all data; None when nothing is drawn.
+
+        Without these it is the box around all that is drawn.
+        """
+        box = self.link_box()
+        for display in self._shown():
+            for _, part in display.parts(lambda _: True) if display.is_data else ():
+                box = _union(part.box(), box)
+        return box or self._box(lambda _: True)
+
+    @property
+    def data_drawn(self) -> int:
+        """How many displays have drawn data."""
+        return sum(
+            any(True for _ in display.parts(lambda _: True))
+            for display in self._shown()
+            if display.is_data
+        )
+
     def data_of(self, item: Selectable) -> SelectedData | None:
         """Return what a display knows of data; None when it is not drawn any more."""
         known = (display.selected(item) for display in self._shown())

@@ -1,0 +1,99 @@
+"""What is seen at first of a recording or a robot, where no config says it.
+
+RViz shows nothing that is not in its config. Who opens a recording wants to see what is
+in it: a display for each topic that one draws, in the order of need, at sizes for the
+eye. A config is shown as it is, and nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.rviz import DisplayConfig, RvizConfig
+from sambot_viz.rviz.declarations import short_name
+from sambot_viz.topics.first_sight import shown_at_first
+
+_COLORS = ("25; 130; 255", "255; 120; 30", "40; 190; 90", "215; 60; 170")
+"""Of paths and outlines, one after the other, so that they can be told apart."""
+_COLORED = frozenset({"Path", "Polygon"})
+_OF_POINTS = frozenset({"PointCloud2", "PointCloud", "LaserScan"})
+_VALUES: Mapping[str, Mapping[str, object]] = {
+    "Map": {"Draw Behind": True},
+    "Odometry": {"Keep": 1, "Covariance": False},
+}
+"""What RViz's defaults hide, or bury."""
+_DOTS = ((300, 6), (3_000, 4), (50_000, 3))
+"""Up to so many points, so large a dot [pixels]: few points are large enough to see."""
+_SMALLEST_DOT = 2
+
+
+def show_topics(
+    document: RvizConfig,
+    types: Mapping[str, str],
+    points_of: Callable[[str], int | None],
+) -> list[DisplayConfig]:
+    """Add a display to a config for each topic that is shown at first.
+
+    Args:
+        document: the config that comes with the program.
+        types: topic → type of its messages; what the config names is left out, and
+            what was shown before.
+        points_of: returns how many points a message of a topic has; None if that is
+            not known.
+
+    Returns:
+        The displays that were added.
+    """
+    named = {*_named(document.displays), *document.offered}
+    added: list[DisplayConfig] = []
+    for topic, kind in shown_at_first(types):
+        values = DISPLAYS[kind].topic_values(topic, types[topic], None)
+        if topic in named or values is None:
+            continue
+        short = short_name(kind)
+        values = {**values, **_VALUES.get(short, {})}
+        if short in _COLORED:
+            same = sum(one.kind == kind for one in document.displays)
+            values["Color"] = _COLORS[same % len(_COLORS)]
+        if short in _OF_POINTS:
+            values |= {"Style": "Points", "Size (Pixels)": dot_size(points_of(topic))}
+        if is_costmap(kind, topic):
+            # As Nav2's own config: the walls of the map stay visible.
+            values |= {"Color Scheme": "costmap", "Alpha": 0.4}
+        document.offered.add(topic)
+        display = document.add_display(kind, f"{short} {topic}")
+        for path, value in values.items():
+            display.set(path, value)
+        added.append(display)
+    document.unasked = (*document.unasked, *added)
+    return added
+
+
+def dot_size(points: int | None) -> int:
+    """Return how large each of some points is drawn [pixels].
+
+    Args:
+        points: how many there are; None if that is not known.
+    """
+    if points is None:
+        return 3
+    return next((size for most, size in _DOTS if points <= most), _SMALLEST_DOT)
+
+
+def is_map(display: DisplayConfig) -> bool:
+    """Return whether a display is a map, in which all else moves."""
+    return short_name(display.kind) == "Map"
+
+
+def is_costmap(kind: str, topic: str) -> bool:
+    """Return whether a topic is a map of costs, by its name."""
+    return short_name(kind) == "Map" and "costmap" in topic
+
+
+def _named(displays: Iterable[DisplayConfig]) -> Iterator[str]:
+    """Yield the topics that displays show."""
+    for display in displays:
+        for path in ("Topic", "Description Topic"):
+            if path in display.declared:
+                yield str(display.get(path))

@@ -1,0 +1,56 @@
+"""Which topics are shown at first, where no config says it, and in which order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from sambot_viz.topics.reasons import display_of
+
+MOST = 24
+"""So many topics are shown; the panel Topics adds the others."""
+_MOST_PICTURES = 4
+IMAGE = "rviz_default_plugins/Image"
+_NEEDED = (
+    "rviz_default_plugins/Map",
+    "rviz_default_plugins/PointCloud2",
+    "rviz_default_plugins/PointCloud",
+    "rviz_default_plugins/LaserScan",
+    "rviz_default_plugins/Path",
+    "rviz_default_plugins/Odometry",
+    "rviz_default_plugins/Polygon",
+    "nav2_rviz_plugins/ParticleCloud",
+    "rviz_default_plugins/PoseArray",
+    "rviz_default_plugins/Pose",
+    "rviz_default_plugins/PoseWithCovariance",
+    "rviz_default_plugins/MarkerArray",
+    "rviz_default_plugins/Marker",
+    "rviz_default_plugins/InteractiveMarkers",
+    "rviz_default_plugins/GridCells",
+    "rviz_default_plugins/Range",
+    "rviz_default_plugins/PointStamped",
+    IMAGE,
+)
+"""The order of need: what is large and below comes first."""
+_RANK = {kind: rank for rank, kind in enumerate(_NEEDED)}
+
+
+def shown_at_first(types: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Return what is shown of some topics at first: topic and class of display.
+
+    Args:
+        types: topic → type of its messages.
+    """
+    return list(_needed(types))[:MOST]
+
+
+def _needed(types: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    found = sorted(
+        (_RANK[kind], name, kind)
+        for name, type_name in types.items()
+        if (kind := display_of(name, type_name) or "") in _RANK
+    )
+    pictures = 0
+    for _, name, kind in found:
+        pictures += kind == IMAGE
+        if kind != IMAGE or pictures <= _MOST_PICTURES:
+            yield name, kind

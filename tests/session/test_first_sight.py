@@ -1,0 +1,150 @@
+"""What a recording shows at first, where no config says it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from live_peers import eventually
+from robot_peer import BusyPeer, square_peer
+
+from sambot_viz import Visualizer
+from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.first_sight import dot_size
+from sambot_viz.session.session import Session
+from sambot_viz.topics.first_sight import shown_at_first
+
+Show = Callable[..., Session]
+
+
+@pytest.fixture
+def shown(request: pytest.FixtureRequest) -> Show:
+    """Show a source: its session."""
+
+    def show(source: Path, **options: object) -> Session:
+        viz = Visualizer(source=str(source), port=0, **options)  # pyright: ignore
+        request.addfinalizer(viz.stop)
+        return viz.server.sessions.all()[0]
+
+    return show
+
+
+@pytest.fixture
+def recordings(shared: Path) -> Path:
+    return shared / "data" / "reported" / "recordings"
+
+
+@pytest.fixture
+def golden(shared: Path) -> Path:
+    return shared / "data" / "golden-data"
+
+
+def kinds(config: RvizConfig) -> list[str]:
+    return [one.kind.rpartition("/")[2] for one in config.displays if one.enabled]
+
+
+def test_all_that_a_recording_has_is_shown_in_the_order_of_need(
+    recordings: Path, shown: Show
+) -> None:
+    config = shown(recordings / "nav2_12.mcap").document.config
+    assert kinds(config)[:3] == ["Grid", "RobotModel", "TF"]
+    assert kinds(config)[3:] == [
+        *("Map", "Map", "Map", "LaserScan", "Path", "Odometry", "Polygon"),
+        *("ParticleCloud", "Pose"),
+    ]
+    assert config.global_options.get("Fixed Frame") == "map"
+    costs = [d for d in config.displays if "costmap" in d.name and "Map" in d.name]
+    assert {d.get("Color Scheme") for d in costs} == {"costmap"}
+
+
+def test_a_config_is_shown_as_it_is(recordings: Path, shown: Show) -> None:
+    file = recordings / "nav2.rviz"
+    config = shown(recordings / "nav2_12.mcap", config=file).document.config
+    assert kinds(config) == kinds(read(file))
+    assert config.unasked == ()
+
+
+def read(file: Path) -> RvizConfig:
+    from sambot_viz import load_config
+
+    return load_config(file)
+
+
+def test_the_frame_of_the_data_is_the_fixed_frame_without_transforms(
+    golden: Path, shown: Show, tmp_path: Path
+) -> None:
+    from made_recording import write_recording
+
+    path = write_recording(tmp_path / "scan.mcap", {}, (), None, [(0.0, 0.0)])
+    session = shown(path)
+    assert session.document.config.global_options.get("Fixed Frame") == "base"
+    assert session.scene.global_status().level != "Error"
+    assert [d.status.level for d in session.scene.displays if d.is_data] == ["Ok"]
+
+
+def test_a_robot_that_nobody_asked_for_is_no_error(golden: Path, shown: Show) -> None:
+    session = shown(golden / "cloud_intensity_points" / "messages.mcap")
+    assert "RobotModel" not in kinds(session.document.config)
+    levels = {display.status.level for display in session.scene.displays}
+    assert "Error" not in levels
+    said = {p.code: p.severity for p in session.problems.shown.value.listed}
+    assert said.get("no-description") == "info"
+
+
+def test_the_camera_frames_the_data(golden: Path, shown: Show) -> None:
+    session = shown(golden / "map_orbit" / "messages.mcap")
+    assert session.data is not None and session.data.player is not None
+    session.data.player.jump(session.data.player.end_ns)
+    camera = session.document_view.camera_on_robot(800, 600)
+    assert 2.0 < math.dist(camera.position, camera.look_at) < 50.0
+
+
+def test_what_was_added_goes_at_once_and_comes_back(
+    recordings: Path, shown: Show
+) -> None:
+    session = shown(recordings / "nav2_12.mcap")
+    before = kinds(session.document.config)
+    with session.history.acting(0):
+        session.display_edits.remove_unasked()
+    assert kinds(session.document.config) == ["Grid", "RobotModel", "TF"]
+    assert not session.display_edits.has_unasked
+    session.history.undo(0)
+    assert kinds(session.document.config) == before
+
+
+@pytest.mark.parametrize("count", [0, 1, 500, 20_000, 10**7])
+def test_few_points_are_drawn_larger(count: int) -> None:
+    assert dot_size(count) >= dot_size(count + 10**6)
+    assert dot_size(None) >= 1
+
+
+def test_no_more_pictures_are_opened_than_can_be_seen() -> None:
+    types = {f"/camera{n}/image": "sensor_msgs/msg/Image" for n in range(50)}
+    types |= {f"/scan{n}": "sensor_msgs/msg/LaserScan" for n in range(50)}
+    found = shown_at_first(types)
+    assert len(found) <= 24
+    assert found[0][0].startswith("/scan")
+    assert len(shown_at_first({n: t for n, t in types.items() if "camera" in n})) == 4
+
+
+def test_a_live_robot_shows_its_topics_as_they_come(repository: Path) -> None:
+    with (
+        square_peer(repository, BusyPeer) as peer,
+        Visualizer(source=peer.uri, port=0) as viz,
+    ):
+        session = viz.server.sessions.all()[0]
+        eventually(lambda: "/scan" in peer.subscribed())
+        with session.lock:
+            assert {"LaserScan", "Odometry"} <= set(kinds(session.document.config))
+            with session.history.acting(0):
+                session.display_edits.remove_unasked()
+        # What was taken out does not come back with the next topic.
+        eventually(lambda: "/scan" not in peer.subscribed())
+        peer.advertise("/late")
+        data = session.data
+        assert data is not None
+        eventually(lambda: "/late" in data.moved_by.source.topics())
+        with session.lock:
+            assert "LaserScan" not in kinds(session.document.config)
