@@ -104,7 +104,6 @@ class FoxgloveConversation(Conversation):
         """Let lines of the server that have no id end after a while."""
         if now > self._line_end:
             self._line = ""
-        self._subscribe_missing()
         # The bridge advertises topics one after the other; it is given a moment.
         if self.is_ready and "parameters" in self.capabilities:
             self._ticks += 1
@@ -308,7 +307,7 @@ class FoxgloveConversation(Conversation):
 
     def _status(self, status: wire.ServerStatus) -> None:
         if refused := _UNKNOWN_CHANNEL.search(status.message):
-            # The next tick subscribes again.
+            # The next update subscribes again.
             self._forget_subscription(int(refused[1]))
         elif status.level >= 1:
             self._note(status)

@@ -260,6 +260,9 @@ class WebsocketSource:
             return
         if conversation.is_ready and not self._status.is_connected:
             self._welcome(conversation)
+        self._plan_topics(conversation)
+
+    def _plan_topics(self, conversation: Conversation) -> None:
         if conversation.topics_changed and self._is_told:
             self._is_told = False
             asyncio.get_running_loop().call_later(_TOPICS_PAUSE, self._tell_topics)
@@ -282,6 +285,8 @@ class WebsocketSource:
         conversation = self._conversation
         if conversation is None:
             return
+        # Subscriptions that a server has refused are tried again.
+        self._update()
         self._assets.expire("the server has not sent it in time")
         dropped, lag = self._delivery.dropped, self._clock.lag_s()
         self._say(
@@ -293,7 +298,12 @@ class WebsocketSource:
         )
 
     def _update(self) -> None:
-        if self._conversation is not None:
+        """Ask for what is wanted, unless somebody is still to be told of new topics.
+
+        A recorder subscribes when it is told. A message that a display has asked for
+        before that would not be in its file.
+        """
+        if self._conversation is not None and self._is_told:
             self._conversation.update(self._wanted())
 
     def _put(self, message: Recorded) -> None:
@@ -308,13 +318,19 @@ class WebsocketSource:
         return wanted if has_time or not wanted else wanted | {CLOCK}
 
     def _tell_topics(self) -> None:
-        self._is_told = True
         conversation = self._conversation
-        if conversation is not None and conversation.topics_changed:
-            conversation.topics_changed = False
-            self._topics = MappingProxyType(conversation.topics())
-            self._update()
-            self._delivery.post(self._call_on_topics)
+        if conversation is None or not conversation.topics_changed:
+            self._has_told()
+            return
+        conversation.topics_changed = False
+        self._topics = MappingProxyType(conversation.topics())
+        self._delivery.post(self._call_on_topics)
+
+    def _has_told(self) -> None:
+        self._is_told = True
+        self._update()
+        if self._conversation is not None:
+            self._plan_topics(self._conversation)
 
     def _say(self, **changes: Any) -> None:
         status = replace(self._status, **changes)
@@ -324,7 +340,10 @@ class WebsocketSource:
 
     # Who owns the source may set these at any time.
     def _call_on_topics(self) -> None:
-        self.on_topics()
+        try:
+            self.on_topics()
+        finally:
+            self._post(self._has_told)
 
     def _call_on_status(self) -> None:
         self.on_status()
