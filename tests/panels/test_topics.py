@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from filled_messages import DEFINITIONS, MAP_UPDATE, on_topic
 from inside import session_of
 from live_peers import WAIT
+from made_messages import write_messages
 from patience import until
 from protocol_client import wait_for_workers
 from robot_peer import BusyPeer, square_peer
@@ -118,6 +120,18 @@ def test_a_topic_that_has_begun_is_there_without_a_hand(shared: Path) -> None:
             opened.panel.values()
         assert opened.remade == before + 1
         assert "topic:/robot_description/reason" not in opened.values()
+
+
+def test_updates_of_a_map_are_drawn_by_the_display_of_the_map(tmp_path: Path) -> None:
+    update = on_topic(MAP_UPDATE, "/map_updates")
+    path = write_messages(tmp_path / "made.mcap", update, definitions=DEFINITIONS)
+    config = tmp_path / "map.rviz"
+    config.write_text("Visualization Manager: {Displays: []}")
+    with Visualizer(path, config=config, port=0) as viz:
+        opened = Opened(session_of(viz))
+        opened.look()
+        reason = opened.values()["topic:/map_updates/reason"]
+    assert reason == "Not shown: add a Map display."
 
 
 def test_a_display_that_is_off_or_missing_is_the_reason(opened: Opened) -> None:

@@ -7,15 +7,21 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from data_loads import UPDATE
 
+MAP_UPDATE = "map_msgs/msg/OccupancyGridUpdate"
+DEFINITIONS = {MAP_UPDATE: UPDATE}
+"""Of the types that rosbags lacks."""
 Make = Callable[[Any], tuple[str, str, object]]
 
 
 @cache
 def _store() -> Any:
-    from rosbags.typesys import Stores, get_typestore
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-    return get_typestore(Stores.ROS2_JAZZY)
+    store = get_typestore(Stores.ROS2_JAZZY)
+    store.register(get_types_from_msg(UPDATE, MAP_UPDATE))
+    return store
 
 
 def filled(name: str, /, **fields: Any) -> Any:

@@ -71,6 +71,16 @@ def display_of(name: str, type_name: str) -> str | None:
     return None if meaning is None else meaning.display
 
 
+def drawn_by(name: str, type_name: str) -> str | None:
+    """Return the class of the display that draws a topic, alone or beside another one.
+
+    Updates of a map have no display: that of their map draws them.
+    """
+    if meaning_of(type_name) is Meaning.GRID_UPDATE:
+        return Meaning.GRID.display
+    return display_of(name, type_name)
+
+
 def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:
     """Say that a topic that was named is not there, and which one was meant."""
     there = did_you_mean(name, known)
@@ -267,6 +277,8 @@ def no_display(type_name: str, fields: Collection[str]) -> TopicReason:
         return TopicReason(
             "no-display", "events of a service: there is nothing to draw"
         )
+    if meaning_of(type_name) is Meaning.GRID_UPDATE:
+        return TopicReason("no-display", "Map draws it with its map: add that topic")
     named = type_name or "messages without a type"
     listed = [*fields][:_FIELDS]
     more = ", …" if len(fields) > len(listed) else ""

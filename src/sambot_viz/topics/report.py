@@ -167,7 +167,7 @@ class TopicReport:
         )
 
     def _of_display(self, name: str, type_name: str) -> TopicReason | None:
-        if reasons.display_of(name, type_name) is not None:
+        if reasons.drawn_by(name, type_name) is not None:
             return None
         return reasons.no_display(type_name, self._survey.of(name).fields)
 

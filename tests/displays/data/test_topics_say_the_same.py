@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from filled_messages import on_topic, pose
+from filled_messages import DEFINITIONS, MAP_UPDATE, on_topic, pose
 from image_messages import Make, file_message, octets, raw
 
 from sambot_viz.inputs import Inputs
@@ -73,10 +73,19 @@ def test_a_marker_that_is_drawn_is_not_said_to_be_empty(
     assert reason(tmp_path) == ""
 
 
-def reason(folder: Path) -> str:
+def test_updates_that_a_map_draws_are_not_said_to_be_drawn_by_nothing(
+    messages: Open, tmp_path: Path
+) -> None:
+    update = on_topic(MAP_UPDATE, "/a_updates", width=1, height=1, data=[100])
+    shown = messages("Map", grid(2, 2, 4), update, definitions=DEFINITIONS)
+    assert shown.statuses["Update"] == ("Ok", "Update OK")
+    assert reason(tmp_path, "/a_updates") == ""
+
+
+def reason(folder: Path, topic: str = "/a") -> str:
     with Inputs(Options(folder / "messages.mcap")) as inputs:
         assert inputs.moved_by is not None
         survey = Survey(inputs.moved_by)
         survey.finish()
-        found = TopicReport(survey).status("/a").reason
+        found = TopicReport(survey).status(topic).reason
     return "" if found is None else f"{found.code}: {found.text}"

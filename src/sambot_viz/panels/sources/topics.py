@@ -127,7 +127,8 @@ class TopicsPanel(Panel):
         row_id = _row_id(name)
         status = self._topics.status(name)
         display = reasons.display_of(name, status.type_name)
-        reason = status.reason or self._of_displays(status, display)
+        drawn_by = reasons.drawn_by(name, status.type_name)
+        reason = status.reason or self._of_displays(status, drawn_by)
         level = None if reason is None else _LEVELS[reason.severity]
         yield Row(
             row_id,
