@@ -125,21 +125,22 @@ def test_a_long_text_is_cut(messages: Open, field: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "resource",
+    ("resource", "reason"),
     [
-        "file:///etc/passwd",
-        "/etc/passwd",
-        "../../../../etc/passwd",
-        "package://../../etc/passwd",
-        "package://golden_meshes/../../../etc/passwd",
-        "http://127.0.0.1:9/a.dae",
-        "\0",
-        "file:///proc/self/mem",
+        ("file:///etc/passwd", "only name files of packages; write package://"),
+        ("file:///etc/no_such_file", "only name files of packages; write package://"),
+        ("/etc/passwd", "only name files of packages; write package://PACKAGE/…"),
+        ("../../../../etc/passwd", "only name files of packages"),
+        ("package://../../etc/passwd", "the package .. is not known"),
+        ("package://golden_meshes/../../../etc/passwd", "golden_meshes is not known"),
+        ("http://127.0.0.1:9/a.dae", "not fetched); download it and name it by"),
+        ("\0", ""),
+        ("file:///proc/self/mem", "only name files of packages"),
     ],
 )
 @pytest.mark.parametrize("trusted", [True, False])
 def test_a_mesh_that_a_message_may_not_name_is_not_read(
-    messages: Open, resource: str, trusted: bool
+    messages: Open, resource: str, reason: str, trusted: bool
 ) -> None:
     def change(marker: Any) -> None:
         marker.type, marker.mesh_resource = MESH, resource
@@ -147,7 +148,11 @@ def test_a_mesh_that_a_message_may_not_name_is_not_read(
     shown = messages("Marker", changed("Marker", change), trusted=trusted)
     until(lambda: "t/0" in shown.statuses)
     said = f"Mesh resource marker [t/0] could not load [{resource}]"
-    assert shown.statuses["t/0"] == ("Error", said)
+    level, text = shown.statuses["t/0"]
+    assert level == "Error"
+    assert text.startswith(said)
+    assert reason in text
+    assert bool(reason) == (len(text) > len(said))
 
 
 def large_map(grid: Any) -> None:

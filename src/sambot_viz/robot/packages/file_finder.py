@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 
+from sambot_viz.errors import Problem
 from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.packages.package_index import PackageIndex
@@ -52,7 +53,13 @@ _DOUBTS = {
 }
 _MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
 """Endings of the mesh files that are read."""
+_NOT_FOUND, _STAND_IN = " was not found: ", "; a placeholder is drawn"
 _OUTSIDE = "it is outside the model's folder and packages, and the model is not trusted"
+
+_OF_MESSAGES = (
+    "messages may only name files of packages; write package://PACKAGE/…, and add "
+    "--package-path FOLDER-THAT-HOLDS-PACKAGE"
+)
 
 
 class FileFinder:
@@ -158,8 +165,8 @@ class FileFinder:
             folder = Path(found.searched[0]) if found.searched else None
             if folder is not None and folder.is_absolute() and folder.is_dir():
                 reason, hint = "it is a folder", _file_in(folder, filename)
-        stand_in = "; a placeholder is drawn" if kind == "mesh" else ""
-        text = f"the {kind} {filename} was not found: {reason}{stand_in}"
+        stand_in = _STAND_IN if kind == "mesh" else ""
+        text = f"the {kind} {filename}{_NOT_FOUND}{reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, filename, element)
 
     def _with_near_package(self, filename: str, found: Resolution) -> str:
@@ -186,6 +193,19 @@ class FileFinder:
     ) -> None:
         cause = _home_of(filename)
         self._findings.warn(code, text, hint, element, "filename", cause=cause)
+
+
+def why_not_found(problems: Iterable[Problem]) -> str:
+    """Return why a mesh was not found, and what to do; empty when it was.
+
+    Args:
+        problems: of a model with a single mesh, which a message names.
+    """
+    for problem in problems:
+        if problem.code == "mesh-not-found":
+            reason = problem.message.partition(_NOT_FOUND)[2].removesuffix(_STAND_IN)
+            return _OF_MESSAGES if reason == _OUTSIDE else f"{reason}; {problem.hint}"
+    return ""
 
 
 def _with_right_package(filename: str, found: Resolution) -> str:

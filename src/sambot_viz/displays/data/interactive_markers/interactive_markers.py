@@ -282,6 +282,5 @@ class InteractiveMarkers:
         return heapq.heappop(self._free) if self._free else len(self._shown)
 
     def _report_meshes(self) -> None:
-        for (name, _), resource in self._nodes.missing_meshes(self._shown):
-            text = f"Mesh resource marker [{name}] could not load [{resource}]"
-            self._rows.say(name, "Error", text)
+        for (name, _), fault in self._nodes.missing_meshes():
+            self._rows.say(name, "Error", f"Mesh resource marker [{name}] {fault}")

@@ -313,9 +313,8 @@ class Markers:
         return sum(key[0] == namespace for key in self.shown)
 
     def _report_meshes(self) -> None:
-        for key, resource in self._nodes.missing_meshes(self.shown):
-            name = f"{key[0]}/{key[1]}"
-            text = f"Mesh resource marker [{name}] could not load [{resource}]"
+        for key, fault in self._nodes.missing_meshes():
+            text = f"Mesh resource marker [{key[0]}/{key[1]}] {fault}"
             self._say(key, "Error", text)
 
     # What is said

@@ -17,7 +17,7 @@ from sambot_viz.displays.robot_display import Description, ModelRequest, ModelRe
 from sambot_viz.displays.robot_model.shape_solids import rgb255
 from sambot_viz.displays.scene.nodes import Handle, NodeCache, any_gone, placed
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.errors import RobotError
+from sambot_viz.errors import Problem, RobotError
 from sambot_viz.geometry import (
     IDENTITY,
     ORIGIN,
@@ -32,6 +32,7 @@ from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, to_glb
 from sambot_viz.meshes.mesh import WHITE, Mesh, MeshPart, apply_scale
 from sambot_viz.robot.model import asset_of
+from sambot_viz.robot.packages.file_finder import why_not_found
 
 _STRONGEST_TINT = 0.5
 _LONGEST_NAME = 2000
@@ -47,6 +48,12 @@ class MeshFinder:
         context: reads models.
         resource: as the marker names it.
         found: called when the file is known, or known to be missing.
+
+    Attributes:
+        resource: as the marker names it.
+        asset: the file; None while it is not found.
+        is_done: nothing more is looked for.
+        reason: why it was not found, where it was looked for, and what to do.
     """
 
     def __init__(
@@ -54,8 +61,10 @@ class MeshFinder:
     ) -> None:
         self.asset: Asset | None = None
         self.is_done = False
+        self.reason = ""
         self._apply = context.apply
         self._found = found
+        self.resource = resource
         if context.models is None or len(resource) > _LONGEST_NAME:
             self.is_done = True
             return
@@ -73,6 +82,7 @@ class MeshFinder:
             visuals = [v for link in result.links.values() for v in link.visuals]
             if visuals:
                 self.asset = asset_of(visuals[0], result.file_roots)
+            self.reason = why_not_found(result.problems)
         self.is_done = True
         self._apply(self._found)
 
@@ -150,14 +160,18 @@ class MeshNodes:
         context.assets.register(self)
 
     @property
-    def is_missing(self) -> bool:
-        """Whether the file is known to be missing or unreadable."""
-        finder = self.finder
+    def fault(self) -> str | None:
+        """RViz's sentence, and the reason, for a file that is missing or unreadable."""
+        finder, reason = self.finder, ""
         if finder is None or not finder.is_done:
-            return False
-        return finder.asset is None or (
-            self._content is not None and not isinstance(self._content, Mesh)
-        )
+            return None
+        if finder.asset is None:
+            reason = finder.reason
+        elif isinstance(self._content, Problem):
+            reason = self._content.message
+        else:
+            return None
+        return f"could not load [{finder.resource}]{reason and f': {reason}'}"
 
     def draw(self, marker: Any, wxyz: Wxyz, position: Vector3) -> None:
         """Draw the mesh of a marker, if it is read.

@@ -89,15 +89,11 @@ class MarkerNodes:
         singles = self._single.items()
         return {k: node for k, (_, node) in singles if isinstance(node, MeshNodes)}
 
-    def missing_meshes(self, shown: Mapping[Key, Shown]) -> Iterator[tuple[Key, str]]:
-        """Yield the markers whose mesh files are not there, and what these are called.
-
-        Args:
-            shown: all that is shown.
-        """
+    def missing_meshes(self) -> Iterator[tuple[Key, str]]:
+        """Yield the markers whose mesh files cannot be drawn, and why."""
         for key, nodes in self.meshes.items():
-            if nodes.is_missing:
-                yield key, str(shown[key].marker.mesh_resource)
+            if nodes.fault is not None:
+                yield key, nodes.fault
 
     def update(self, shown: Mapping[Key, Shown], changed: Iterable[Key]) -> None:
         """Draw what has changed, and remove what is shown no longer.
