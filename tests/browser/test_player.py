@@ -58,6 +58,23 @@ def test_keys_go_through_a_recording_where_nothing_else_has_them(
     user.until(lambda: "ROS Elapsed 18.97" in user.find("dialog", "Time").text)
 
 
+def test_a_time_that_is_typed_is_gone_to_and_a_wrong_one_says_what_can_be(
+    viz: Visualizer, viewer: ViewerPage
+) -> None:
+    user, data = viewer.user, session_of(viz).data
+    assert data is not None and data.player is not None
+    player = data.player
+    user.click("button", "Pause")
+    user.until(lambda: not player.playback.value.playing)
+    user.click("button", re.compile("^Time: "))
+    user.enter(user.find("textbox", re.compile("Go to")), "9:00")
+    user.until(lambda: "up to 0:19.969" in alerts(user))
+    user.enter(user.find("textbox", re.compile("Go to")), "0:07.5")
+    user.until(lambda: player.time_ns == player.start_ns + 7_500_000_000)
+    user.click("button", "To the beginning")
+    user.until(lambda: player.time_ns == player.start_ns)
+
+
 def alerts(user: User) -> str:
     return " ".join(alert.text for alert in user.see().all("alert"))
 

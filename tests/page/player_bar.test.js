@@ -9,6 +9,7 @@ import {
   sizeText,
   timeNow,
   times,
+  typedTime,
 } from "../../src/sambot_viz/page/window/player_bar.js";
 
 test("times are minutes and seconds", () => {
@@ -32,6 +33,27 @@ test("the time goes on from what was told, and not past the end", () => {
   assert.equal(timeNow(told, 1, 20, 60000), 20);
   // Clocks may be a little apart.
   assert.equal(timeNow(told, 1, 20, 900), 2);
+});
+
+test("a time can be typed as people write it, and as messages are stamped", () => {
+  const begin = 1_700_000_000;
+  for (const [text, seconds] of /** @type {[string, number][]} */ ([
+    ["7", 7],
+    [" 7.25 s ", 7.25],
+    ["7,25", 7.25],
+    ["1:02.5", 62.5],
+    ["1:00:00", 3600],
+    ["1700000003.5", 3.5],
+    [".5", 0.5],
+  ]))
+    assert.equal(typedTime(text, begin), seconds, text);
+  for (const text of ["", "abc", "-1", "1:", "1:2:3:4", "1e3", "0x10"])
+    assert.equal(typedTime(text, begin), null, text);
+});
+
+test("what is shown at rest can be typed again", () => {
+  for (const seconds of [0, 0.001, 9.999, 59.5, 61.25, 3723.4])
+    assert.ok(Math.abs((typedTime(clock(seconds, 3), 0) ?? -1) - seconds) < 1e-9);
 });
 
 test("keys go a second, a tenth, or to an end", () => {

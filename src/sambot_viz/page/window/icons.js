@@ -36,6 +36,7 @@ const PATHS = {
   turn: "M13 4.5A6 6 0 1 0 14 9M13.5 1.5v3.5H10",
   play: "M4.5 3l8 5-8 5z",
   pause: "M4 3h3v10H4zM9 3h3v10H9z",
+  toBegin: "M2 3v10M8 3l-5 5 5 5zM14 3l-5 5 5 5z",
   stepBack: "M3.5 3v10M12.5 3l-7 5 7 5z",
   stepOn: "M12.5 3v10M3.5 3l7 5-7 5z",
   loop: "M12 2l2.5 2.5L12 7M14.5 4.5H4a2.5 2.5 0 0 0-2.5 2.5M4 14l-2.5-2.5L4 9M1.5 11.5H12a2.5 2.5 0 0 0 2.5-2.5",

@@ -2,7 +2,7 @@
 /* The player below the view: the time of a recording. While it plays, the page lets its
  * own time go on, and is told once in a while where the recording is. */
 
-import { html, useEffect, useReducer, useRef } from "../vendor/preact.js";
+import { html, useEffect, useReducer, useRef, useState } from "../vendor/preact.js";
 import { useCommand, useData, useRow } from "../state.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
 import { CutText } from "./cut_text.js";
@@ -49,6 +49,23 @@ export const keyGoes = (key, most) =>
     Home: -most,
     End: most,
   })[key];
+
+/** Earlier than this are seconds of a recording, and later ones since 1970 [s]. */
+const CALENDAR = 1e8;
+
+/** The time of a recording that was typed: seconds, minutes and seconds, or seconds since 1970 as
+ * messages are stamped.
+ * @param {string} text @param {number} begin of the recording [s since 1970]
+ * @returns {number | null} seconds from its begin; null for what is none */
+export function typedTime(text, begin) {
+  const parts = text.trim().replace(/s$/, "").trim().replace(",", ".").split(":");
+  const numbers = parts.map((part) =>
+    /^\d+(\.\d*)?$|^\.\d+$/.test(part.trim()) ? Number(part) : NaN,
+  );
+  if (parts.length > 3 || numbers.some(Number.isNaN)) return null;
+  const seconds = numbers.reduce((sum, part) => sum * 60 + part, 0);
+  return parts.length === 1 && seconds >= CALENDAR && begin >= CALENDAR ? seconds - begin : seconds;
+}
 
 /** What the time bar shows [s], and its length. */
 let bar = () => ({ shown: 0, most: 0 });
@@ -180,6 +197,8 @@ function Controls({ time }) {
   return html`
     <button class="play needs-control" aria-keyshortcuts="Space" title=${`${playing ? "Pause" : "Play"} (space bar)`}
       onClick=${play}><${Icon} name=${playing ? "pause" : "play"} />${playing ? "Pause" : "Play"}</button>
+    <button class="flat needs-control" aria-label="To the beginning" title="To the beginning (Home)"
+      onClick=${() => seek("Home")}><${Icon} name="toBegin" /></button>
     <button class="flat needs-control" aria-keyshortcuts="," aria-label="Message before" title="Message before (,)"
       onClick=${() => step(true)}><${Icon} name="stepBack" /></button>
     <button class="flat needs-control" aria-keyshortcuts="." aria-label="Next message" title="Next message (.)"
@@ -194,7 +213,10 @@ function Controls({ time }) {
       onKeyDown=${key} />
     <span class="time" style=${`--chars: ${clocks(most, most, false).length}`}>
       <${Popup} name="Time" role="dialog" title="ROS and wall time" label=${short}>
-      ${() => html`<${Times} ros=${() => begin + now()} first=${() => begin} />`}<//></span>
+      ${(
+        /** @type {() => void} */ close,
+      ) => html`<${GoTo} begin=${begin} most=${most} close=${close} />
+        <${Times} ros=${() => begin + now()} first=${() => begin} />`}<//></span>
     <label class="rate">Rate <select class="needs-control" aria-label="Rate" value=${String(rate)}
       onChange=${(/** @type {any} */ event) => send("player/rate", Number(event.currentTarget.value))}>
       ${[...new Set([...RATES, rate])]
@@ -220,6 +242,30 @@ export const times = (ros, wall, first, opened = OPENED) => [
   ["Wall Time", wall.toFixed(2)],
   ["Wall Elapsed", (wall - opened).toFixed(2)],
 ];
+
+/** A field for an exact time.
+ * @param {{begin: number, most: number, close: () => void}} props */
+function GoTo({ begin, most, close }) {
+  const [wrong, setWrong] = useState("");
+  /** @param {any} event */
+  const typed = (event) => {
+    event.preventDefault();
+    const seconds = typedTime(event.currentTarget.elements.time.value, begin);
+    if (seconds === null) setWrong("Write seconds, or minutes:seconds.");
+    else if (seconds < 0 || seconds > most) setWrong(`Write a time up to ${clock(most, 3)}.`);
+    else {
+      go(seconds);
+      close();
+    }
+  };
+  return html`<form class="go-to" onSubmit=${typed}>
+    <label>Go to <input class="needs-control" name="time" autocomplete="off" size="12"
+      placeholder="1:02.5" aria-invalid=${String(Boolean(wrong))}
+      title="Seconds, minutes:seconds, or seconds since 1970" /></label>
+    <button class="needs-control">Go</button>
+    ${wrong && html`<p class="l-error" role="alert">${wrong}</p>`}
+  </form>`;
+}
 
 /** @param {{ros: () => number, first: () => number}} props */
 function Times({ ros, first }) {
