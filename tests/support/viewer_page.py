@@ -62,7 +62,9 @@ _DRAW_SELDOM = f"""(() => {{
     last = performance.now();
     draw.call(gl, scene, eye);
     // Software draws a long time after this call, the longer the more it was told.
-    pause = Math.max(400, 30 * (performance.now() - last));
+    // But one that took a second is not followed by none for half a minute: until the next
+    // picture, viser shows what the page's scripts hide.
+    pause = Math.min(2000, Math.max(400, 30 * (performance.now() - last)));
   }};
 }})()"""
 _TWO_FRAMES = """new Promise(done => {
