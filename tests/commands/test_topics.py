@@ -87,6 +87,20 @@ def test_a_file_that_is_no_recording_is_one_line(
         assert len(capsys.readouterr().err.splitlines()) == 1
 
 
+@pytest.mark.parametrize("ending", ["mcap", "bag", "db3"])
+def test_a_recording_that_git_lfs_has_not_fetched_says_how_to_fetch_it(
+    tmp_path: Path, capsys: Capture, ending: str
+) -> None:
+    path = tmp_path / f"a.{ending}"
+    path.write_text(
+        "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"
+    )
+    assert main(["topics", str(path)]) == 1
+    said = capsys.readouterr().err
+    assert f"a.{ending} is a git-LFS pointer, not the recording itself" in said
+    assert "run 'git lfs pull' in its repository" in said
+
+
 def test_files_that_are_counted_together_are_named(
     square: str, tmp_path: Path, capsys: Capture
 ) -> None:

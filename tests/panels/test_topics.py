@@ -306,6 +306,8 @@ def test_why_nothing_of_a_live_topic_is_seen(
     until(lambda: "/broken" in peer.subscribed(), WAIT)
     peer.log("/broken", b"\0\1\0\0\xff\xff\xff\xff")
     live.until_shown(lambda shown: "cannot be decoded" in shown["topic:/broken/reason"])
+    # Nothing was recorded.
+    assert "look at what publishes it" in live.values()["topic:/broken/reason"]
     with live.session.lock:
         live.session.document.set_option("Fixed Frame", "nowhere")
     live.until_shown(lambda shown: "to [nowhere]" in shown["topic:/scan/reason"])

@@ -85,11 +85,11 @@ def _no_recording(options: Options) -> str:
 
 
 def _of_recording(
-    recorded: SourceRobot, at_ns: int | None
+    recorded: SourceRobot, at_ns: int | None, *, is_live: bool = False
 ) -> tuple[list[TopicStatus], list[Problem]]:
     survey = Survey(recorded)
     survey.finish()
-    statuses = list(TopicReport(survey).statuses(at_ns))
+    statuses = list(TopicReport(survey, is_live=is_live).statuses(at_ns))
     of_frames = problems_of_transforms(survey.transforms, recorded.name)
     return statuses, [*recorded.problems, *of_frames]
 
@@ -102,7 +102,7 @@ def _of_live(listened: Listened) -> tuple[list[TopicStatus], list[Problem]]:
     if recorded is not None:
         # At its end nothing is still to come.
         end_ns = None if recorded.recording is None else recorded.recording.end_ns
-        rows, found = _of_recording(recorded, end_ns)
+        rows, found = _of_recording(recorded, end_ns, is_live=True)
         came = {row.name: row for row in rows}
     silent = silent_topics(listened.topics, came, listened.seconds)
     rows = sorted([*came.values(), *silent], key=attrgetter("name"))

@@ -135,7 +135,9 @@ def not_here_yet(begins: float, latched: bool) -> TopicReason:
     return TopicReason("not-here-yet", f"begins at {begins:.1f} s ({how})")
 
 
-def not_decodable(bad: int, looked: int, cause: str, is_all: bool) -> TopicReason:
+def not_decodable(
+    bad: int, looked: int, cause: str, is_all: bool, *, is_live: bool = False
+) -> TopicReason:
     """Say how many messages cannot be decoded.
 
     Args:
@@ -143,9 +145,11 @@ def not_decodable(bad: int, looked: int, cause: str, is_all: bool) -> TopicReaso
         looked: so many were looked at.
         cause: why, of the first of them.
         is_all: there are no more messages.
+        is_live: a robot sends them now.
     """
     of = f"{looked}" if is_all else f"the first {looked}"
-    left = "record it again" if bad == looked else "they are left out"
+    remedy = "look at what publishes it" if is_live else "record it again"
+    left = remedy if bad == looked else "they are left out"
     are = "message" if looked == 1 else "messages"
     text = f"{bad} of {of} {are} cannot be decoded ({cause}): {left}"
     return TopicReason("not-decodable", text)

@@ -45,9 +45,13 @@ class TopicReport:
         survey: of its messages; what it has not met yet is not said.
         tree: the frames of a session at the time that is looked at; without it those
             of any time are read.
+        is_live: the messages are those of a robot, and were not recorded.
     """
 
-    def __init__(self, survey: Survey, tree: FrameTree | None = None) -> None:
+    def __init__(
+        self, survey: Survey, tree: FrameTree | None = None, *, is_live: bool = False
+    ) -> None:
+        self._is_live = is_live
         self._survey = survey
         self._place = PlaceInTime(survey, tree)
         self._recorded: SourceRobot = survey.recorded
@@ -117,7 +121,11 @@ class TopicReport:
             is_all = topic.count is not None and looked.decoded >= topic.count
             cause = looked.cause or "they are no transforms"
             return reasons.not_decodable(
-                looked.undecoded, looked.decoded, cause, is_all
+                looked.undecoded,
+                looked.decoded,
+                cause,
+                is_all,
+                is_live=self._is_live,
             )
         late = self._not_here_yet(name, at_ns)
         if late is not None:

@@ -403,3 +403,25 @@ def test_an_old_axis_needs_its_direction(version: str, refused: bool) -> None:
         assert "has no <xyz>" in refusal(text)[0].message
     else:
         assert load_robot(text).joints["j"].axis == (0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("shape", "is_black"),
+    [
+        ("<mesh><uri>a.dae</uri></mesh>", False),
+        ("<mesh><uri>a.OBJ</uri></mesh>", False),
+        ("<mesh><uri>a.stl</uri></mesh>", True),
+        ("<sphere><radius>1</radius></sphere>", True),
+    ],
+)
+def test_a_material_that_a_mesh_of_colours_overrides_is_not_said_to_be_black(
+    shape: str, is_black: bool
+) -> None:
+    script = "<script><uri>model://a/materials</uri><name>A/B</name></script>"
+    robot = load_robot(
+        sdf(
+            f'<link name="a"><visual name="v"><geometry>{shape}</geometry>'
+            f"<material>{script}</material></visual></link>"
+        )
+    )
+    assert bool(with_code(robot, "material-without-colour")) == is_black

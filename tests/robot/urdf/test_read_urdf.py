@@ -361,6 +361,25 @@ def test_a_wrong_colour_is_read_as_ros_reads_it(color: str, code: str, rgba: obj
     assert codes(robot.problems) == [code]
 
 
+@pytest.mark.parametrize(
+    ("kind", "limit", "ends"),
+    [
+        ("revolute", "", 'lower="-1.57" upper="1.57"'),
+        # Metres: a gripper does not open by three of them.
+        ("prismatic", "", 'lower="0" upper="0.1"'),
+        ("prismatic", '<limit effort="1" velocity="1"/>', 'lower="0" upper="0.1"'),
+        ("prismatic", '<limit lower="0.5" effort="1" velocity="1"/>', 'upper="0.6"'),
+        ("revolute", '<limit effort="1" velocity="1"/>', 'lower="-1.57" upper="1.57"'),
+    ],
+)
+def test_limits_that_are_missing_are_advised_in_the_size_of_the_joint(
+    kind: str, limit: str, ends: str
+) -> None:
+    text = joint(limit, f'type="{kind}"')
+    found = load(text).problems if limit else refused(text)
+    assert any(ends in problem.hint for problem in found)
+
+
 def test_a_global_material_without_colour_is_black():
     robot = shown(material("m"), before=material("m"))
     assert colours(robot) == [(0, 0, 0, 1)]

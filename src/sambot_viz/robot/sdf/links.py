@@ -9,7 +9,7 @@ import numpy as np
 from sambot_viz.errors import Place
 from sambot_viz.geometry import Matrix, Rgba, inverse_matrix, rpy_from_matrix
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.parts import Inertial, Link, Material, Origin, Shape
+from sambot_viz.robot.parts import Inertial, Link, Material, MeshFile, Origin, Shape
 from sambot_viz.robot.sdf.fields import colour_in, number_in, pose_of, text_in
 from sambot_viz.robot.sdf.frames import FramePoses
 from sambot_viz.robot.sdf.loose_text import loose_text
@@ -21,6 +21,8 @@ from sambot_viz.robot.sdf.wording import REFUSED
 from sambot_viz.robot.xml.element import Element
 
 _BLACK: Rgba = (0.0, 0.0, 0.0, 1.0)
+_WITHOUT_COLORS = (".stl", ".stlb")
+"""Endings of mesh files that have no materials."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -62,7 +64,11 @@ class SdfLinkReader:
         name = trimmed(element.get("name") or "")
         material = None
         if element.tag == "visual":
-            material = self._material(element, f"{link.name}{name}")
+            # Its own materials win, in RViz and here.
+            has_colors = isinstance(
+                geometry, MeshFile
+            ) and not geometry.filename.lower().endswith(_WITHOUT_COLORS)
+            material = self._material(element, f"{link.name}{name}", has_colors)
         if geometry is None:
             return None
         inner = element.find("geometry")
@@ -71,8 +77,16 @@ class SdfLinkReader:
         origin = origin_of(T, pose.place if pose else None)
         return Shape(geometry, origin, material, name, element.place, solid)
 
-    def _material(self, visual: Element, name: str) -> Material | None:
-        """Return the material as ROS mixes it; None is RViz's red."""
+    def _material(
+        self, visual: Element, name: str, has_colors: bool
+    ) -> Material | None:
+        """Return the material as ROS mixes it; None is RViz's red.
+
+        Args:
+            visual: has the <material>.
+            name: of the material.
+            has_colors: the shape is a mesh that may have colours of its file.
+        """
         element = visual.find("material")
         if element is None:
             return None
@@ -85,7 +99,8 @@ class SdfLinkReader:
             min(0.4 * dim + 0.8 * bright, 1.0)
             for dim, bright in zip(ambient, diffuse, strict=True)
         )
-        self._check_black(element, script)
+        if not has_colors:
+            self._check_black(element, script)
         return Material(name, (r, g, b, a))
 
     def _check_script(self, script: Element) -> None:

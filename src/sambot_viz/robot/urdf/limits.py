@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Dynamics, JointType, Limit, SoftLimit
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.xml.element import Element
 
 _REFUSED = "ROS refuses the model"
-_LIMIT_EXAMPLE = 'lower="-1.57" upper="1.57" effort="10" velocity="1"'
+_RANGES: Mapping[str, tuple[float, float, float]] = {
+    "revolute": (-1.57, 1.57, 1.0),
+    "prismatic": (0.0, 0.1, 0.1),
+}
+"""Type of joint → the ends of a range, and a step beyond an end [rad or m]."""
 
 
-def _example(missing: list[str], limit: Limit) -> str:
+def _example(kind: JointType, missing: Sequence[str], limit: Limit) -> str:
     """Write the missing ends of a range, below or above the end that is there."""
-    lower, upper = min(-1.57, limit.upper - 1), max(1.57, limit.lower + 1)
+    least, most, step = _RANGES[kind]
+    lower = least if "upper" in missing else min(least, limit.upper - step)
+    upper = most if "lower" in missing else max(most, limit.lower + step)
     return " ".join(f'{n}="{lower if n == "lower" else upper:g}"' for n in missing)
 
 
@@ -63,11 +71,13 @@ class LimitReader:
 
     def _report_no_limit(self) -> None:
         unit = "radians" if self._kind == "revolute" else "metres"
+        ends = _example(self._kind, ("lower", "upper"), Limit())
         other = ", or make the joint continuous" if self._kind == "revolute" else ""
         self._findings.reject(
             "limit-missing",
             f"joint {self._name} is {self._kind} and has no <limit>; {_REFUSED}",
-            f"add <limit {_LIMIT_EXAMPLE}/> with lower and upper in {unit}{other}",
+            f'add <limit {ends} effort="10" velocity="1"/> with lower and upper in '
+            f"{unit}{other}",
             self._element,
         )
 
@@ -96,7 +106,7 @@ class LimitReader:
                 f"the range is {limit.lower:g} to {limit.upper:g}; "
                 "joint_state_publisher leaves the joint out, so RViz has no transform "
                 "for its link",
-                f"add {_example(missing, limit)}",
+                f"add {_example(self._kind, missing, limit)}",
                 element,
             )
         elif limit.lower > limit.upper:

@@ -239,7 +239,9 @@ class LiveTopics:
         try:
             decoded = self._live.decoding.decode(message)
         except DecodeError as error:
-            heard.reason = reasons.not_decodable(1, 1, str(error), is_all=False)
+            heard.reason = reasons.not_decodable(
+                1, 1, str(error), is_all=False, is_live=True
+            )
             return
         header = getattr(decoded, "header", None)
         if header is not None and message.topic not in self._live.topics.all:

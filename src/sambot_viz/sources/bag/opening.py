@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Problem, SourceError
+from sambot_viz.files import is_lfs_pointer
 from sambot_viz.sources.bag import db3_file, mcap_records, ros1
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.bag.block_bag import OPENING, BlockBag
@@ -16,7 +17,12 @@ from sambot_viz.sources.bag.file_bytes import FileBytes
 from sambot_viz.sources.bag.folder import files_of
 from sambot_viz.sources.bag.mcap import McapBag
 from sambot_viz.sources.bag.recording import Recording
-from sambot_viz.sources.bag.refusals import not_a_bag, refused, unreadable
+from sambot_viz.sources.bag.refusals import (
+    lfs_pointer,
+    not_a_bag,
+    refused,
+    unreadable,
+)
 from sambot_viz.sources.bag.whole_file import ZSTD, unpacked
 
 
@@ -121,6 +127,8 @@ def _of_its_format(file: FileBytes, begin: bytes) -> BlockBag:
         return Db3Bag(file)
     if begin.startswith(ros1.MAGIC):
         return ros1.Ros1Bag(file)
+    if is_lfs_pointer(begin):
+        raise lfs_pointer(file.path)
     raise not_a_bag(file.path, _kind(begin))
 
 

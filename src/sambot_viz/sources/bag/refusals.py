@@ -20,6 +20,14 @@ def unreadable(path: Path, error: OSError | ValueError) -> SourceError:
     return refused(path, "file-unreadable", message, hint)
 
 
+def lfs_pointer(path: Path) -> SourceError:
+    """Say that a repository was cloned without its large files."""
+    message = f"{path.name} is a git-LFS pointer, not the recording itself"
+    return refused(
+        path, "file-not-a-bag", message, "run 'git lfs pull' in its repository"
+    )
+
+
 def not_a_bag(path: Path, why: str) -> SourceError:
     """Say that a file is no recording."""
     message = f"{path.name} is not a recording: {why}"
