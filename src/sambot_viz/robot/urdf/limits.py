@@ -17,7 +17,7 @@ _RANGES: Mapping[str, tuple[float, float, float]] = {
 """Type of joint → the ends of a range, and a step beyond an end [rad or m]."""
 
 
-def _example(kind: JointType, missing: Sequence[str], limit: Limit) -> str:
+def _example(kind: str, missing: Sequence[str], limit: Limit) -> str:
     """Write the missing ends of a range, below or above the end that is there."""
     least, most, step = _RANGES[kind]
     lower = least if "upper" in missing else min(least, limit.upper - step)
