@@ -309,23 +309,6 @@ def test_a_page_that_was_left_is_not_counted_and_works_after_coming_back(
         viewer.user.until(lambda: viz.joint_positions[LEFT] == 0.5)
 
 
-def test_a_page_that_is_loaded_again_undoes_what_it_has_done_before(
-    open_viewer: Callable[..., ViewerPage],
-) -> None:
-    with Visualizer(port=0) as viz:
-        viewer, other = open_viewer(viz.url), open_viewer(viz.url)
-        # The server is closed before the pages are.
-        viewer.expects_errors = other.expects_errors = True
-        user = viewer.user
-        user.enter(user.row("Joints", LEFT).one("textbox"), "0.5")
-        user.until(lambda: viz.joint_positions[LEFT] == 0.5)
-        viewer.reload()
-        user.until(lambda: not user.find("button", "Undo").state("disabled"))
-        assert other.user.find("button", "Undo").state("disabled")
-        user.click("button", "Undo")
-        user.until(lambda: viz.joint_positions[LEFT] == 0.0)
-
-
 def test_a_page_that_is_loaded_again_keeps_its_view_and_what_is_unfolded(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:

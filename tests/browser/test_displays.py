@@ -11,7 +11,7 @@ from inside import session_of
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Problem, Visualizer
+from sambot_viz import Visualizer
 from sambot_viz.session import Session
 from sambot_viz.session.scene.scene import walk
 
@@ -78,40 +78,8 @@ def names(session: Session) -> list[str]:
     return [display.name for display in walk(session.document.config.displays)]
 
 
-def drag(user: User, name: str, to: str, part: float) -> None:
-    """Drag a display to a part of the height of another row."""
-    x, y = user.go_to(user.row("Displays", name).all("gridcell")[0])
-    _, top, _, height = user.box(user.row("Displays", to))
-    user.page.mouse.drag((x, y), (x, top + part * height), steps=20)
-
-
 def select(user: User, *names: str) -> None:
     user.click_on(user.row("Displays", *names).all("gridcell")[0])
-
-
-def test_a_display_is_dragged_into_a_folded_group_and_out_of_it(
-    user: User, session: Session
-) -> None:
-    user.unfold("Displays", "Ground", fold=True)
-    drag(user, "Grid", "Ground", 0.5)
-    user.until(lambda: names(session) == ["Robot", "Ground", "Axes", "Grid", "TF"])
-    # The group is open now, and the display is selected in it.
-    user.until(lambda: user.row("Displays", "Ground", "Grid").state("focused"))
-    drag(user, "Grid", "Robot", 0.1)
-    user.until(lambda: names(session) == ["Grid", "Robot", "Ground", "Axes", "TF"])
-
-
-def test_a_display_goes_into_the_group_before_it_and_out_again_by_keys(
-    user: User, session: Session
-) -> None:
-    before = names(session)
-    user.unfold("Displays", "Ground")
-    select(user, "TF")
-    # The order of the rows stays the same.
-    for key, level in (("ArrowUp", 2), ("ArrowDown", 1)):
-        user.keys(f"Alt+{key}")
-        user.until(lambda n=level: user.row("Displays", "TF").states["level"] == n)
-        assert names(session) == before
 
 
 def test_escape_puts_a_dragged_display_back(user: User, session: Session) -> None:
@@ -188,9 +156,13 @@ def test_a_refusal_moves_no_row_and_goes_with_the_next_edit(user: User) -> None:
 def test_the_first_click_selects_and_the_next_one_edits(
     user: User, session: Session
 ) -> None:
+    def color(*names: str) -> str:
+        return user.color_behind(user.row("Displays", *names))
+
     user.unfold("Displays", "Grid")
     user.click_on(user.row("Displays", "Grid", "Alpha").one("textbox"))
     user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
+    user.until(lambda: color("Grid", "Alpha") != color("TF"))
     user.reads("How opaque the lines are")
     user.click_on(user.row("Displays", "Grid", "Alpha").one("textbox"))
     user.until(
@@ -200,65 +172,6 @@ def test_the_first_click_selects_and_the_next_one_edits(
     user.keys("Escape")
     user.until(lambda: user.row("Displays", "Grid", "Alpha").state("focused"))
     assert session.document.config.displays[1].get("Alpha") == 0.5
-
-
-def test_the_menu_of_a_row_is_used_by_keys(user: User, session: Session) -> None:
-    select(user, "Grid")
-    user.keys("Shift+F10")
-    user.find("menuitem", "Add…", ("menu", "Grid"))
-    user.keys("d", "Enter")
-    user.until(lambda: "Grid (2)" in names(session))
-    user.until(lambda: user.row("Displays", "Grid (2)").state("focused"))
-    user.keys("Shift+F10")
-    user.find("menu", "Grid (2)")
-    user.keys("Escape")
-    user.gone("menu", "Grid (2)")
-    user.until(lambda: user.row("Displays", "Grid (2)").state("focused"))
-
-
-def test_a_part_of_a_vector_is_set_with_the_others(
-    user: User, session: Session
-) -> None:
-    user.unfold("Displays", "Grid")
-    user.unfold("Displays", "Grid", "Offset")
-    user.enter(user.row("Displays", "Grid", "Offset", "Y").one("textbox"), "2")
-    user.enter(user.row("Displays", "Grid", "Offset", "Z").one("textbox"), "50 cm")
-    grid = session.document.config.displays[1]
-    user.until(lambda: grid.get("Offset") == (0.0, 2.0, 0.5))
-    user.until(
-        lambda: (
-            user.row("Displays", "Grid", "Offset").one("textbox").value == "0; 2; 0.5"
-        )
-    )
-
-
-def test_the_list_of_problems_opens_for_errors_and_closes_when_they_are_fixed(
-    desk: Desk,
-) -> None:
-    user, model = desk.user, desk.model
-    count = user.find("button", "No problems")
-    assert not count.state("expanded")
-    model.write_text(MODEL.replace("</link>", "</lnk>"), "utf-8")
-    row = user.row(
-        "Problems", "Your file has an error; showing the last version that worked."
-    )
-    user.until(lambda: user.can_see(row))
-    user.until(lambda: user.find("button", "Problems: 1 error").state("expanded"))
-    user.reads("robot.urdf:4")
-    user.keys("h")
-    user.gone("treegrid", "Problems")
-    user.click("button", "Problems: 1 error")
-    user.until(
-        lambda: user.can_see(
-            user.row(
-                "Problems",
-                "Your file has an error; showing the last version that worked.",
-            )
-        )
-    )
-    model.write_text(MODEL, "utf-8")
-    user.find("button", "No problems")
-    user.until(lambda: not user.there("treegrid", "Problems"))
 
 
 def test_displays_with_errors_are_counted_and_one_click_leads_to_the_first(
@@ -278,28 +191,3 @@ def test_displays_with_errors_are_counted_and_one_click_leads_to_the_first(
     user.row("Displays", "Grid", "Status", "Transform")
     user.click("button", "Use <Fixed Frame>")
     user.find("button", "No problems")
-
-
-def test_a_mere_remark_takes_no_room(own: Own) -> None:
-    user, session = own
-    remark = Problem("info", "i", "worth knowing", "do that")
-    session.worker.post(lambda: session.problems.set_model([remark]))
-    user.find("button", "Problems: 1 info")
-    assert not user.there("treegrid", "Problems")
-    user.click("button", "Problems: 1 info")
-    user.row("Problems", "worth knowing")
-    user.unfold("Problems", "worth knowing")
-    user.reads("To fix it: do that")
-    user.click("button", "Problems: 1 info")
-    user.gone("treegrid", "Problems")
-
-
-def test_the_row_that_is_selected_is_seen(desk: Desk) -> None:
-    user = desk.user
-
-    def color(name: str) -> str:
-        return user.color_behind(user.row("Displays", name))
-
-    user.click_on(user.row("Displays", "Grid"))
-    user.until(lambda: user.row("Displays", "Grid").state("selected"))
-    user.until(lambda: color("Grid") != color("TF"))

@@ -4,51 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
 from desk import Desk
-from inside import session_of
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
 Open = Callable[..., ViewerPage]
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    text = bundled.config_path().read_text("utf-8")
-    (tmp_path / "mine.rviz").write_text(text, "utf-8")
-    other = text.replace("Name: Grid", "Name: Floor").replace("- /TF1", "- /Floor1")
-    view = "Class: rviz_default_plugins/Orbit"
-    other = other.replace(view, f"{view}\n      Distance: 7")
-    (tmp_path / "other.rviz").write_text(other, "utf-8")
-    return tmp_path
-
-
-@pytest.fixture
-def viz(folder: Path) -> Iterator[Visualizer]:
-    with Visualizer(config=folder / "mine.rviz", port=0, watch=True) as viz:
-        yield viz
-
-
-@pytest.fixture
-def viewer(viz: Visualizer, open_viewer: Open, tmp_path: Path) -> ViewerPage:
-    viewer = open_viewer(viz.url)
-    downloads = tmp_path / "downloads"
-    downloads.mkdir()
-    viewer.page.take_downloads(downloads)
-    return viewer
-
-
-@pytest.fixture
-def user(viewer: ViewerPage) -> User:
-    viewer.user.row("Displays", "Grid")
-    return viewer.user
 
 
 @pytest.fixture
@@ -57,25 +23,6 @@ def desk(sit: Callable[..., Desk]) -> Desk:
     desk = sit("S")
     desk.user.row("Displays", "Grid")
     return desk
-
-
-def title(user: User) -> str:
-    return str(user.page.evaluate("document.title"))
-
-
-def choose(user: User, menu: str, entry: str) -> None:
-    user.click("menuitem", menu)
-    user.click("menuitem", re.compile(f"^{re.escape(entry)}"))
-
-
-def change_the_frame_rate(user: User, rate: int) -> None:
-    field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
-    user.enter(field, str(rate))
-    user.until(lambda: title(user).startswith("mine.rviz*"))
-
-
-def distance(user: User) -> str:
-    return str(user.row("Views", "Current View", "Distance").one("textbox").value)
 
 
 def focused(user: User) -> str:
@@ -101,62 +48,12 @@ def test_the_menus_follow_the_keys_of_a_menu_bar(desk: Desk) -> None:
     user.keys("Enter", "End", "Enter")
     dialog = user.find("dialog", re.compile("About"))
     assert re.search(r"sambot-viz \d+\.\d+", dialog.text)
-    user.keys("Escape")
-    user.gone("dialog")
-    user.until(lambda: focused(user) == "Help")
-
-
-def test_keys_of_the_window_do_nothing_while_a_dialog_is_open(desk: Desk) -> None:
-    user = desk.user
-    choose(user, "Help", "Keys")
-    user.find("dialog", "Keys")
+    # The keys of the window do nothing meanwhile.
     user.keys("m", "h", "n")
     user.keys("Escape")
     user.gone("dialog")
+    user.until(lambda: focused(user) == "Help")
     assert user.find("button", "Interact").state("pressed")
-    user.row("Displays", "Grid")
-
-
-def test_opening_asks_about_changes_and_shows_what_was_saved(
-    user: User, viz: Visualizer, folder: Path
-) -> None:
-    change_the_frame_rate(user, 12)
-    user.unfold("Displays", "Grid")
-    user.enter(user.row("Views", "Current View", "Distance").one("textbox"), "3")
-    choose(user, "File", "Open Config")
-    user.find("dialog", "Unsaved changes")
-    user.click("button", "Save", ("dialog", "Unsaved changes"))
-    user.find("dialog", "Open Config")
-    user.click("option", "other.rviz")
-    user.click("button", "Open")
-    user.gone("dialog")
-    user.until(lambda: title(user).startswith("other.rviz"))
-    assert session_of(viz).document.config.displays[0].name == "Floor"
-    user.row("Displays", "Floor", "Cell Size")
-    user.until(lambda: "Show Names" not in user.rows("Displays"))
-    user.until(lambda: distance(user) == "7")
-    # The first one again: Grid was unfolded when it was saved, and so was TF.
-    choose(user, "File", "Open Config")
-    user.click("option", "mine.rviz")
-    user.keys("Enter")
-    user.gone("dialog")
-    user.row("Displays", "Grid", "Cell Size")
-    user.row("Displays", "TF", "Show Names")
-    user.until(lambda: distance(user) == "3")
-    assert session_of(viz).document.config.global_options.get("Frame Rate") == 12
-
-
-def test_panels_are_hidden_and_shown_again_from_the_menu(desk: Desk) -> None:
-    user = desk.user
-    choose(user, "Panels", "Hide all")
-    user.gone("treegrid")
-    user.click("button", re.compile("Show panels"))
-    user.row("Displays", "Grid")
-    user.click("menuitem", "Panels")
-    user.click("menuitemcheckbox", "Displays")
-    user.gone("treegrid", "Displays")
-    user.click("menuitem", "Panels")
-    user.click("menuitemcheckbox", "Displays")
     user.row("Displays", "Grid")
 
 

@@ -91,18 +91,6 @@ def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
     user.until(lambda: desk.fixed_frame == "base_link")
 
 
-def test_h_and_a_button_hide_the_panels_and_a_button_brings_them_back(
-    user: User, viewer: ViewerPage
-) -> None:
-    wide = "document.getElementById('root').clientWidth === innerWidth"
-    for hide in (lambda: user.keys("h"), lambda: user.click("button", "Hide panels")):
-        hide()
-        viewer.wait_for(wide)
-        user.click("button", "Show panels (H)")
-        viewer.wait_for(f"!({wide})")
-        user.find("toolbar", "Tools")
-
-
 @pytest.mark.view
 def test_the_mouse_is_reported_at_most_twenty_times_a_second_while_measure_wants_it(
     user: User, viewer: ViewerPage, browser: Client

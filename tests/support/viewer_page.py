@@ -62,7 +62,7 @@ _DRAW_SELDOM = f"""(() => {{
     last = performance.now();
     draw.call(gl, scene, eye);
     // Software draws a long time after this call, the longer the more it was told.
-    // But one that took a second is not followed by none for half a minute: until the next
+    // One that took a second is not followed by none for half a minute: until the next
     // picture, viser shows what the page's scripts hide.
     pause = Math.min(2000, Math.max(400, 30 * (performance.now() - last)));
   }};

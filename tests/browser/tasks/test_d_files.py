@@ -100,7 +100,12 @@ def test_task_33_open_that_config_again(desk: Desk) -> None:
     user.enter(user.row("Views", "Current View", "Distance").one("textbox"), "7")
     save_as(desk, "other")
     user.gone(*DIALOG)
+    cell_size(desk, "0.8")
     user.menu("File", re.compile("^Open"))
+    user.find("dialog", "Unsaved changes")
+    user.click("button", "Save", ("dialog", "Unsaved changes"))
+    user.find("dialog", "Open Config")
+    assert size_in(desk.folder / "other.rviz") == pytest.approx(0.8)
     configs = user.find("listbox", "Configs")
     user.choose(configs, "again")
     user.click("button", "Open", ("dialog", "Open Config"))
@@ -109,6 +114,7 @@ def test_task_33_open_that_config_again(desk: Desk) -> None:
     user.until(lambda: shown_size(desk) == "0.3")
     user.until(lambda: not user.row("Displays", "RobotModel").state("expanded"))
     user.until(lambda: user.row("Views", "Distance").one("textbox").value == "2.5")
+    user.until(lambda: name_of_config(desk) == "again.rviz")
 
 
 @pytest.mark.view
@@ -144,6 +150,9 @@ def test_task_36_break_the_model_and_fix_it(desk: Desk) -> None:
     frames = set(desk.viz.frames.frames)
     desk.model.write_text(good.replace("</robot>", "</rob>"), "utf-8")
     user.until(lambda: user.there("button", re.compile("Problems: 1 error")), AT_ONCE)
+    # The list opens by itself.
+    user.until(lambda: user.find("button", "Problems: 1 error").state("expanded"))
+    user.until(lambda: user.can_see(user.find("treegrid", "Problems")))
     user.reads(f"{desk.model.name}:")
     user.reads("last version that worked")
     extra = good.replace(

@@ -60,8 +60,9 @@ def test_task_39_look_exactly_from_above(s: Desk) -> None:
     s.page.mouse.drag(SKY, (SKY[0], SKY[1] + 200), button="right")
     s.user.until(lambda: number(s, "Scale") < scale)
     s.user.until(lambda: drawn(s) > 0.001, AT_ONCE)
-    set_number(s, "Scale", "100")
-    s.user.until(lambda: drawn(s) > 0.001, AT_ONCE)
+    for scale in ("300", "100"):
+        set_number(s, "Scale", scale)
+        s.user.until(lambda: drawn(s) > 0.001, AT_ONCE)
     s.user.choose(s.user.find("combobox", "Type", views), "Orbit")
     s.user.row("Views", "Current View", "Distance")
 
@@ -153,13 +154,22 @@ def test_task_43_make_a_picture_for_the_report(s: Desk) -> None:
 
 def test_task_44_see_more_of_the_scene(s: Desk) -> None:
     before = s.viewer.view_box()
-    s.user.click("button", "Hide panels")
-    s.user.gone("treegrid")
-    s.user.until(lambda: s.viewer.view_box() == (0, 0, 1280, 720), AT_ONCE)
-    back = s.user.find("button", re.compile("Show panels"))
-    s.user.until(lambda: s.user.can_see(back))
-    s.user.click_on(back)
-    s.user.find("treegrid", "Joints")
+    for hide in (
+        lambda: s.user.click("button", "Hide panels"),
+        lambda: s.user.keys("h"),
+        lambda: s.user.menu("Panels", re.compile("^Hide all")),
+    ):
+        hide()
+        s.user.gone("treegrid")
+        s.user.until(lambda: s.viewer.view_box() == (0, 0, 1280, 720), AT_ONCE)
+        back = s.user.find("button", "Show panels (H)")
+        s.user.until(lambda back=back: s.user.can_see(back))
+        s.user.click_on(back)
+        s.user.find("treegrid", "Joints")
+        s.user.until(lambda: s.viewer.view_box() == before, AT_ONCE)
+    for is_there in (False, True):
+        s.user.menu("Panels", "Displays")
+        s.user.until(lambda n=is_there: s.user.there("treegrid", "Displays") == n)
     s.user.until(lambda: s.viewer.view_box() == before, AT_ONCE)
     width = before[2]
     for side in ("left", "right"):

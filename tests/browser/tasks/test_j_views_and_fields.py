@@ -47,7 +47,18 @@ def test_task_66_a_display_goes_into_a_group_and_back(
     user.until(lambda: user.row("Displays", "Planner", "Grid").state("selected"))
     user.until(lambda: user.row("Displays", "Planner").state("expanded"))
     assert "Grid" not in [display.name for display in displays.displays]
-    user.keys("Control+z")
+    # By keys it goes out of the group and into it again, in the same place.
+    user.keys("Escape")
+    for key, level in (("ArrowDown", 1), ("ArrowUp", 2)):
+        user.keys(f"Alt+{key}")
+        user.until(lambda n=level: user.row("Displays", "Grid").states["level"] == n)
+    # And out of it by a drag, to the first place.
+    x, y = user.go_to(user.row("Displays", "Planner", "Grid").all("gridcell")[0])
+    _, top, _, height = user.box(user.row("Displays", "RobotModel"))
+    desk.page.mouse.drag((x, y), (x, top + 0.1 * height), steps=20)
+    user.until(lambda: [display.name for display in displays.displays] == names)
+    for _ in range(4):
+        user.keys("Control+z")
     user.until(lambda: [display.name for display in displays.displays] == names)
     user.until(lambda: [n for n in user.rows("Displays") if n in before] == before)
 
@@ -158,6 +169,12 @@ def test_task_69_vectors_in_every_form(s: Desk) -> None:
         user.keys("Tab")
         user.until(lambda: not row().all("alert"))
     assert grid.get("Offset") == (4.0, 5.0, 6.0)
+    # One part of it at a time.
+    user.unfold(*OFFSET)
+    user.enter(user.row(*OFFSET, "Y").one("textbox"), "2")
+    user.enter(user.row(*OFFSET, "Z").one("textbox"), "50 cm")
+    user.until(lambda: grid.get("Offset") == (4.0, 2.0, 0.5))
+    user.until(lambda: row().one("textbox").value == "4; 2; 0.5")
 
 
 def test_task_70_a_mistake_and_a_click_elsewhere(s: Desk) -> None:
@@ -175,7 +192,16 @@ def test_task_71_add_a_display_by_the_keyboard_alone(s: Desk) -> None:
     user = s.user
     user.click_on(user.row("Displays", "Grid").all("gridcell")[0])
     user.keys("Shift+F10")
-    user.find("menuitem", "Add…", ("menu", "Grid"))
+    user.find("menu", "Grid")
+    user.keys("Escape")
+    user.gone("menu", "Grid")
+    user.until(lambda: user.row("Displays", "Grid").state("focused"))
+    user.keys("Shift+F10")
+    user.find("menuitem", "Duplicate", ("menu", "Grid"))
+    user.keys("d", "Enter")
+    user.until(lambda: user.row("Displays", "Grid (2)").state("focused"))
+    user.keys("Shift+F10")
+    user.find("menuitem", "Add…", ("menu", "Grid (2)"))
     user.keys("Enter")
     user.find("dialog", "Add Display")
     s.page.keyboard.type_quickly("ro")
