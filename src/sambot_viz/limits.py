@@ -59,6 +59,12 @@ DEFINITION = LimitRow(
     "characters",
     "its topics say that they cannot be decoded",
 )
+DEFINITIONS = LimitRow(
+    "all definitions of a db3 file together",
+    64 * 2**20,
+    "characters",
+    "later ones are not read; topics of types that ROS does not have say so",
+)
 DEFINITION_TYPES = LimitRow(
     "types in the definition of a type",
     1000,

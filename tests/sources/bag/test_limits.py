@@ -257,3 +257,42 @@ def test_a_definition_above_the_limit_costs_its_topic_alone(
     said = f"longer than {most:,} characters"
     assert said not in about["/t0"]
     assert said in about["/t1"]
+
+
+def test_of_a_huge_definition_of_a_db3_no_more_is_read_than_shows_that_it_is(
+    tmp_path: Path,
+) -> None:
+    text = "#" * (40 * limits.DEFINITION.value)
+    given = [Given("/t", [string(40)], "a/msg/A", text)]
+    path = write_any(tmp_path, "db3", given, 10**9)
+    del text, given
+    tracemalloc.start()
+    try:
+        with open_bag(path):
+            _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 10 * limits.DEFINITION.value
+
+
+def test_definitions_of_a_db3_that_are_too_large_together_cost_the_later_topics(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = [
+        Given(f"/t{number}", [string(40)], f"a/msg/A{number}", "string data\n" * 9)
+        for number in range(3)
+    ]
+    path = write_any(tmp_path, "db3", given, 10**9)
+    texts = [channel_text(path, f"/t{number}") for number in range(3)]
+    assert all(texts)
+    limit(monkeypatch, "DEFINITIONS", 250)
+    assert [channel_text(path, f"/t{n}") for n in range(3)] == [*texts[:2], ""]
+    about = reasons(path)
+    assert about["/t2"] != about["/t1"] and "a/msg/A2" in about["/t2"]
+
+
+def channel_text(path: Path, topic: str) -> str | bytes:
+    """The definition of the type of a topic."""
+    with open_bag(path) as bag:
+        (text,) = {one.channel.schema.text for one in bag.messages(topics=[topic])}
+    return text

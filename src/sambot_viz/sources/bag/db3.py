@@ -115,12 +115,20 @@ class Db3Bag(BlockBag):
         wanted = {"topic_type", "encoding", "encoded_message_definition"}
         if not self._columns("message_definitions") >= wanted:
             return {}
-        names = "topic_type, encoding, encoded_message_definition"
-        rows = self._rows(f"select {names} from message_definitions")
-        return {
-            str(kind): Schema(str(kind), str(encoding), str(definition))
-            for kind, encoding, definition in rows
-        }
+        # A character above the limit is enough to see that it is.
+        most, left = limits.DEFINITION.value + 1, limits.DEFINITIONS.value
+        names = ("topic_type", "encoding", "encoded_message_definition")
+        parts = ", ".join(f"substr({name}, 1, {most})" for name in names)
+        query = f"select {parts} from message_definitions"
+        found: dict[str, Schema] = {}
+        with self._reading:
+            for row in self._database.connection.execute(query):
+                kind, encoding, definition = map(str, row)
+                left -= len(kind) + len(definition)
+                if left < 0:
+                    break
+                found[kind] = Schema(kind, encoding, definition)
+        return found
 
     # --- finding --------------------------------------------------------------------
 
