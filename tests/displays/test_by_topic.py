@@ -83,6 +83,12 @@ def test_a_topic_is_shown_by_the_displays_of_its_type(
                 "Update Topic": "/map_updates",
             },
         ),
+        (
+            "Map",
+            "/map_updates",
+            "map_msgs/msg/OccupancyGridUpdate",
+            {"Topic": "/map", "Update Topic": "/map_updates"},
+        ),
         # Its quality of service is not below the topic.
         (
             "DepthCloud",

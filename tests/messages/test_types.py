@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from sambot_viz.errors import DecodeError
+from sambot_viz.meanings import Meaning
 from sambot_viz.messages import MessageTypes, Schema
 from sambot_viz.messages import types as types_module
 
@@ -297,6 +298,14 @@ def test_a_definition_in_another_language_is_named(
     # ROS's own types need no text.
     known = types.decoder(Schema("geometry_msgs::msg::dds_::Point_", "omgidl"), "cdr")
     assert known.decode(b"\0\1\0\0" + struct.pack("<3d", 1, 2, 3)).z == 3
+
+
+def test_what_displays_draw_is_known_without_a_definition(types: MessageTypes) -> None:
+    for meaning in Meaning:
+        if meaning.display is not None:
+            decoder = types.decoder(Schema(meaning.value), "cdr")
+            assert decoder.reason is None, meaning
+            types.shape(meaning.value)
 
 
 def test_definitions_in_the_idl_of_omg_are_read(types: MessageTypes) -> None:

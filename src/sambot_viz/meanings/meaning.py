@@ -76,6 +76,7 @@ _DISPLAYS = {
     Meaning.SCAN: "LaserScan",
     Meaning.CONE: "Range",
     Meaning.GRID: "Map",
+    Meaning.GRID_UPDATE: "Map",
     Meaning.CELLS: "GridCells",
     Meaning.POSE: "Pose",
     Meaning.POSE_WITH_COVARIANCE: "PoseWithCovariance",

@@ -33,6 +33,13 @@ _PLACES = (
     "src/{package}/msg/{name}.msg",
 )
 """Where a message is below a folder of packages, an installation, or a workspace."""
+_DRAWN = {
+    "map_msgs/msg/OccupancyGridUpdate": "std_msgs/Header header\nint32 x\nint32 y\n"
+    "uint32 width\nuint32 height\nint8[] data\n",
+    "nav2_msgs/msg/Particle": "geometry_msgs/Pose pose\nfloat64 weight\n",
+    "nav2_msgs/msg/ParticleCloud": "std_msgs/Header header\nParticle[] particles\n",
+}
+"""Types that displays draw and rosbags does not have."""
 _LARGEST = limits.DEFINITION.value
 _TYPE = re.compile(r"([A-Za-z]\w*)/msg/([A-Za-z]\w*)", re.ASCII)
 
@@ -91,7 +98,8 @@ class KnownTypes:
                     return parsed_types(name, "ros2msg", text)
                 except DecodeError:
                     continue
-        return None
+        text = _DRAWN.get(name)
+        return None if text is None else parsed_types(name, "ros2msg", text)
 
     def _paths(self, package: str, name: str) -> Iterator[Path]:
         for folder in self._folders:

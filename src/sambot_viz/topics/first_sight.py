@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.topics.reasons import display_of
 
 MOST = 24
@@ -47,7 +48,9 @@ def _needed(types: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     found = sorted(
         (_RANK[kind], name, kind)
         for name, type_name in types.items()
-        if (kind := display_of(name, type_name) or "") in _RANK
+        # An update is drawn by the display of its map.
+        if meaning_of(type_name) is not Meaning.GRID_UPDATE
+        and (kind := display_of(name, type_name) or "") in _RANK
     )
     pictures = 0
     for _, name, kind in found:

@@ -28,7 +28,7 @@ from sambot_viz.displays.scene.maps import MapNode, palette
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
-from sambot_viz.meanings import Meaning
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.contents.grids import map_fault
@@ -48,9 +48,12 @@ def unsigned(data: npt.NDArray[np.int8], rows: int, columns: int) -> Cells:
     return np.array(np.reshape(values, (rows, columns)))
 
 
+_UPDATES = "_updates"
+
+
 def updates_of(topic: str) -> str:
     """Return the topic that RViz takes for the updates of a map's; "" without one."""
-    return f"{topic}_updates" if topic else ""
+    return f"{topic}{_UPDATES}" if topic else ""
 
 
 class MapDisplay(TopicDisplay):
@@ -81,6 +84,9 @@ class MapDisplay(TopicDisplay):
         cls, topic: str, type_name: str, qos: WantedQos | None
     ) -> Mapping[str, object] | None:
         """Return the values of a new display that draws a topic and its updates."""
+        if meaning_of(type_name) is Meaning.GRID_UPDATE:
+            # The map that it changes has the same name, as a rule.
+            return {TOPIC: topic.removesuffix(_UPDATES), UPDATE_TOPIC: topic}
         found = super().topic_values(topic, type_name, qos)
         return None if found is None else {**found, UPDATE_TOPIC: updates_of(topic)}
 
