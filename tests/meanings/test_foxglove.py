@@ -5,6 +5,7 @@ The messages are written by foxglove-sdk, as JSON by hand where encodings differ
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -313,3 +314,39 @@ def test_compressed_points_and_video_say_so(decode: Decode) -> None:
         timestamp=STAMP, frame_id="cam", data=b"x", format="h264"
     )
     assert decode(in_protobuf(video)).format == "h264"
+
+
+def calls(work: Callable[[], object]) -> int:
+    """How many functions are called, of Python and of C."""
+    count = 0
+
+    def note(frame: object, event: str, arg: object) -> None:
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    sys.setprofile(note)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+def many(count: int) -> list[Any]:
+    """Messages with so many points, readings, cells and pixels."""
+    table = np.ones(count, "f8,f8,u1,u1,u1")
+    table.dtype.names = ("x", "y", "red", "green", "blue")
+    kinds = dict.fromkeys("xy", F64) | dict.fromkeys(("red", "green", "blue"), BYTE)
+    return [
+        cloud_of(table, kinds),
+        fox.LaserScan(**placed(ranges=[1.0] * count)),
+        grid_of(np.ones((1, count), "f4")),
+        fox.RawImage(width=count, height=1, encoding="mono8", data=bytes(count)),
+    ]
+
+
+def test_nothing_is_done_for_each_point_or_pixel_by_itself(decode: Decode) -> None:
+    for few, lots in zip(many(50), many(5000), strict=True):
+        small, large = in_protobuf(few), in_protobuf(lots)
+        decode(small), decode(large)
+        assert calls(lambda c=small: decode(c)) == calls(lambda c=large: decode(c))

@@ -60,7 +60,7 @@ class ProtobufDecoder(Decoder):
 
         message = self._class()
         try:
-            message.ParseFromString(bytes(within_limit(payload)))
+            message.ParseFromString(within_limit(payload))
         except CannotDecodeError:
             raise DecodeError("it is cut off or of another type") from None
         return self._fields(message, self._type)

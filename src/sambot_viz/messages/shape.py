@@ -11,7 +11,7 @@ import binascii
 import math
 from collections.abc import Callable, Mapping, Sequence
 from threading import Lock
-from typing import Any, cast
+from typing import Any, TypeGuard, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,8 @@ from sambot_viz.messages.definition import ARRAY, BASE, NAME, TypeDefinition
 from sambot_viz.messages.flat_types import FORMATS
 
 _TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
-_SECONDS = ("sec", "secs", "seconds")
-_NANOSECONDS = ("nanosec", "nsec", "nsecs", "nanos")
+_SECONDS = frozenset(("sec", "secs", "seconds"))
+_NANOSECONDS = frozenset(("nanosec", "nsec", "nsecs", "nanos"))
 """What the parts of a time are called: in ROS 2, ROS 1, Foxglove and Protobuf."""
 _BYTES = "bB?"
 _WIDEST_TEXT = 400
@@ -35,12 +35,20 @@ _register_lock = Lock()
 
 def time_parts(value: Any) -> tuple[Any, Any]:
     """Return seconds and nanoseconds of a time or duration in any of its spellings."""
-    if not isinstance(value, Mapping):
+    if not is_fields(value):
         return 0, 0
-    parts = cast("Mapping[str, Any]", value)
-    sec = next((parts[name] for name in _SECONDS if name in parts), 0)
-    nanosec = next((parts[name] for name in _NANOSECONDS if name in parts), 0)
+    sec = nanosec = 0
+    for name, part in value.items():
+        if name in _SECONDS:
+            sec = part
+        elif name in _NANOSECONDS:
+            nanosec = part
     return sec, nanosec
+
+
+def is_fields(value: Any) -> TypeGuard[Mapping[str, Any]]:
+    """Return whether a value has fields; to ask a dict for its class takes longer."""
+    return type(value) is dict or isinstance(value, Mapping)
 
 
 class MessageShape:
@@ -83,25 +91,26 @@ class MessageShape:
         parts: list[tuple[str, Fill]] = []
         for field, (kind, what) in cast("Any", self._types[name]):
             parts.append((field, self._of_field(kind, what)))
-        if name in _TIMES:
+        is_time = name in _TIMES
+        if is_time:
             parts = [(field, _integer("i")) for field, _ in parts]
         zero = make(*[fill(None) for _, fill in parts])
 
         def filled(value: Any) -> Any:
             if value is None:
                 return zero
-            if not isinstance(value, Mapping):
+            if not is_fields(value):
                 raise DecodeError(f"{_kind(value)} instead of fields")
-            given = cast("Mapping[str, Any]", value)
-            if name in _TIMES:
-                sec, nanosec = time_parts(given)
-                given = dict[str, Any](sec=sec, nanosec=nanosec)
+            if is_time:
+                sec, nanosec = time_parts(value)
+                value = {"sec": sec, "nanosec": nanosec}
             values: list[Any] = []
-            for field, fill in parts:
-                try:
-                    values.append(fill(given.get(field)))
-                except DecodeError as error:
-                    raise DecodeError(f"{field}: {error}") from None
+            get, field = value.get, ""
+            try:
+                for field, fill in parts:
+                    values.append(fill(get(field)))
+            except DecodeError as error:
+                raise DecodeError(f"{field}: {error}") from None
             return make(*values)
 
         self._fills[name] = filled
@@ -134,6 +143,8 @@ def _integer(letter: str) -> Fill:
     def filled(value: Any) -> int:
         if value is None:
             return 0
+        if type(value) is int and least <= value <= most:
+            return value
         number = _number(value)
         if not math.isfinite(number) or number != int(number):
             raise DecodeError(f"{number:g} instead of a whole number")
@@ -171,6 +182,8 @@ def real_number(value: Any) -> float:
     Raises:
         DecodeError: it is another value.
     """
+    if type(value) is float:
+        return value
     return 0.0 if value is None else float(_number(value))
 
 

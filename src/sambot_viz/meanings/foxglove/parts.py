@@ -6,12 +6,12 @@ none, and a colour without any is not black but not set.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, cast
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.meanings.row import Fields
-from sambot_viz.messages.shape import time_parts
+from sambot_viz.messages.shape import is_fields, time_parts
 
 IDENTITY = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
 """A rotation that is none."""
@@ -25,8 +25,8 @@ def part(fields: Fields, name: str) -> Fields | None:
         DecodeError: it has no fields.
     """
     value = fields.get(name)
-    if value is None or isinstance(value, Mapping):
-        return cast("Fields | None", value)
+    if value is None or is_fields(value):
+        return value
     raise DecodeError(f"{name}: it has no fields")
 
 
@@ -38,7 +38,7 @@ def parts(fields: Fields, name: str) -> Sequence[Fields]:
     """
     value = fields.get(name) or ()
     is_list = isinstance(value, list | tuple)
-    if not is_list or not all(isinstance(one, Mapping) for one in cast("Any", value)):
+    if not is_list or not all(map(is_fields, cast("Any", value))):
         raise DecodeError(f"{name}: it is not a list of fields")
     return cast("Sequence[Fields]", value)
 
@@ -57,7 +57,7 @@ def header_of(fields: Fields) -> Fields:
 
 def rotation_of(value: Fields | None) -> Fields:
     """Return a rotation; none where it has no numbers."""
-    return value if value and any(value.get(axis) for axis in "xyzw") else IDENTITY
+    return value if value and any(map(value.get, "xyzw")) else IDENTITY
 
 
 def pose_of(value: Fields | None) -> Fields:
