@@ -11,6 +11,7 @@ from __future__ import annotations
 import html
 import json
 import re
+import unicodedata
 from typing import Any
 
 _SIGN = "\N{REPLACEMENT CHARACTER}"
@@ -48,6 +49,12 @@ def text(value: object, limit: int = 400) -> str:
     if not (clean.isascii() and clean.isprintable()):  # which most are
         clean = _INVISIBLE.sub(_SIGN, _BLANKS.sub(" ", clean))
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"
+
+
+def columns(value: object) -> int:
+    """Return how many letters wide a text is; those of East Asia count twice."""
+    said = text(value)
+    return len(said) + sum(unicodedata.east_asian_width(c) in "WF" for c in said)
 
 
 def line(value: object) -> str:

@@ -121,6 +121,25 @@ def test_every_view_shows_the_robot_unless_the_file_says_how_near_it_is(
     assert values[1] not in (10.0, (5.0, 5.0, 10.0))
 
 
+def test_a_side_view_shows_the_names_of_frames_whole(protocol: Protocol) -> None:
+    """Letters are 0.027 m high, and those of this name 0.43 times as wide."""
+    half = len("drivewhl_l_link") * 0.43 * 0.0267 / 2
+    with Visualizer() as viz:
+        opened(viz, protocol)
+        view = view_of(viz)
+        for side in ("front", "back", "top"):
+            view.look_from(side)
+            camera = view.camera
+            at = viz.frames.lookup("base_link", "drivewhl_l_link").translation
+            for sign in (-1, 1):
+                assert camera.shows(at + sign * half * camera.right, 640, 480)
+        view.look_from("front")
+        with_names = view.values["Distance"]
+        viz.displays["TF"].set("Show Names", False)
+        view.look_from("front")
+        assert view.values["Distance"] < with_names
+
+
 def test_a_window_of_another_size_shows_the_whole_robot_again(
     protocol: Protocol,
 ) -> None:

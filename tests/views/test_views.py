@@ -18,7 +18,7 @@ from sambot_viz.views.camera import (
     vector,
 )
 from sambot_viz.views.registry import VIEWS
-from sambot_viz.views.view import WORLD, Target, Values, View
+from sambot_viz.views.view import WORLD, Name, Target, Values, View
 
 MakeView = Callable[..., View]
 ALL = [kind.rpartition("/")[2] for kind in VIEWS]
@@ -345,6 +345,28 @@ def test_a_box_is_shown_whole_in_the_middle_of_the_picture(
     assert across <= 0.9 + 1e-9
     assert up <= 0.7 + 1e-9
     assert across == pytest.approx(0.9) or up == pytest.approx(0.7)
+
+
+@pytest.mark.parametrize("name", ["Orbit", "TopDownOrtho"])
+def test_names_of_a_box_are_shown_whole_too(make_view: MakeView, name: str) -> None:
+    low, high = vector(1.0, 2.0, -0.1), vector(1.4, 2.3, 0.5)
+    target = Target(vector(3.0, -1.0, 0.5), 0.7)
+    view = make_view(name, **({"Orthographic": True} if name == "Orbit" else {}))
+    put(view, view.fit(low, high, 800, 600, target))
+    without = view.camera(target)
+    names = [Name(low, 1.6, 0.1), Name(high, 0.1, 0.05)]
+    put(view, view.fit(low, high, 800, 600, target, names))
+    camera = view.camera(target)
+    assert camera.forward == pytest.approx(without.forward, abs=1e-9)
+
+    def edges(camera: Camera) -> list[bool]:
+        ways = (camera.right, -camera.right)
+        ends = [at.position + way * at.width / 2 for at in names for way in ways]
+        ends += [at.position - camera.image_up * at.height for at in names]
+        return [camera.shows(end, 800, 600, 0.901) for end in [*ends, low, high]]
+
+    assert not all(edges(without))
+    assert all(edges(camera))
 
 
 def test_a_view_from_below_and_one_of_a_point_are_fitted_too(

@@ -347,6 +347,10 @@ class Display:
         """
         yield from ()
 
+    def names(self) -> Mapping[str, float]:
+        """Return the frames whose names are drawn, with the size of letters [m]."""
+        return {}
+
     def selected(self, item: Selectable) -> SelectedData | None:
         """Return what is known of data that is selected; None when it is not here."""
         del item

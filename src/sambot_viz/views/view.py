@@ -8,7 +8,7 @@ are relative to its target frame, whose position it follows.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, ClassVar
@@ -54,6 +54,21 @@ class Target:
 
     position: Vector
     yaw: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Name:
+    """A name that faces the view, its upper edge in the middle at a point.
+
+    Attributes:
+        position: the point in the fixed frame [m].
+        width: [m].
+        height: [m].
+    """
+
+    position: Vector
+    width: float
+    height: float
 
 
 WORLD = Target(vector(0.0, 0.0, 0.0))
@@ -181,7 +196,13 @@ class View:
         return self.look_at_local(local)
 
     def fit(
-        self, low: Vector, high: Vector, width: int, height: int, target: Target = WORLD
+        self,
+        low: Vector,
+        high: Vector,
+        width: int,
+        height: int,
+        target: Target = WORLD,
+        names: Sequence[Name] = (),
     ) -> Values:
         """Return the properties with which it shows a box of the fixed frame whole.
 
@@ -191,6 +212,7 @@ class View:
             width: of the picture [pixels].
             height: of the picture [pixels].
             target: what the view follows.
+            names: what is to be seen whole too.
         """
         target = self._turned(target)
         middle, half = (low + high) / 2.0, np.maximum(high - low, SMALLEST_SIZE) / 2.0
@@ -198,7 +220,31 @@ class View:
             turned(middle + half * sides - target.position, -target.yaw)
             for sides in product((-1.0, 1.0), repeat=3)
         ]
-        return self.fit_local(np.array(corners), width, height)
+        points = np.array(corners)
+        if names:
+            points = self._box_around(points, names, target)
+        return self.fit_local(points, width, height)
+
+    def _box_around(
+        self, points: Vectors, names: Sequence[Name], target: Target
+    ) -> Vectors:
+        """Return the corners of a box along the axes of the camera, (8, 3) [m].
+
+        Args:
+            points: of the target frame, which are in it, (N, 3) [m].
+            names: which are in it too.
+            target: what the view follows.
+        """
+        camera = self.local_camera()
+        axes = np.array([camera.right, camera.image_up, camera.forward], np.float64)
+        parts = [axes @ point for point in points]
+        for name in names:
+            at = axes @ turned(name.position - target.position, -target.yaw)
+            half = name.width / 2.0
+            parts += [at - vector(half, 0, 0), at + vector(half, -name.height, 0)]
+        low, high = np.min(parts, axis=0), np.max(parts, axis=0)
+        corners = product(*zip(low, high, strict=True))
+        return np.array(list(corners), np.float64) @ axes
 
     def in_fixed(self, camera: Camera, target: Target) -> Camera:
         """Return a camera of the target frame, in the fixed frame."""

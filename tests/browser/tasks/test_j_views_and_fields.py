@@ -116,15 +116,28 @@ def test_task_67_look_at_a_robot_that_drives(s: Desk, kind: str) -> None:
 
 def test_task_68_a_saved_view_and_a_property_of_a_tool_come_back(s: Desk) -> None:
     user = s.user
+    user.menu("View", re.compile("^Top"))
+    user.until(lambda: "Angle" in user.rows("Views"))
     before = user.rows("Views")
     user.click("button", "Save", VIEWS)
     (saved,) = user.until(lambda: [n for n in user.rows("Views") if n not in before])
+
+    def is_seen() -> bool:
+        place = user.place(user.row("Views", saved))
+        return bool(place["seen"] == place["all"])
+
+    # Orbit has more rows.
+    user.until(is_seen)
+    user.menu("View", re.compile("^Front"))
+    user.until(lambda: len(user.rows("Views")) > len(before) + 1)
+    user.until(is_seen)
     user.click_on(user.row("Views", saved).all("gridcell")[0])
     user.click("button", "Remove", VIEWS)
     user.until(lambda: saved not in user.rows("Views"))
     user.click("button", "Undo")
     user.until(lambda: saved in user.rows("Views"))
-    user.click("button", "Undo")
+    for _ in range(2):
+        user.click("button", "Undo")
     user.until(lambda: saved not in user.rows("Views"))
     user.tab("Tool Properties")
     user.unfold("Tool Properties", "Measure")

@@ -125,6 +125,10 @@ class TfDisplay(TriangleDisplay):
                 self._draw_arrows(parent)
         self._report()
 
+    def _letters(self) -> float:
+        """Return the size of the letters of names [m]."""
+        return EM_HEIGHT * abs(float(self.config.get("Marker Scale")))
+
     def _look(self, frame: str) -> FrameLook:
         return self._ages.looks.get(frame, FRESH)
 
@@ -173,7 +177,7 @@ class TfDisplay(TriangleDisplay):
             remove_all([overlays.axes])
             overlays.axes = None
         if bool(self.config.get("Show Names")):
-            height = EM_HEIGHT * abs(scale)
+            height = self._letters()
             if overlays.name is None:
                 overlays.name = scene.add_label(
                     f"{path}/{self.key}n",
@@ -234,6 +238,11 @@ class TfDisplay(TriangleDisplay):
             arrows = tuple(self._arrows_at(parent).values())
             if arrows:
                 yield DrawnTriangles(arrow_triangles(arrows), np.eye(4), parent)
+
+    def names(self) -> Mapping[str, float]:
+        """Return the frames that have names below them."""
+        named = (f for f, overlays in self._overlays.items() if overlays.name)
+        return dict.fromkeys(named, self._letters())
 
     def property_changed(self, path: str) -> None:
         """A property has a new value."""

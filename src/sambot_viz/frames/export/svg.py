@@ -6,14 +6,13 @@ the widths of whole subtrees allow; no two boxes of one depth overlap.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.frames.export.drawing import NO_DATA, edge_lines
 from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.robot.model import Robot
-from sambot_viz.text import html_text, text
+from sambot_viz.text import columns, html_text
 
 _CHARACTER = 6.6
 _LINE = 14.0
@@ -150,9 +149,8 @@ def _joint_class(lines: tuple[str, ...], index: int) -> str:
 
 
 def _text_width(value: str) -> float:
-    """Return the width of a text in the picture, wide characters counted twice."""
-    wide = sum(unicodedata.east_asian_width(c) in "WF" for c in text(value))
-    return (len(text(value)) + wide) * _CHARACTER + 8
+    """Return the width of a text in the picture."""
+    return columns(value) * _CHARACTER + 8
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,10 @@ export function ViewsPanel() {
   const chosen = useRow(selected.use().views || "none");
   const [renaming, setRenaming] = useState("");
   const saved = chosen?.saved ? chosen : undefined;
+  // A type of view with more rows than the one before would push it out of sight.
+  useLayoutEffect(() => {
+    if (saved) reveal("views", saved.id, false);
+  }, [type?.value]);
   const use = (/** @type {Row} */ row) => act("views/use", [row.id]);
   /** @param {string} id @param {string | null} name null begins */
   const rename = (id, name) => {

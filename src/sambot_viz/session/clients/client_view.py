@@ -9,7 +9,7 @@ client that saves it (`store`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from types import MappingProxyType
@@ -47,7 +47,7 @@ from sambot_viz.views.camera import Camera, Vector, length, on_sphere
 from sambot_viz.views.orbit import ORTHOGRAPHIC, SIDES, OrbitView
 from sambot_viz.views.registry import VIEWS
 from sambot_viz.views.top_down_ortho import TopDownOrthoView
-from sambot_viz.views.view import WORLD, Target, Values, View, rounded
+from sambot_viz.views.view import WORLD, Name, Target, Values, View, rounded
 
 READ_PERIOD = 0.1
 """The numbers follow a moving camera this often [s]."""
@@ -212,7 +212,7 @@ class ClientView:
             self._take(as_kind(self._document.config, self.view, kind, height))
 
     def look_from(self, side: str, *, again: bool = False) -> None:
-        """Look at the whole robot from one side, without perspective.
+        """Look at the whole robot and its names from one side, without perspective.
 
         Args:
             side: one of `SIDES`, along the axes of the fixed frame, or "top".
@@ -236,7 +236,7 @@ class ClientView:
                 self._apply({"Yaw": SIDES[side], "Pitch": 0.0, ORTHOGRAPHIC: True})
             box = self._picker.robot_box()
             if box is not None:
-                self._apply(self._values_for(box))
+                self._apply(self._values_for(box, self._picker.names_in(box)))
 
     def _is_seen(self, side: str) -> bool:
         view = self.view
@@ -310,8 +310,8 @@ class ClientView:
                 self._apply(self._values_for(box))
                 self._point()
 
-    def _values_for(self, box: Corners) -> Values:
-        return self.view.fit(*box, *window_of(self._client), self._target)
+    def _values_for(self, box: Corners, names: Sequence[Name] = ()) -> Values:
+        return self.view.fit(*box, *window_of(self._client), self._target, names)
 
     def _take(self, config: ViewConfig) -> None:
         self._config = config

@@ -14,6 +14,7 @@ from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
+from sambot_viz.views.view import Name
 
 T = TypeVar("T")
 
@@ -112,6 +113,10 @@ class Picker:
     def data_drawn(self) -> int:
         """How many displays have drawn data."""
         return self._scene.data_drawn
+
+    def names_in(self, box: Corners) -> list[Name]:
+        """The names that are drawn of frames in a box."""
+        return self._scene.names_in(box)
 
     def close(self) -> None:
         """Follow no more rays."""

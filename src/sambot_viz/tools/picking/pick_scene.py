@@ -14,7 +14,13 @@ from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
 from sambot_viz.displays.picking.selected import Cubes, SelectedData
+from sambot_viz.text import columns
+from sambot_viz.views.view import Name
 
+LETTER_WIDTH, LINE_HEIGHT = 0.55, 1.5
+"""Of a usual letter and of a line, by the size of letters."""
+BESIDE = 0.05
+"""What is this near to a box, by its diagonal, counts as in it."""
 MOST_CUBES = 10_000
 """So many of the selected points of one message have a box."""
 
@@ -196,6 +202,22 @@ class PickScene:
             for display in self._shown()
             if display.is_data
         )
+
+    def names_in(self, box: Corners) -> list[Name]:
+        """Return the names that are drawn of frames in a box of the fixed frame."""
+        low, high = box
+        room = BESIDE * float(np.linalg.norm(high - low))
+        found: list[Name] = []
+        for display in self._shown():
+            for frame, size in display.names().items():
+                T = display.context.pose(frame)
+                if T is None:
+                    continue
+                at = T[:3, 3]
+                if np.all(at >= low - room) and np.all(at <= high + room):
+                    width = columns(frame) * LETTER_WIDTH * size
+                    found.append(Name(at, width, LINE_HEIGHT * size))
+        return found
 
     def data_of(self, item: Selectable) -> SelectedData | None:
         """Return what a display knows of data; None when it is not drawn any more."""
