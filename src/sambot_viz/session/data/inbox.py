@@ -29,7 +29,6 @@ class Inbox:
     Attributes:
         lost: how many messages had to be dropped.
         period: the time between two drawings [s].
-        rests: nobody looks: what comes waits until somebody does.
     """
 
     def __init__(
@@ -41,7 +40,6 @@ class Inbox:
     ) -> None:
         self.lost = 0
         self.period = 1 / 30
-        self.rests = False
         self._worker = worker
         self._look = look
         self._take_one = take
@@ -64,14 +62,13 @@ class Inbox:
                 self._size > MOST_BYTES and len(self._waiting) > 1
             ):
                 self._size -= len(self._waiting.popleft().payload)
-                # Nobody misses what came while nobody looked.
-                self.lost += not self.rests
+                self.lost += 1
         self.wake()
 
     def wake(self) -> None:
         """Let the worker take what has come, at the Frame Rate; runs in any thread."""
         with self._lock:
-            if self._is_asked or self.rests:
+            if self._is_asked:
                 return
             self._is_asked = True
         left = self._drawn + self._pause - self._worker.clock.now()
@@ -80,13 +77,6 @@ class Inbox:
         else:
             self._worker.post(self._take)
 
-    def catch_up(self) -> None:
-        """Take all that waits, and draw; runs in the worker, or with its lock."""
-        self._look()
-        while (message := self._next_waiting()) is not None:
-            self._take_one(message)
-        self._draw()
-
     def _take(self) -> None:
         """Take some of what waits, and draw at the end; runs in the worker.
 
@@ -94,8 +84,6 @@ class Inbox:
         """
         with self._lock:
             self._is_asked = False
-        if self.rests:
-            return
         # What waits may be of the time after it.
         self._look()
         left = SLICE
