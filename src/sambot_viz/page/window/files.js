@@ -70,22 +70,23 @@ const LONG = 24,
 export function FileName() {
   const state = useData("file/state");
   const { name, own, modified } = state || {};
-  const shown = (name || "no file yet") + (modified ? "*" : "");
+  // Before the server has said anything, there may be a file.
+  const known = name || (state ? "no file yet" : "");
+  const shown = known + (modified ? "*" : "");
   useEffect(() => {
-    document.title = `${shown} - sambot-viz`;
+    document.title = shown ? `${shown} - sambot-viz` : "sambot-viz";
   }, [shown]);
   // Of a long name the middle is left out: its end has the star, or room for it.
-  const text = name || (state ? "no file yet" : "");
-  const tail = text.length > LONG ? text.slice(-TAIL) : "";
+  const tail = known.length > LONG ? known.slice(-TAIL) : "";
   const star = html`<span class=${modified ? "star" : "star none"}>*</span>`;
   const where = own
     ? ""
     : name
       ? "This config comes with the program; saving asks for a new name."
       : "";
-  const title = `${name || "no file yet"}: ${modified ? "unsaved changes." : "no changes."} ${where}`;
+  const title = known && `${known}: ${modified ? "unsaved changes." : "no changes."} ${where}`;
   return html`<span class="file-name" title=${title}><bdi>
-    ${text.slice(0, text.length - tail.length)}${!tail && star}</bdi>${
+    ${known.slice(0, known.length - tail.length)}${!tail && star}</bdi>${
       tail && html`<bdi>${tail}${star}</bdi>`
     }</span>`;
 }

@@ -120,8 +120,10 @@ export function panelList() {
     });
 }
 
-/** The names of the tabs that there are. @param {Record<string, any>} of */
+/** The names of the tabs that there are: none until all are known, so that none moves others away
+ * while the page is loaded. @param {Record<string, any>} of */
 export function tabNames(of) {
+  if (!rows.isWhole) return [];
   return Object.keys(of).filter(
     (name) => rows.panels.get(name)?.length && !(shape.value === "wide" && hidden.value[name]),
   );

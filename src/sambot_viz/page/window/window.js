@@ -35,6 +35,9 @@ import { Top } from "./header.js";
 import { useRow } from "../state.js";
 import { Icon } from "./icons.js";
 
+/** What tells that a part of the window has come. */
+const PARTS = ["whole:session", "whole:browser"];
+
 export function Window() {
   tab.use();
   const form = shape.use();
@@ -110,10 +113,15 @@ function Left() {
   </aside>`;
 }
 
+/** Draw again when another tab may be there. @param {Record<string, any>} of */
+function useTabs(of) {
+  tab.use();
+  for (const name of [...Object.keys(of).map((name) => `panel:${name}`), ...PARTS]) useRow(name);
+}
+
 function Right() {
   const away = hidden.use();
-  tab.use();
-  for (const name of Object.keys(TABS)) useRow(`panel:${name}`);
+  useTabs(TABS);
   const names = tabNames(TABS);
   const current = shownTab(TABS);
   const below = useBelow(names, current);
@@ -149,10 +157,9 @@ function useBelow(names, current) {
 function Sheet() {
   const beside = shape.use() === "flat";
   const away = hidden.use();
-  tab.use();
   /** @type {Record<string, {title: string, content: any}>} */
   const of = SHEET;
-  for (const name of Object.keys(of)) useRow(`panel:${name}`);
+  useTabs(of);
   const names = tabNames(of);
   const current = shownTab(of) || "joints";
   if (beside && away.side) return html`<${Tab} side="side" />`;

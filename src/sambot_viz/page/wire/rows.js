@@ -48,6 +48,11 @@ export class Rows {
     this.locked = new WeakMap();
   }
 
+  /** Whether both parts of the window have come, that of the session and that of this browser. */
+  get isWhole() {
+    return this.names.has("session") && this.names.has("browser");
+  }
+
   /** Whether this user only watches from now on. @param {boolean} on */
   watch(on) {
     if (this.watching === on) return;
