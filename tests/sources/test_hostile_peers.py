@@ -242,7 +242,7 @@ def test_a_recording_of_a_peer_that_lies_and_vanishes_stays_readable(
 
     path = tmp_path / "liar.mcap"
     source = opened(f"foxglove://{play(liar)}")
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     recorder.start(path)
 
     # Both good ones, and 400 in which a time is all that can be read.

@@ -73,7 +73,7 @@ def recorded(
 ) -> Iterator[SourceRecorder]:
     """Records a topic that the peer begins to publish; the file is whole afterwards."""
     peer.advertise(topic)
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     recorder.start(path)
     source.open()
     eventually(lambda: peer.subscribed() == [topic])
@@ -103,7 +103,7 @@ def test_everything_is_recorded_as_it_came(
     peer: LivePeer, source: Source, tmp_path: Path
 ) -> None:
     path = tmp_path / "all.mcap"
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     peer.advertise("/a")
     peer.advertise("/tf_static", latched=True)
     peer.publish("/tf_static", "place")
@@ -152,7 +152,7 @@ def test_latched_messages_from_before_the_start_stand_at_the_begin(
     peer.publish("/tf_static", "place")
     peer.publish("/a", "before")
     eventually(lambda: len(seen) == 4)
-    recorder = SourceRecorder(source, tmp_path, lambda: None)
+    recorder = SourceRecorder(source, tmp_path, lambda: None, period=0.1)
     recorder.start()
     eventually(has(recorder, 2))
     peer.publish("/a", "first")
@@ -236,7 +236,7 @@ def test_a_file_is_never_overwritten(
 ) -> None:
     path = tmp_path / "there.mcap"
     path.write_bytes(b"precious")
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     with pytest.raises(UsageError, match=r"there already; give a name for a new file"):
         recorder.start(path)
     assert path.read_bytes() == b"precious"
@@ -259,7 +259,7 @@ def test_recordings_of_one_second_have_different_names(tmp_path: Path) -> None:
 def test_a_recording_without_a_message_leaves_no_file(
     foxglove_peer: FoxglovePeer, source: Source, tmp_path: Path
 ) -> None:
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     recorder.start(tmp_path / "nothing.mcap")
     recorder.stop()
     assert not status(recorder).is_running
@@ -303,7 +303,7 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(
     shown: list[object] = []
     foxglove_peer.advertise("/a")
     source.subscribe("/a", shown.append)
-    recorder = SourceRecorder(source, None, lambda: None)
+    recorder = SourceRecorder(source, None, lambda: None, period=0.1)
     recorder.start(path)
     source.open()
     eventually(lambda: foxglove_peer.subscribed() == ["/a"])
@@ -439,7 +439,7 @@ from sambot_viz.sources.registry import open_source
 source = open_source(sys.argv[1])
 def tell():
     print(recorder.status.messages, flush=True)
-recorder = SourceRecorder(source, None, tell)
+recorder = SourceRecorder(source, None, tell, period=0.1)
 recorder.start(Path(sys.argv[2]))
 source.open()
 time.sleep(1000)

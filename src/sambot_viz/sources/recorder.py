@@ -14,7 +14,11 @@ from typing import BinaryIO
 from sambot_viz.errors import UsageError
 from sambot_viz.files import reason_of
 from sambot_viz.outlet import logger
-from sambot_viz.sources.recording_thread import RecordingStatus, RecordingThread
+from sambot_viz.sources.recording_thread import (
+    PERIOD,
+    RecordingStatus,
+    RecordingThread,
+)
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
@@ -32,10 +36,11 @@ class SourceRecorder:
         source: what is recorded.
         folder: where recordings are made that users of the page start; None: they may
             not.
-        on_change: called about once a second while there is a recording, in its
-            thread; must only post.
+        on_change: called once in a period while there is a recording, in its thread;
+            must only post.
         on_trouble: gets why a recording ended before it was stopped, in the same
             thread; by default it is logged.
+        period: between reports, and between flushes at first [s].
 
     Attributes:
         folder: as given.
@@ -48,8 +53,10 @@ class SourceRecorder:
         folder: Path | None,
         on_change: Callable[[], object],
         on_trouble: Callable[[str], object] = _log.error,
+        period: float = PERIOD,
     ) -> None:
         self.folder = folder
+        self._period = period
         self._source = source
         self._on_change = on_change
         self._on_trouble = on_trouble
@@ -83,7 +90,12 @@ class SourceRecorder:
             if last is not None:
                 self.ended.append(last.status)
             made = RecordingThread(
-                self._source, path, stream, self._on_change, self._on_trouble
+                self._source,
+                path,
+                stream,
+                self._on_change,
+                self._on_trouble,
+                self._period,
             )
             # It is told of topics before it asks for them, so that none is missed.
             self._recording = made

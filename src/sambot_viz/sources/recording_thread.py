@@ -30,8 +30,9 @@ MOST_BYTES = limits.RECORDING_WAITS.value
 """All messages that wait for the disk together have at most this size."""
 MOST_MESSAGES = 100_000
 """So many messages wait for the disk at most."""
-FLUSH_PERIOD, LONGEST_PERIOD = 1.0, 10.0
-"""A program that is killed loses what came after the last flush [s]."""
+PERIOD, LONGEST_PERIOD = 1.0, 10.0
+"""Between reports, and between flushes at first and at most: a program that is killed
+loses what came after the last one [s]."""
 _GROWTH = 0.003
 """Of the length of a recording is the pause between flushes: each is in the index."""
 _FIRST_WITHIN = 1.0
@@ -91,8 +92,9 @@ class RecordingThread:
         source: what is recorded.
         path: name of the file.
         stream: the file, new and open; it is closed at the end.
-        on_change: called about once a second, in the thread; must only post.
+        on_change: called once in a period, in the thread; must only post.
         on_trouble: gets why a recording ended before it was stopped, in the thread.
+        period: between reports, and between flushes at first [s].
 
     Attributes:
         status: how the recording is.
@@ -105,7 +107,9 @@ class RecordingThread:
         stream: BinaryIO,
         on_change: Callable[[], object],
         on_trouble: Callable[[str], object],
+        period: float = PERIOD,
     ) -> None:
+        self._period = period
         self._source = source
         self._path = path
         self._stream = stream
@@ -235,11 +239,11 @@ class RecordingThread:
             if is_stopped:
                 file.finish()
                 return
-            period = min(LONGEST_PERIOD, max(FLUSH_PERIOD, seconds * _GROWTH))
+            period = min(LONGEST_PERIOD, max(self._period, seconds * _GROWTH))
             if self._begun + seconds - flushed >= period:
                 flushed = self._begun + seconds
                 file.flush()
-            if seconds - self.status.seconds >= 1.0:
+            if seconds - self.status.seconds >= self._period:
                 self._tell()
 
     def _take(self) -> tuple[deque[tuple[Recorded, bool]], bool]:
