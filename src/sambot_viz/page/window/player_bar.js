@@ -73,6 +73,8 @@ let bar = () => ({ shown: 0, most: 0 });
 /** @param {number} seconds @param {number} [gesture] */
 function go(seconds, gesture) {
   const inside = Math.min(bar().most, Math.max(0, seconds));
+  // The next key goes on from there, though the picture is still to come.
+  rows.hope("player/time", inside);
   send("player/time", inside, gesture || newGesture());
 }
 
