@@ -379,8 +379,11 @@ def test_a_mass_in_grams_is_more_than_metal_and_than_all_others(
     [
         ("-1", (1, 0, 0, 1, 0, 1), "mass -1 is negative"),
         ("1", (-1, 0, 0, 1, 0, 1), "negative"),
-        ("1", (1, 5, 0, 1, 0, 1), "too large"),
-        ("1", (5, 0, 0, 1, 0, 1), "larger than the sum"),
+        ("1", (1, 5, 0, 1, 0, 1), 'ixy="5" is too large for ixx="1" iyy="1" izz="1"'),
+        ("1", (2, 0.9, 0, 2, 0.9, 1), 'ixy="0.9" iyz="0.9" are too large for ixx="2"'),
+        ("1", (5, 0, 0, 1, 0, 1), "link b: one principal moment of inertia is larger"),
+        # Without its products it is as impossible.
+        ("1", (5, 0.1, 0, 1, 0, 1), "link b: one principal moment of inertia is"),
     ],
 )
 def test_an_impossible_inertia_is_reported_with_the_reason(
@@ -667,3 +670,23 @@ def test_a_robot_falls_only_where_that_is_certain(
     checked: Checked, body: str, why: str
 ) -> None:
     assert checked(body, "falls-over") == [], why
+
+
+def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(
+    tmp_path: Path,
+) -> None:
+    names = ("left", "right", "third", "fourth")
+    calls = "".join(f'<xacro:finger name="{name}"/>' for name in names)
+    path = tmp_path / "hand.urdf.xacro"
+    path.write_text(
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<link name="base_link"/><xacro:macro name="finger" params="name">'
+        '<link name="${name}"><inertial><mass value="0.036"/><inertia ixx="2.4e-06" '
+        'ixy="1e-06" ixz="1e-06" iyy="2.4e-06" iyz="1e-06" izz="7.5e-07"/></inertial>'
+        '</link><joint name="${name}_joint" type="fixed"><parent link="base_link"/>'
+        f'<child link="${{name}}"/></joint></xacro:macro>{calls}</robot>'
+    )
+    (problem,) = (p for p in check(path) if p.code == "inertia-impossible")
+    assert "links left, right, third and fourth: " in problem.message
+    assert 'ixy="1e-06" ixz="1e-06" iyz="1e-06" are too large' in problem.message
+    assert problem.hint.startswith("write 0 for ixy, ixz and iyz")

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Place, Problem
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.parts import Cylinder, Inertial, Joint, Link, Sphere
 
@@ -62,29 +63,61 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
 
 
 def impossible_inertia(subject: Subject) -> Iterator[Problem]:
-    """Report a mass or inertia that no real body has."""
+    """Report a mass or inertia that no real body has; calls of one macro together."""
+    found: dict[Place | None, list[str]] = {}
+    reasons: dict[Place | None, tuple[str, str]] = {}
     for link in subject.robot.links.values():
-        if link.inertial is None:
-            continue
-        reason = _why_impossible(link.inertial)
-        if reason:
-            yield Problem.at(
-                link.inertial.place or link.place,
-                "warning",
-                "inertia-impossible",
-                f"link {link.name}: {reason}; a simulator refuses or shakes it",
-                "take mass and inertia from the shape: a box of size x y z has "
-                "ixx = m (y² + z²) / 12",
-            )
+        reason = None if link.inertial is None else _why_impossible(link.inertial)
+        if link.inertial is not None and reason is not None:
+            place = link.inertial.place or link.place
+            found.setdefault(place, []).append(link.name)
+            reasons.setdefault(place, reason)
+    for place, names in found.items():
+        reason, hint = reasons[place]
+        yield Problem.at(
+            place,
+            "warning",
+            "inertia-impossible",
+            f"{'link' if len(names) == 1 else 'links'} {listed(names)}: {reason}; "
+            "a simulator refuses or shakes it",
+            hint,
+        )
 
 
-def _why_impossible(inertial: Inertial) -> str:
-    """Say why no real body has this mass and inertia, or "" (tolerances of 1 %)."""
+_OF_THE_SHAPE = (
+    "take mass and inertia from the shape: a box of size x y z has "
+    "ixx = m (y² + z²) / 12"
+)
+
+
+def _why_impossible(inertial: Inertial) -> tuple[str, str] | None:
+    """Return why no real body has this mass and inertia, and what to do about it."""
     if inertial.mass < 0:
-        return f"the mass {number(inertial.mass)} is negative"
+        return f"the mass {number(inertial.mass)} is negative", _OF_THE_SHAPE
     diagonal = (inertial.ixx, inertial.iyy, inertial.izz)
     if min(diagonal) < 0:
-        return "a moment of inertia (ixx, iyy, izz) is negative"
+        return "a moment of inertia (ixx, iyy, izz) is negative", _OF_THE_SHAPE
+    reason = _why_no_tensor(inertial)
+    if not reason:
+        return None
+    names = [name for name in ("ixy", "ixz", "iyz") if getattr(inertial, name)]
+    alone = replace(inertial, ixy=0.0, ixz=0.0, iyz=0.0)
+    if not names or _why_no_tensor(alone):
+        return reason, _OF_THE_SHAPE
+    products = " ".join(f'{n}="{number(getattr(inertial, n))}"' for n in names)
+    moments = " ".join(
+        f'{n}="{number(getattr(inertial, n))}"' for n in ("ixx", "iyy", "izz")
+    )
+    one = len(names) == 1
+    return (
+        f"{products} {'is' if one else 'are'} too large for {moments}: {reason}",
+        f"write 0 for {listed(names)}, which {'is' if one else 'are'} 0 for a body "
+        "whose sides are along the axes, or take all six from the shape",
+    )
+
+
+def _why_no_tensor(inertial: Inertial) -> str:
+    """Say why no real body has these six numbers, or "" (tolerances of 1 %)."""
     tensor = np.array(
         [
             [inertial.ixx, inertial.ixy, inertial.ixz],
@@ -96,7 +129,7 @@ def _why_impossible(inertial: Inertial) -> str:
         return "the inertia is not a finite number"
     low, middle, high = (float(v) for v in np.linalg.eigvalsh(tensor))
     if high > 0 and low < -0.01 * high:
-        return "ixy, ixz or iyz are too large for ixx, iyy, izz"
+        return "a principal moment of inertia would be negative"
     if high > 1.01 * (low + middle) and high > 1e-12:
         return "one principal moment of inertia is larger than the sum of the other two"
     return ""
