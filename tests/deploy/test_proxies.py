@@ -18,6 +18,7 @@ import pytest
 import viser
 from a_jupyter import wait_until
 from inside import session_of
+from live_peers import free_port
 from patience import patience, until
 from protocol_client import CAMERA
 from websockets.exceptions import InvalidStatus
@@ -35,12 +36,6 @@ NAME, PASSWORD = "student", "tortoise"
 LOGIN = {
     "Authorization": f"Basic {base64.b64encode(f'{NAME}:{PASSWORD}'.encode()).decode()}"
 }
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def needs(*programs: str) -> None:
