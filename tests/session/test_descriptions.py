@@ -70,7 +70,7 @@ def say(display: RobotModelDisplay, key: str = "Topic") -> str:
 
 def name_topic(viz: Visualizer, topic: str) -> RobotModelDisplay:
     session = session_of(viz)
-    (display,) = models(session)
+    display, *_ = models(session)
     with session.history.acting(1):
         session.display_edits.set_property(display, TOPIC, topic)
     return display
@@ -79,7 +79,7 @@ def name_topic(viz: Visualizer, topic: str) -> RobotModelDisplay:
 def test_the_robot_of_the_topic_is_shown_and_undo_brings_the_other_back(
     viz: Visualizer,
 ) -> None:
-    (display,) = models(session_of(viz))
+    display, *_ = models(session_of(viz))
     assert links(display) == ["a_arm", "a_base"]
     name_topic(viz, OTHER)
     eventually(lambda: links(display) == ["b_arm", "b_base"])
@@ -155,7 +155,7 @@ def test_a_model_beside_a_recording_takes_the_place_of_its_robot(
     model = tmp_path / "own.urdf"
     model.write_text(described("own"))
     with Visualizer(model, source=f"bag:{recording}", port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         assert links(display) == ["own"]
         name_topic(viz, "/othr/robot_description")
         assert "did you mean" in say(display)
@@ -168,7 +168,7 @@ def test_a_robot_in_a_namespace_needs_no_config(tmp_path: Path) -> None:
     texts = {"/r1/robot_description": described("a_base", "a_arm")}
     path = write_recording(tmp_path / "one.mcap", texts, MOVES)
     with Visualizer(path, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         assert links(display) == ["a_arm", "a_base"]
         assert display.config.get(TOPIC) == "/r1/robot_description"
 
@@ -176,7 +176,7 @@ def test_a_robot_in_a_namespace_needs_no_config(tmp_path: Path) -> None:
 def test_without_a_robot_the_status_says_how_to_give_one(tmp_path: Path) -> None:
     path = write_recording(tmp_path / "none.mcap", {}, MOVES)
     with Visualizer(path, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         assert "no robot model in none.mcap" in say(display)
         assert "--model ROBOT.urdf.xacro" in say(display)
 
@@ -194,7 +194,7 @@ def test_a_live_robot_is_that_of_the_topic_as_soon_as_it_is_described(
     peer.advertise(MAIN, latched=True)
     peer.publish(MAIN, described("a_base", "a_arm"))
     with Visualizer(source=peer.uri, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         eventually(lambda: links(display) == ["a_arm", "a_base"])
         name_topic(viz, OTHER)
         assert f"There is no topic {OTHER}" in say(display)
@@ -218,7 +218,7 @@ def test_a_live_robot_whose_description_cannot_be_shown_is_said(
     peer.advertise(MAIN, latched=True)
     peer.publish(MAIN, "/etc/passwd")
     with Visualizer(source=peer.uri, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         eventually(lambda: "URDF failed Model parse: this is not XML" in say(display))
         peer.publish(MAIN, described("a_base"))
         eventually(lambda: display.status.level == "Ok" and links(display))
@@ -231,7 +231,7 @@ def test_a_qos_that_cannot_match_is_said_with_both_words(peer: FoxglovePeer) -> 
     peer.advertise("/tf", schema=tf, qos=best_effort)
     peer.advertise("/tf_static", schema=tf, qos="- durability: volatile\n")
     with Visualizer(source=peer.uri, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         wants = "A publisher offers Best Effort, the display wants Reliable: set its"
         eventually(lambda: wants in say(display))
         assert display.status.rows["Topic"].level == "Warn"
@@ -267,7 +267,7 @@ def test_frames_are_shown_without_a_robot_that_cannot_be(
 ) -> None:
     path = write_recording(tmp_path / "bad.mcap", {MAIN: text}, MOVES)
     with Visualizer(path, port=0) as viz:
-        (display,) = models(session_of(viz))
+        display, *_ = models(session_of(viz))
         eventually(lambda: says in say(display))
         assert display.status.level == "Error"
         at = viz.frames.lookup("odom", "a_arm").translation

@@ -15,7 +15,6 @@ from sambot_viz.cli import main
 from sambot_viz.displays.robot_display import Repair
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.frames.frame_prefix import frame_prefix, other_prefix
-from sambot_viz.robot.model import load_robot
 
 FRAMES = {"robot1/base_link": "robot1/odom", "robot1/arm": "robot1/base_link"}
 TOLD = [("/tf", number / 10, FRAMES) for number in range(30)]
@@ -108,10 +107,10 @@ def test_a_prefix_is_one_that_puts_joints_between_their_frames() -> None:
 
 
 def test_the_prefix_of_the_topic_comes_before_those_of_other_robots() -> None:
-    robot = load_robot(described("base", "arm"))
     frames = ["a/base", "a/arm", "b/base", "b/arm", "odom"]
-    assert other_prefix(robot, "", frames, "b") == "b"
-    assert other_prefix(robot, "", frames) == "a"
-    assert other_prefix(robot, "a", frames, "b") is None
-    assert other_prefix(robot, "c", ["base", "arm"]) == ""
-    assert other_prefix(robot, "", ["odom"]) is None
+    links = ("base", "arm")
+    assert other_prefix(links, links, frames, "b") == "b"
+    assert other_prefix(links, links, frames) == "a"
+    assert other_prefix(links, ["a/base", "a/arm"], frames, "b") is None
+    assert other_prefix(links, ["c/base", "c/arm"], ["base", "arm"]) == ""
+    assert other_prefix(links, links, ["odom"]) is None

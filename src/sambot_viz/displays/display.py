@@ -9,7 +9,7 @@ panel offers a list to choose from (`EntryList`) and shows the chosen one's rows
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Literal
@@ -160,6 +160,7 @@ class DisplayContext:
         pictures: those that panels show beside the view.
         displays: returns all displays, in their order.
         apply: runs a function that draws, from any thread, and sends what it draws.
+        place: sends the poses of frames that moved.
     """
 
     scene: viser.SceneApi
@@ -181,6 +182,7 @@ class DisplayContext:
     pictures: Pictures = field(default_factory=Pictures)
     displays: Callable[[], Sequence[Display]] = tuple
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
+    place: Callable[[Set[str]], None] = lambda frames: None
 
     def color_of(self, link: str) -> Rgb | None:
         """Return the colour in place of a link's own, if a program has set one."""

@@ -66,6 +66,14 @@ class Descriptions(Protocol):
         """Return the topics that describe robots."""
         ...
 
+    def link_frame(self, topic: str, link: str) -> str:
+        """Return the frame of a link of the robot of a topic, in its name space."""
+        ...
+
+    def joint_topics(self, topic: str) -> tuple[str, ...]:
+        """Return the topics that move the joints of a further robot, as it is one."""
+        ...
+
     def transform_doubts(self) -> Mapping[str, str]:
         """Return what is wrong with topics of transforms, by their names."""
         ...

@@ -29,6 +29,7 @@ class DataFrames:
         changed: the frames that were told of since it was called last.
         waiting: whether there may be some.
         pairs: gives the (parent, child) that messages are known to join.
+        prefix: returns what messages put before the links of a robot.
         ahead: gives the first sample of each frame whose messages are still to come.
         refused: frame → why it cannot be set, such as a ring.
     """
@@ -39,6 +40,9 @@ class DataFrames:
         self.pairs: Callable[[], Iterable[tuple[str, str]]] = tuple[
             tuple[str, str], ...
         ]
+        self.prefix: Callable[[Robot], str] = lambda robot: frame_prefix(
+            joints_of(robot), self.pairs()
+        )
         self.ahead: Callable[[], Mapping[str, Sample]] = dict[str, Sample]
         self.refused: dict[str, str] = {}
         self.tree = tree
@@ -95,13 +99,13 @@ class DataFrames:
         """Return whether messages say where the links of a robot are."""
         if self._left_out:
             return False
-        if not frozenset(joints_of(robot)).isdisjoint(self.pairs()):
-            return True
-        return bool(self.prefix_of(robot))
+        prefix, joints = self.prefix_of(robot), joints_of(robot)
+        named = {(prefix + parent, prefix + child) for parent, child in joints}
+        return not named.isdisjoint(self.pairs())
 
     def prefix_of(self, robot: Robot) -> str:
         """Return what messages put before the links of a robot, such as "robot1/"."""
-        return frame_prefix(joints_of(robot), self.pairs())
+        return self.prefix(robot)
 
     def after_jump(self) -> bool:
         """Return whether frames have gone that were there before a jump in time."""

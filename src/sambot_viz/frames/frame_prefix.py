@@ -20,13 +20,16 @@ def joints_of(robot: Robot) -> list[tuple[str, str]]:
 
 
 def frame_prefix(
-    joints: Iterable[tuple[str, str]], pairs: Iterable[tuple[str, str]]
+    joints: Iterable[tuple[str, str]],
+    pairs: Iterable[tuple[str, str]],
+    likely: str = "",
 ) -> str:
     """Return what messages put before the links of a robot, such as "robot1/".
 
     Args:
         joints: (parent, child) of the robot's joints.
         pairs: (parent, child) of the transforms that messages bring.
+        likely: the prefix to take where several fit.
 
     Returns:
         An empty text when messages name links as they are, or say nothing of them.
@@ -37,29 +40,30 @@ def frame_prefix(
         if above.get(child) == parent:
             return ""
         head, slash, link = child.rpartition("/")
-        if not found and slash and link in above:
+        if slash and link in above and (not found or f"{head}/" == likely):
             if parent == f"{head}/{above[link]}":
                 found = f"{head}/"
     return found
 
 
 def other_prefix(
-    robot: Robot, prefix: str, frames: Collection[str], likely: str = ""
+    links: Collection[str],
+    named: Iterable[str],
+    frames: Collection[str],
+    likely: str = "",
 ) -> str | None:
     """Return the TF Prefix with which the links of a robot are frames.
 
     Args:
-        robot: the robot.
-        prefix: its TF Prefix, without the slash.
+        links: of the robot.
+        named: their frames, with the present prefix.
         frames: all frames.
         likely: the prefix to take where several fit.
 
     Returns:
-        None when there is none, and when some of its links are frames with `prefix`.
+        None when there is none, and when some of `named` are frames.
     """
-    links = {plain_name(link) for link in robot.links}
-    put = f"{prefix}/" if prefix else ""
-    if any(put + link in frames for link in links):
+    if any(frame in frames for frame in named):
         return None
     found = Counter(
         head

@@ -122,6 +122,12 @@ class FrameHistory:
             self._know(parent, child)
         return fault
 
+    def forget_all(self) -> None:
+        """Know no frame, as at the start."""
+        self.clear()
+        self._static.clear()
+        self._frames.clear()
+
     def clear(self) -> None:
         """Forget what moves, as after a jump in time; static transforms stay."""
         self._samples = Samples(self._duration)

@@ -7,9 +7,10 @@ eye. A config is shown as it is, and nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.rviz.declarations import short_name
 from sambot_viz.topics.first_sight import shown_at_first
@@ -26,12 +27,15 @@ _VALUES: Mapping[str, Mapping[str, object]] = {
 _DOTS = ((300, 6), (3_000, 4), (50_000, 3))
 """Up to so many points, so large a dot [pixels]: few points are large enough to see."""
 _SMALLEST_DOT = 2
+_ROBOT = "/robot_description"
+"""The topic of the robot in a config that fits any."""
 
 
 def show_topics(
     document: RvizConfig,
     types: Mapping[str, str],
     points_of: Callable[[str], int | None],
+    robots: Sequence[str] = (),
 ) -> list[DisplayConfig]:
     """Add a display to a config for each topic that is shown at first.
 
@@ -41,6 +45,7 @@ def show_topics(
             what was shown before.
         points_of: returns how many points a message of a topic has; None if that is
             not known.
+        robots: topics of descriptions; the config shows the robot of the first one.
 
     Returns:
         The displays that were added.
@@ -66,6 +71,13 @@ def show_topics(
         for path, value in values.items():
             display.set(path, value)
         added.append(display)
+    own = robots[:1] if _ROBOT in named else ()
+    for topic in robots:
+        if topic not in named and topic not in own:
+            document.offered.add(topic)
+            display = document.add_display(RobotModelDisplay.kind, f"Robot {topic}")
+            display.set("Description Topic", topic)
+            added.append(display)
     document.unasked = (*document.unasked, *added)
     return added
 

@@ -22,6 +22,7 @@ from sambot_viz.messages import (
     TransformDecoder,
 )
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.name_spaces import NameSpaces
 from sambot_viz.topics.transforms import Transforms
 
 
@@ -32,17 +33,20 @@ class Decoding:
 
     Args:
         types: of all sources.
+        spaces: name the frames of robots with name spaces.
     """
 
-    def __init__(self, types: MessageTypes) -> None:
+    def __init__(self, types: MessageTypes, spaces: NameSpaces | None = None) -> None:
         self.types = types
+        self.spaces = NameSpaces() if spaces is None else spaces
         self._transforms: dict[str, TransformDecoder] = {}
         self._readers: dict[Decoder, Read] = {}
 
     def decode(self, message: Recorded, kept: KeptElements | None = None) -> Any:
         """Return a message in the look of its meaning (see `Meaning`).
 
-        One whose schema means nothing here is a dict of its fields, or has them.
+        The frames of its headers have the names that they have in the tree. One whose
+        schema means nothing here is a dict of its fields, or has them.
 
         Args:
             message: its bytes.
@@ -51,6 +55,12 @@ class Decoding:
         Raises:
             DecodeError: its bytes are not what its type says, or nobody reads them.
         """
+        read = self._read(message, kept)
+        if self.spaces:
+            self.spaces.name_frames(message.topic, read)
+        return read
+
+    def _read(self, message: Recorded, kept: KeptElements | None = None) -> Any:
         channel = message.channel
         decoder = self.types.decoder(channel.schema, channel.message_encoding)
         if decoder.reason is not None:
@@ -83,8 +93,10 @@ class Decoding:
         if decoder is None:
             decoder = self._transforms[encoding] = TransformDecoder(encoding)
         if decoder.is_fast and has_ros_look(message.channel.schema.name):
-            return decoder.decode(message.payload)
-        return decoder.sorted(self.decode(message).transforms)
+            found = decoder.decode(message.payload)
+        else:
+            found = decoder.sorted(self._read(message).transforms)
+        return self.spaces.transforms(message.topic, found) if self.spaces else found
 
 
 def frame_and_stamp(message: Any) -> tuple[str, int | None]:

@@ -8,6 +8,7 @@ from xml.sax.saxutils import quoteattr
 
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.topics.name_spaces import separate_spaces, space_of
 
 STAND_IN_LINK = "base_link"
 """The link of a stand-in of which no frame is known."""
@@ -27,6 +28,9 @@ class RobotTopics:
         static: of the transforms that hold at all times.
         joint_states: of the positions of joints.
         others: descriptions of further robots, for displays that ask for them.
+        spaces: name spaces whose frames are kept apart; none where there is one.
+        joints_of: further description → the topics of the positions of its joints.
+        hidden: topics of transforms that are not taken.
         all: every topic of which messages are taken.
     """
 
@@ -35,6 +39,11 @@ class RobotTopics:
     static: tuple[str, ...] = ()
     joint_states: tuple[str, ...] = ()
     others: tuple[str, ...] = ()
+    spaces: tuple[str, ...] = ()
+    joints_of: Mapping[str, tuple[str, ...]] = field(
+        default_factory=dict[str, tuple[str, ...]]
+    )
+    hidden: tuple[str, ...] = ()
     all: frozenset[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -47,7 +56,8 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
     """Choose the topics of a robot.
 
     Without a namespace where there is such a robot, else those of the first namespace
-    that has a description. Transforms without a namespace belong to every robot.
+    that has a description. Transforms without a namespace belong to every robot. Where
+    robots have namespaces, all transforms are taken (see `NameSpaces`).
 
     Args:
         types: topic → the name of its type, as ``std_msgs/msg/String``.
@@ -63,14 +73,24 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
     wanted = next((name for name in named if name in found), "")
     found.sort(key=lambda name: (name != wanted, name.count("/"), name))
     description = found[0] if found else None
-    space = "" if description is None else description.rpartition("/")[0]
-    transforms = _of(types, Meaning.TRANSFORMS, space)
+    space = "" if description is None else space_of(description)
+    others = {name: space_of(name) for name in found[1:] if space_of(name) != space}
+    every = _all_of(types, Meaning.TRANSFORMS)
+    spaces = separate_spaces(every, found)
+    transforms = every if spaces else _near(every, space)
+    joints = _all_of(types, Meaning.JOINTS, "joint_states")
     return RobotTopics(
         description,
         tuple(name for name in transforms if not _is_static(name)),
         tuple(name for name in transforms if _is_static(name)),
-        _of(types, Meaning.JOINTS, space, "joint_states"),
+        _near([n for n in joints if space_of(n) not in others.values()], space),
         tuple(found[1:]),
+        tuple(spaces),
+        {
+            name: tuple(n for n in joints if space_of(n) == its)
+            for name, its in others.items()
+        },
+        tuple(name for name in every if name not in transforms),
     )
 
 
@@ -112,17 +132,21 @@ def base_frame(pairs: Iterable[tuple[str, str]]) -> str | None:
     return next(named, None)
 
 
-def _of(
-    types: Mapping[str, str], meaning: Meaning, space: str, word: str = ""
+def _all_of(
+    types: Mapping[str, str], meaning: Meaning, word: str = ""
 ) -> tuple[str, ...]:
-    """Return the topics of a meaning in a namespace, or else those in the least."""
-    names = [
+    """Return the topics of a meaning."""
+    return tuple(
         name
         for name, kind in types.items()
         if meaning_of(kind) is meaning and word in _last(name)
-    ]
+    )
+
+
+def _near(names: Sequence[str], space: str) -> tuple[str, ...]:
+    """Return the topics in a namespace, or else those in the least."""
     for prefix in dict.fromkeys((space, "")):
-        near = [name for name in names if name.rpartition("/")[0] == prefix]
+        near = [name for name in names if space_of(name) == prefix]
         if near:
             return tuple(near)
     return tuple(names)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.first_messages import FirstMessages
 from sambot_viz.topics.first_sight import shown_at_first
 from sambot_viz.topics.joint_states import JointStateTopics
+from sambot_viz.topics.name_spaces import NameSpaces, space_of
 from sambot_viz.topics.robot_topics import (
     STAND_IN_LINK,
     STAND_IN_NAME,
@@ -71,6 +72,7 @@ class SourceRobot:
     Attributes:
         source: as given.
         name: as given.
+        spaces: name the frames of robots with name spaces.
         decoding: decodes its messages.
         at_ns: the log time to begin with [ns]; None as `at`.
         named: descriptions that a config asks for.
@@ -96,7 +98,8 @@ class SourceRobot:
     ) -> None:
         self.source = source
         self.name = name or source.uri
-        self.decoding = Decoding(types)
+        self.spaces = NameSpaces()
+        self.decoding = Decoding(types, self.spaces)
         self.named: Sequence[str] = ()
         self.topics = RobotTopics()
         self.description: str | None = None
@@ -265,9 +268,21 @@ class SourceRobot:
     def _root_and_top(self, robot: Robot) -> tuple[str, str]:
         pairs = list(self._told.pairs())
         base = base_frame(pairs) if robot.name == STAND_IN_NAME else None
-        prefix = frame_prefix(joints_of(robot), pairs)
+        prefix = self.prefix_of(robot, pairs)
         root = base or prefix + plain_name(robot.root)
         return root, top_frame(root, pairs)
+
+    def prefix_of(self, robot: Robot, pairs: Iterable[tuple[str, str]]) -> str:
+        """Return what stands before the links of the robot, such as "a/".
+
+        Args:
+            robot: the opened one.
+            pairs: (parent, child) of all transforms that are known.
+        """
+        topic = self.topics.description or ""
+        likely = f"{space_of(topic)}/".removeprefix("/")
+        prefix = self.spaces.prefix_of(topic)
+        return prefix or frame_prefix(joints_of(robot), pairs, likely)
 
     def frames(self, robot: Robot, joints: JointState) -> FrameTree:
         """Return where all frames are at the time to look at, or else at the end.
@@ -287,6 +302,7 @@ class SourceRobot:
         joints.set_all(known)
         frames = DataFrames(tree)
         frames.changed, frames.pairs = transforms.changed, transforms.pairs
+        frames.prefix = lambda robot: self.prefix_of(robot, transforms.pairs())
         by_joints = not frames.places_links(robot)
         robot_joints = robot.joints.values() if by_joints else ()
         fixed = [joint.name for joint in robot_joints if joint.type != "floating"]
@@ -310,8 +326,11 @@ class SourceRobot:
 
     def joint_states(self) -> JointStateTopics:
         """Return what takes the positions of joints."""
-        decoding = Decoding(self.decoding.types)
-        return JointStateTopics(self.topics.joint_states, decoding.decode)
+        return JointStateTopics(self.topics.joint_states, self.new_decoding().decode)
+
+    def new_decoding(self) -> Decoding:
+        """Return what decodes the messages for a session."""
+        return Decoding(self.decoding.types, self.spaces)
 
     def decode(self, message: Recorded) -> Any:
         """Return a message as an object with its fields.
@@ -327,7 +346,7 @@ class SourceRobot:
 
     def transform_decoder(self) -> Callable[[Recorded], Transforms]:
         """Return what reads the transforms of a message; it raises DecodeError."""
-        return Decoding(self.decoding.types).transforms
+        return self.new_decoding().transforms
 
     def last_text(self, topic: str) -> str | None:
         """Return the last text that a topic of a recording has sent, if it has."""
@@ -361,6 +380,7 @@ class SourceRobot:
     def _look(self) -> None:
         """Find the topics of the robot; in the thread of a live source."""
         before, self.topics = self.topics, robot_topics(self.types, self.named)
+        self.spaces.set_spaces(self.topics.spaces)
         if self.recording is None:
             self._listen(before)
         elif self._index is None or self.topics != before:
@@ -377,6 +397,9 @@ class SourceRobot:
         self._index = TransformIndex(recording, self.topics.moving, decode)
         # What the begin tells of frames; every session starts from it.
         self._told = self._make_transforms(FrameHistory())
+        if self.spaces:
+            # Which frames all robots share is known once all have told of theirs.
+            self._told.expect(self._first_transforms(recording))
         self._told.expect(self._first_transforms(recording))
 
     def _listen(self, before: RobotTopics) -> None:
@@ -407,7 +430,7 @@ class SourceRobot:
     def _make_transforms(self, history: FrameHistory) -> TransformTopics:
         topics, decode = self.topics, self.transform_decoder()
         return TransformTopics(
-            history, topics.moving, topics.static, decode, self._index
+            history, topics.moving, topics.static, decode, self._index, self.spaces
         )
 
     def _first_transforms(self, recording: Bag) -> Iterator[Recorded]:

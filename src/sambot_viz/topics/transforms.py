@@ -28,7 +28,13 @@ from sambot_viz.frames.samples import (
 )
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import latched_until
-from sambot_viz.topics.frame_limit import FrameLimit, Transforms, too_many_frames
+from sambot_viz.topics.frame_limit import (
+    MOST_FRAMES,
+    FrameLimit,
+    Transforms,
+    too_many_frames,
+)
+from sambot_viz.topics.name_spaces import NameSpaces
 from sambot_viz.topics.transform_index import (
     TURNED_BACK,
     HoldingMessages,
@@ -61,6 +67,7 @@ class TransformTopics:
         static: the topics whose transforms hold at all times.
         decode: the transforms of a message; raises DecodeError.
         index: of the recording whose messages they are; None for a live robot.
+        spaces: name the frames of robots with name spaces.
 
     Attributes:
         history: as given.
@@ -74,6 +81,7 @@ class TransformTopics:
             with the log time [ns].
         turned_back_by: by how much the stamps went back the last time [ns]; 0: never.
         limit: which frames are taken.
+        renamed: how often frames got other names, and what was known was forgotten.
     """
 
     def __init__(
@@ -83,8 +91,14 @@ class TransformTopics:
         static: Collection[str],
         decode: Decode,
         index: TransformIndex | None = None,
+        spaces: NameSpaces | None = None,
     ) -> None:
         self.history = history
+        self.renamed = 0
+        self._spaces = NameSpaces() if spaces is None else spaces
+        self._named = self._spaces.version
+        # The last one of each group of frames, to be taken again by other names.
+        self._fixed: dict[tuple[str, tuple[FramePair, ...]], Recorded] = {}
         self.topics = (*moving, *static)
         self.always = frozenset(static)
         self.faults: Counter[tuple[str, str]] = Counter()
@@ -114,6 +128,7 @@ class TransformTopics:
         is_static = message.topic in self.always
         for stamp, edges, poses in self._transforms_of(message):
             if is_static:
+                self._keep(message, edges)
                 self._take_static(message, edges, poses)
             else:
                 self._take_moving(message.topic, stamp, edges, poses)
@@ -164,7 +179,9 @@ class TransformTopics:
                 for parent, child in edges:
                     self._note_parent(message.topic, parent, child)
                 self._note_first(message.log_ns, edges, poses)
-                if message.topic not in self.always:
+                if message.topic in self.always:
+                    self._keep(message, edges)
+                else:
                     self._moving.update((plain_name(c), None) for _, c in edges)
 
     def expect_as(self, other: TransformTopics) -> None:
@@ -195,10 +212,35 @@ class TransformTopics:
 
     def _transforms_of(self, message: Recorded) -> Transforms:
         try:
-            return self.limit.through(self._decode(message))
+            found = self._decode(message)
+            if self._named != self._spaces.version:
+                self._take_again()
+                found = self._decode(message)
+            return self.limit.through(found)
         except DecodeError:
             self.undecoded[message.topic] += 1
             return ()
+
+    def _keep(self, message: Recorded, edges: tuple[FramePair, ...]) -> None:
+        key = message.topic, edges
+        if key in self._fixed or len(self._fixed) < MOST_FRAMES:
+            self._fixed[key] = message
+
+    def _take_again(self) -> None:
+        """Forget what was known of frames that have other names by now."""
+        self._named = self._spaces.version
+        self.renamed += 1
+        self.history.forget_all()
+        self.clear()
+        self.limit = FrameLimit()
+        self.parents.clear()
+        self.first.clear()
+        self._moving.clear()
+        self._changed.clear()
+        self._changed_groups.clear()
+        fixed, self._fixed = self._fixed, {}
+        for message in fixed.values():
+            self.take(message)
 
     def _read(self, message: Recorded) -> Transforms:
         """Return the transforms of a message that is not taken, and not counted."""

@@ -78,6 +78,25 @@ class DescribedRobot:
         """Choose again from the start when the robot is next asked for."""
         self._source = ()
 
+    def frame_of(self, link: str, prefix: str) -> str:
+        """Return the TF frame of a link.
+
+        Args:
+            link: of the robot.
+            prefix: the TF Prefix of the display.
+        """
+        frame = f"{prefix}/{link}" if prefix else link
+        topic, descriptions = self.topic, self._context.descriptions
+        if not topic or descriptions is None:
+            return frame
+        return descriptions.link_frame(topic, frame)
+
+    @property
+    def topic(self) -> str:
+        """The topic of the robot; "" for one that no topic describes."""
+        name = self._wanted_topic()[0].removeprefix("/")
+        return f"/{name}" if name else ""
+
     # For what derives from it
 
     def _wanted(self) -> tuple[object, ...]:

@@ -15,6 +15,7 @@ from sambot_viz.displays.robot_model.balance_facts import (
     weigh,
 )
 from sambot_viz.displays.robot_model.balance_mark import BalanceMark
+from sambot_viz.displays.robot_model.followed_joints import FollowedJoints
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
 from sambot_viz.displays.robot_model.properties import (
     ALL_ENABLED,
@@ -33,6 +34,7 @@ from sambot_viz.displays.robot_model.robot_source import (
     FILE,
     TOPIC,
     RobotSource,
+    free_positions,
     publish_frames,
 )
 from sambot_viz.displays.robot_model.shape_nodes import ShapeNode
@@ -48,6 +50,7 @@ from sambot_viz.displays.topic_messages import values_of_topic
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
@@ -80,6 +83,9 @@ class RobotModelDisplay(TriangleDisplay):
         self._shapes: dict[_ShapeKey, tuple[str, ShapeNode]] = {}
         self._overlays = LinkOverlays(context, key, self.frame_of)
         self._mark = BalanceMark(context, key)
+        self._joints = FollowedJoints(context, self._joints_moved)
+        self._hung: set[str] = set()
+        self._found_prefix = ""
 
     @classmethod
     def topic_values(
@@ -94,8 +100,8 @@ class RobotModelDisplay(TriangleDisplay):
 
     def frame_of(self, link: str) -> str:
         """Return the TF frame of a link."""
-        prefix = str(self.config.get(PREFIX))
-        return f"{prefix}/{link}" if prefix else link
+        prefix = str(self.config.get(PREFIX)) or self._found_prefix
+        return self._source.frame_of(link, prefix)
 
     def draw(self) -> None:
         """Draw what is missing and change what differs."""
@@ -107,6 +113,8 @@ class RobotModelDisplay(TriangleDisplay):
                 {**topic_status(self._source), "URDF": self._source.status or missing}
             )
             return
+        self._find_prefix()
+        self._listen()
         if self.publish():
             self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
         entries = self.entries_of(robot)
@@ -258,7 +266,47 @@ class RobotModelDisplay(TriangleDisplay):
             # Messages hold its links; one of which they say nothing has no place.
             if self._has_place(robot) or self._meant_prefix() is not None:
                 return False
-        return bool(publish_frames(self.context.tree, robot, self.frame_of))
+        tree, given = self.context.tree, self._joints.last
+        new = publish_frames(tree, robot, self.frame_of, given)
+        self._hung.update(new)
+        return bool(new)
+
+    def _find_prefix(self) -> None:
+        """Take the name space of the topic as prefix where the frames carry it."""
+        self._found_prefix = ""
+        space = self._source.topic.rpartition("/")[0].removeprefix("/")
+        if space and not self.config.get(PREFIX) and self._meant_prefix() == space:
+            self._found_prefix = space
+
+    def _listen(self) -> None:
+        """Listen to the joints of a further robot, while it is shown."""
+        descriptions = self.context.descriptions
+        is_further = descriptions is not None and self.own_robot is not None
+        topic = self._source.topic if is_further and self.shown else ""
+        topics = descriptions.joint_topics(topic) if descriptions and topic else ()
+        self._joints.listen(topics)
+
+    def _joints_moved(self) -> None:
+        """Move the links of a further robot that hang by its joints."""
+        robot, tree = self.own_robot, self.context.tree
+        if robot is None or not self.shown:
+            return
+        kinematics, history = Kinematics(robot), tree.history
+        positions = kinematics.positions(free_positions(robot, self._joints.last))
+        by_frame = {self.frame_of(j.child): j for j in robot.joints.values()}
+        moved = {
+            frame: kinematics.joint_transform(joint.name, positions[joint.name])
+            for frame, joint in by_frame.items()
+            if frame in self._hung
+            and joint.movable
+            and joint.name in positions
+            and frame in tree
+            and tree.parent(frame) == self.frame_of(joint.parent)
+            and (history is None or history.latest(frame) is None)
+        }
+        if moved:
+            tree.update(moved)
+            self.context.place(moved.keys())
 
     def _has_place(self, robot: Robot) -> bool:
         tree = self.context.tree
@@ -275,7 +323,7 @@ class RobotModelDisplay(TriangleDisplay):
         return repairs(self._meant_prefix(), self._source)
 
     def _meant_prefix(self) -> str | None:
-        return meant_prefix(self.context, self.config, self._source)
+        return meant_prefix(self.context, self._source, self.frame_of)
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -354,6 +402,7 @@ class RobotModelDisplay(TriangleDisplay):
     def clear(self) -> None:
         """Take the robot out of the scene."""
         self._remove_shapes()
+        self._joints.listen(())
         self._source.forget()
 
     def _remove_shapes(self) -> None:

@@ -7,7 +7,7 @@ exist already, those of the opened robot for example, stay as they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from sambot_viz.displays.display import DisplayContext, Status
@@ -51,6 +51,11 @@ class RobotSource(DescribedRobot):
         self._config = config
         self._looked_for: tuple[object, ...] = ()
         self._found: Path | None = None
+
+    @property
+    def topic(self) -> str:
+        """The topic of the robot; "" for one that no topic describes."""
+        return "" if self.from_file else super().topic
 
     @property
     def from_file(self) -> bool:
@@ -148,7 +153,10 @@ class RobotSource(DescribedRobot):
 
 
 def publish_frames(
-    tree: FrameTree, robot: Robot, frame_of: Callable[[str], str]
+    tree: FrameTree,
+    robot: Robot,
+    frame_of: Callable[[str], str],
+    given: Mapping[str, float] | None = None,
 ) -> tuple[str, ...]:
     """Set the transforms of a second robot that are not set yet.
 
@@ -156,6 +164,7 @@ def publish_frames(
         tree: the frames; the transforms are static.
         robot: whose links they are.
         frame_of: link → frame, with the TF prefix.
+        given: joint → position [rad or m]; the others have their start values.
 
     Returns:
         The child frames that are new.
@@ -169,7 +178,7 @@ def publish_frames(
     if not missing:
         return ()
     kinematics = Kinematics(robot)
-    positions = kinematics.positions({})
+    positions = kinematics.positions(free_positions(robot, given or {}))
     for joint in missing:
         position = positions.get(joint.name, joint.start)
         T_parent_child = kinematics.joint_transform(joint.name, position)
@@ -183,6 +192,16 @@ def publish_frames(
             continue
         new.append(child)
     return tuple(new)
+
+
+def free_positions(robot: Robot, given: Mapping[str, float]) -> dict[str, float]:
+    """Return the positions that are those of joints which follow no other."""
+    joints = robot.joints
+    return {
+        name: position
+        for name, position in given.items()
+        if name in joints and joints[name].movable and joints[name].mimic is None
+    }
 
 
 def _known(tree: FrameTree, frame: str) -> bool:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from sambot_viz.displays.display import DisplayContext, Status
 from sambot_viz.displays.robot_display import Repair
 from sambot_viz.displays.robot_model.robot_source import TOPIC, RobotSource
 from sambot_viz.frames.frame_prefix import other_prefix
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.text import capitalized
+from sambot_viz.topics.name_spaces import space_of
 
 PREFIX = "TF Prefix"
 
@@ -23,16 +25,22 @@ def topic_status(source: RobotSource) -> dict[str, Status]:
 
 
 def meant_prefix(
-    context: DisplayContext, config: DisplayConfig, source: RobotSource
+    context: DisplayContext, source: RobotSource, frame_of: Callable[[str], str]
 ) -> str | None:
-    """Return the TF Prefix with which the links are frames; None if they are."""
+    """Return the TF Prefix with which the links are frames; None if they are.
+
+    Args:
+        context: has the frames.
+        source: of the robot.
+        frame_of: link → frame, with the present prefix.
+    """
     if source.robot is None:
         return None
-    space = (
-        "" if source.described is None else source.described.topic.rpartition("/")[0]
+    space = "" if source.described is None else space_of(source.described.topic)
+    links = dict.fromkeys(map(plain_name, source.robot.links))
+    return other_prefix(
+        links.keys(), map(frame_of, links), context.tree.frames, space.removeprefix("/")
     )
-    now, frames = str(config.get(PREFIX)), context.tree.frames
-    return other_prefix(source.robot, now, frames, space.removeprefix("/"))
 
 
 def prefix_status(config: DisplayConfig, root: str, prefix: str) -> Status:

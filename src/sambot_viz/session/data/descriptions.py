@@ -14,7 +14,6 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.live_reasons import (
     QOS_WORDS,
     no_publisher,
@@ -52,7 +51,7 @@ class SourceDescriptions:
         self._is_given = is_given
         self._worker = worker
         self._changed = changed
-        self._decoding = Decoding(moved_by.decoding.types)
+        self._decoding = moved_by.new_decoding()
         self._texts: dict[str, str] = {}
         self._subscribed: dict[str, Callable[[Recorded], object]] = {}
         self._doubts: Mapping[str, str] = {}
@@ -64,6 +63,20 @@ class SourceDescriptions:
     def topics(self) -> Sequence[str]:
         """Return the topics that describe robots."""
         return descriptions_of(self._moved_by.topics)
+
+    def link_frame(self, topic: str, link: str) -> str:
+        """Return the frame of a link of the robot of a topic, in its name space."""
+        moved_by = self._moved_by
+        if not moved_by.spaces:
+            return link
+        if topic not in self.topics():
+            # It stands for the robot that was opened.
+            topic = moved_by.topics.description or topic
+        return moved_by.spaces.link_frame(topic, link)
+
+    def joint_topics(self, topic: str) -> tuple[str, ...]:
+        """Return the topics that move the joints of a further robot, as it is one."""
+        return self._moved_by.topics.joints_of.get(topic, ())
 
     def transform_doubts(self) -> Mapping[str, str]:
         """Return the topics of transforms that RViz would get nothing from.

@@ -15,7 +15,6 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.live_reasons import QOS_WORDS, no_publisher, qos_mismatch
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.subscription import Subscription
@@ -42,7 +41,7 @@ class DisplayTopics:
         self._feed = feed
         self._wake = wake
         self._report = report
-        self._decoding = Decoding(moved_by.decoding.types)
+        self._decoding = moved_by.new_decoding()
         self._subscriptions: list[Subscription] = []
         self._types: tuple[object, Mapping[str, str]] = (None, {})
 

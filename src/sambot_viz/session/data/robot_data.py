@@ -82,6 +82,7 @@ class RobotData:
         self._period = 1 / 30
         self._said: tuple[int, str] = (0, "")
         self._doubted = ""
+        self._renamed = 0
         self._looked = float("-inf")
         self._closed = False
         source = self.source = moved_by.source.of_session()
@@ -105,6 +106,7 @@ class RobotData:
             self.topics = LiveTopics(moved_by, fault_of, change, worker)
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
+        frames.prefix = lambda robot: moved_by.prefix_of(robot, self.transforms.pairs())
         frames.ahead = self._ahead
         self._moves = self._has_motion()
         if self._moves:
@@ -199,6 +201,8 @@ class RobotData:
             self.problems.set(
                 problems_of_transforms(self.transforms, self.name, is_live=is_live)
             )
+        if self._renamed != self.transforms.renamed:
+            self._renamed, jumped = self.transforms.renamed, True
         self._robot.note_followed(self._joint_states.changed())
         self._frames.waiting = True
         # One picture is one change.

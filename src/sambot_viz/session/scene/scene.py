@@ -59,6 +59,7 @@ class Scene:
             models=models,
             displays=lambda: self.displays,
             apply=self._apply,
+            place=self.place,
         )
         self.anchors = Anchors(self.context)
         self.displays: list[Display] = []

@@ -201,7 +201,7 @@ class EffortDisplay(KeptReadingsDisplay):
         found: list[tuple[Joint, Matrix]] = []
         refused: dict[str, LookupRefused] = {}
         for joint in joints:
-            frame = f"{prefix}/{joint.child}" if prefix else joint.child
+            frame = self._source.frame_of(joint.child, prefix)
             try:
                 T = tree.lookup(fixed, frame, stamp_ns).matrix
             except LookupRefused as why:
