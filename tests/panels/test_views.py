@@ -183,7 +183,9 @@ def test_a_side_is_looked_at_without_perspective_and_whole(
     assert -camera.forward == pytest.approx((*SIDES[side], 0), abs=1e-9)
     box = session.picker.robot_box()
     assert box is not None
-    assert camera.look_at == pytest.approx((box[0] + box[1]) / 2)
+    # The names of frames need some room at one side.
+    middle, size = (box[0] + box[1]) / 2, box[1] - box[0]
+    assert abs(camera.look_at - middle).max() < 0.2 * size.max()
 
 
 @pytest.mark.parametrize("far", [10.0, 100.0, 1e5])
@@ -202,7 +204,8 @@ def test_from_however_far_away_a_side_and_a_fit_show_the_robot_at_once(
     assert client.view.values["Distance"] == pytest.approx(near)
     edit(panel, "view/Distance", far)
     client.view.fit()
-    assert client.view.values["Distance"] == pytest.approx(near)
+    # A side has room for the names of frames, too.
+    assert near / 2 < client.view.values["Distance"] <= near
 
 
 def test_the_top_is_rvizs_own_view(panel: ViewsPanel, client: Client) -> None:
