@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from live_peers import eventually
+from made_recording import write_recording
 from robot_peer import BusyPeer, square_peer
 
 from sambot_viz import Visualizer
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.first_sight import dot_size
 from sambot_viz.session.session import Session
+from sambot_viz.sources.bag import open_recording
 from sambot_viz.topics.first_sight import shown_at_first
 
 Show = Callable[..., Session]
@@ -41,6 +44,15 @@ def golden(shared: Path) -> Path:
     return shared / "data" / "golden-data"
 
 
+@contextmanager
+def stopped(peer: BusyPeer) -> Generator[BusyPeer]:
+    """Stop a peer at the end."""
+    try:
+        yield peer
+    finally:
+        peer.stop()
+
+
 def kinds(config: RvizConfig) -> list[str]:
     return [one.kind.rpartition("/")[2] for one in config.displays if one.enabled]
 
@@ -59,6 +71,41 @@ def test_all_that_a_recording_has_is_shown_in_the_order_of_need(
     assert {d.get("Color Scheme") for d in costs} == {"costmap"}
 
 
+def test_costmaps_lie_over_the_map(recordings: Path, shown: Show) -> None:
+    config = shown(recordings / "nav2_12.mcap").document.config
+    maps = [one for one in config.displays if one.kind.endswith("/Map")]
+    behind = [bool(one.get("Draw Behind")) for one in maps]
+    assert behind == [True, False, False]
+    assert "costmap" not in maps[0].name
+
+
+def test_a_fixed_frame_of_the_command_line_stays_and_all_is_seen(
+    recordings: Path, shown: Show
+) -> None:
+    source = recordings / "nav2_12.mcap"
+    without = shown(source).document.config
+    config = shown(source, fixed_frame="odom").document.config
+    assert config.global_options.get("Fixed Frame") == "odom"
+    assert kinds(config) == kinds(without)
+
+
+def test_a_live_robot_without_a_description_is_seen_in_the_frame_at_its_top(
+    tmp_path: Path,
+) -> None:
+    told = [("/tf", 0.0, {"base": "map"})]
+    path = write_recording(tmp_path / "scan.mcap", {}, told, None, [(0.0, 0.0)])
+    with (
+        open_recording(path) as recording,
+        stopped(BusyPeer(recording)) as peer,
+        Visualizer(source=peer.uri, port=0) as viz,
+    ):
+        session = viz.server.sessions.all()[0]
+        options = session.document.config.global_options
+        eventually(lambda: options.get("Fixed Frame") == "map")
+        eventually(lambda: session.scene.global_status().level == "Ok")
+        assert "RobotModel" not in kinds(session.document.config)
+
+
 def test_a_config_is_shown_as_it_is(recordings: Path, shown: Show) -> None:
     file = recordings / "nav2.rviz"
     config = shown(recordings / "nav2_12.mcap", config=file).document.config
@@ -75,8 +122,6 @@ def read(file: Path) -> RvizConfig:
 def test_the_frame_of_the_data_is_the_fixed_frame_without_transforms(
     golden: Path, shown: Show, tmp_path: Path
 ) -> None:
-    from made_recording import write_recording
-
     path = write_recording(tmp_path / "scan.mcap", {}, (), None, [(0.0, 0.0)])
     session = shown(path)
     assert session.document.config.global_options.get("Fixed Frame") == "base"

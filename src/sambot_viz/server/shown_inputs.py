@@ -12,11 +12,11 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.panels.pictures import AskPage
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import open_text
-from sambot_viz.rviz import RvizConfig
+from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
-from sambot_viz.server.live_model import LiveModel
+from sambot_viz.server.live_model import FRAMES_WITHIN, LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
@@ -61,11 +61,12 @@ class ShownInputs:
         self.configs = ConfigStore(
             document, options.session == "shared", prepare, inputs.config
         )
-        fits_any = inputs.takes_bundled_config and options.fixed_frame is None
-        self._stand_in = document if fits_any else None
+        self._stand_in = document if inputs.takes_bundled_config else None
         if self._stand_in is not None and inputs.moved_by is not None:
             self._show_data(document, inputs.moved_by)
         self._stand_in_frame = document.global_options.get("Fixed Frame")
+        # Of a live robot that had not said what it looks like.
+        self._switched_off: list[DisplayConfig] = []
         self._reloader: Reloader | None = None
         self._live_model: LiveModel | None = None
         models = ModelThread(inputs.load, options.package_path, self._load_described)
@@ -144,6 +145,16 @@ class ShownInputs:
         if document.unasked and missing and moved_by.can("seek"):
             _without_robot(document)
 
+    def _take_frame(self, shown: ShownDocument, live: SourceRobot) -> None:
+        """Show the frames of a live robot that does not say what it looks like."""
+        top, document = live.top_of_frames(), shown.config
+        fixed = document.global_options.get("Fixed Frame")
+        if live.topics.description is None and top and fixed == STAND_IN_LINK:
+            shown.set_option("Fixed Frame", top)
+            if self._inputs.options.model is None:
+                self._switched_off += _without_robot(document)
+                shown.show()
+
     def _post_data(self, live: SourceRobot) -> None:
         """Let all sessions show what a live robot has; in the thread of the source."""
         if self._stand_in is not self.configs.current:
@@ -151,6 +162,9 @@ class ShownInputs:
         for session in self.server.sessions.all():
             show = partial(self._show_live_data, session.document, live)
             session.worker.post(show)
+            # Its transforms say which frame is at the top, and come a little later.
+            take_frame = partial(self._take_frame, session.document, live)
+            session.worker.post_later(FRAMES_WITHIN, take_frame)
 
     def _show_live_data(self, shown: ShownDocument, live: SourceRobot) -> None:
         before = len(shown.config.unasked)
@@ -202,9 +216,16 @@ class ShownInputs:
         self, document: RvizConfig, robot: Robot, top: str, root: str
     ) -> None:
         """Fit a config to a live robot, unless a user has chosen a frame."""
-        if document.global_options.get("Fixed Frame") in (STAND_IN_LINK, root):
+        given = self._inputs.options.fixed_frame
+        fixed = document.global_options.get("Fixed Frame")
+        if fixed in (STAND_IN_LINK, root, top, given):
             _show_motion(document, top, root)
             fit_robot(document, robot)
+            _set_fixed_frame(document, given)
+        for display in document.displays:
+            if display.kind == RobotModelDisplay.kind and display in self._switched_off:
+                display.set_enabled(True)
+        self._switched_off.clear()
 
     def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
@@ -215,6 +236,7 @@ class ShownInputs:
                 _name_description(document, moved_by.topics)
                 root, top = moved_by.root_and_top(robot)
                 _show_motion(document, top, root)
+            _set_fixed_frame(document, self._inputs.options.fixed_frame)
 
     def _follow(self, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""
@@ -239,11 +261,16 @@ def _show_motion(document: RvizConfig, top: str, root: str) -> None:
         document.view.set("Target Frame", root)
 
 
-def _without_robot(document: RvizConfig) -> None:
+def _without_robot(document: RvizConfig) -> list[DisplayConfig]:
     """Switch off what shows a robot that is not there, and nobody has asked for."""
-    for display in document.displays:
-        if display.kind == RobotModelDisplay.kind:
-            display.set_enabled(False)
+    shown = [
+        display
+        for display in document.displays
+        if display.kind == RobotModelDisplay.kind and display.enabled
+    ]
+    for display in shown:
+        display.set_enabled(False)
+    return shown
 
 
 def _name_description(document: RvizConfig, topics: RobotTopics) -> None:

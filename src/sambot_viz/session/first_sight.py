@@ -13,17 +13,18 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.rviz.declarations import short_name
-from sambot_viz.topics.first_sight import shown_at_first
+from sambot_viz.topics.first_sight import is_costmap, shown_at_first
 
 _COLORS = ("25; 130; 255", "255; 120; 30", "40; 190; 90", "215; 60; 170")
 """Of paths and outlines, one after the other, so that they can be told apart."""
 _COLORED = frozenset({"Path", "Polygon"})
 _OF_POINTS = frozenset({"PointCloud2", "PointCloud", "LaserScan"})
 _VALUES: Mapping[str, Mapping[str, object]] = {
-    "Map": {"Draw Behind": True},
     "Odometry": {"Keep": 1, "Covariance": False},
 }
 """What RViz's defaults hide, or bury."""
+_COSTMAP = {"Color Scheme": "costmap", "Alpha": 0.4}
+"""As Nav2's own config: the walls of the map below stay visible."""
 _DOTS = ((300, 6), (3_000, 4), (50_000, 3))
 """Up to so many points, so large a dot [pixels]: few points are large enough to see."""
 _SMALLEST_DOT = 2
@@ -63,9 +64,8 @@ def show_topics(
             values["Color"] = _COLORS[same % len(_COLORS)]
         if short in _OF_POINTS:
             values |= {"Style": "Points", "Size (Pixels)": dot_size(points_of(topic))}
-        if is_costmap(kind, topic):
-            # As Nav2's own config: the walls of the map stay visible.
-            values |= {"Color Scheme": "costmap", "Alpha": 0.4}
+        if short == "Map":
+            values |= _COSTMAP if is_costmap(topic) else {"Draw Behind": True}
         document.offered.add(topic)
         display = document.add_display(kind, f"{short} {topic}")
         for path, value in values.items():
@@ -96,11 +96,6 @@ def dot_size(points: int | None) -> int:
 def is_map(display: DisplayConfig) -> bool:
     """Return whether a display is a map, in which all else moves."""
     return short_name(display.kind) == "Map"
-
-
-def is_costmap(kind: str, topic: str) -> bool:
-    """Return whether a topic is a map of costs, by its name."""
-    return short_name(kind) == "Map" and "costmap" in topic
 
 
 def _named(displays: Iterable[DisplayConfig]) -> Iterator[str]:

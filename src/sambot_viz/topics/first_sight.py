@@ -44,16 +44,21 @@ def shown_at_first(types: Mapping[str, str]) -> list[tuple[str, str]]:
     return list(_needed(types))[:MOST]
 
 
+def is_costmap(topic: str) -> bool:
+    """Return whether a map is one of costs, which lies over the others, by its name."""
+    return "costmap" in topic
+
+
 def _needed(types: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     found = sorted(
-        (_RANK[kind], name, kind)
+        (_RANK[kind], is_costmap(name), name, kind)
         for name, type_name in types.items()
         # An update is drawn by the display of its map.
         if meaning_of(type_name) is not Meaning.GRID_UPDATE
         and (kind := display_of(name, type_name) or "") in _RANK
     )
     pictures = 0
-    for _, name, kind in found:
+    for _, _, name, kind in found:
         pictures += kind == IMAGE
         if kind != IMAGE or pictures <= _MOST_PICTURES:
             yield name, kind

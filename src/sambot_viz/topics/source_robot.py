@@ -265,6 +265,11 @@ class SourceRobot:
                 self._framed.wait_for(is_held, timeout)
             return self._root_and_top(robot)
 
+    def top_of_frames(self) -> str:
+        """Return the frame at the top of all that was told of; "" before that."""
+        pairs = list(self._told.pairs())
+        return top_frame(pairs[0][1], pairs) if pairs else ""
+
     def _root_and_top(self, robot: Robot) -> tuple[str, str]:
         pairs = list(self._told.pairs())
         base = base_frame(pairs) if robot.name == STAND_IN_NAME else None
