@@ -45,6 +45,8 @@ class FollowedJoints:
                 topics, self._take, depth_s=_DEPTH_S, size=_MOST_WAITING
             )
             self._states = JointStateTopics(topics, self._subscription.decode)
+            # Of a recording that stands still they wait already.
+            self._take()
 
     def _take(self) -> None:
         if self._subscription is None or self._states is None:
