@@ -103,6 +103,19 @@ def words_of(words: Sequence[str], flag: str) -> tuple[str, ...]:
     return tuple(words)
 
 
+def named_words(words: Sequence[str], flag: str) -> dict[str, str]:
+    """Read the NAME=WORD values of a flag that may be repeated.
+
+    Raises:
+        UsageError: one that is otherwise.
+    """
+    pairs = [word.partition("=") for word in words]
+    for word, (name, equals, value) in zip(words, pairs, strict=True):
+        if not (name and equals and value):
+            raise UsageError(f"{flag}: '{word}' is not NAME={value or 'WORD'}")
+    return {name: value for name, _, value in pairs}
+
+
 def assignments(words: Sequence[str], flag: str) -> dict[str, float]:
     """Read NAME=VALUE words."""
     from sambot_viz.joints.values import parse_assignments

@@ -24,6 +24,7 @@ from sambot_viz.errors import (
 from sambot_viz.moved_by import (
     named_descriptions,
     open_moved_by,
+    refuse_mixture,
     refuse_time_of_live,
 )
 from sambot_viz.options import Options, PathLike
@@ -124,6 +125,8 @@ class Inputs:
         text = model if isinstance(model, str) and looks_like_text(model) else None
         if listen is None:
             refuse_time_of_live(options)
+        else:
+            refuse_mixture(options)
         self.moved_by = open_moved_by(options)
         self._listened: Listened | None = None
         if self.live is not None and listen is not None:

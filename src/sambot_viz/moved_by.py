@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.rviz.yaml.document import Document
     from sambot_viz.rviz.yaml.nodes import Map
+    from sambot_viz.sources.given import GivenSource
     from sambot_viz.sources.source import Source
     from sambot_viz.topics.source_robot import SourceRobot
 
@@ -24,28 +25,47 @@ def open_moved_by(options: Options) -> SourceRobot | None:
     A live robot is not connected yet.
 
     Raises:
-        UsageError: there are sources beside a live robot, or it cannot be recorded
-            where the options say.
+        UsageError: a live robot cannot be recorded where the options say.
         SourceError: a recording cannot be opened.
     """
     if not options.sources:
         return None
     from sambot_viz.messages import MessageTypes
+    from sambot_viz.sources.joined import JoinedSources
     from sambot_viz.topics.source_robot import SourceRobot
 
     types = MessageTypes([Path(folder) for folder in options.msg_path])
-    if not options.live_sources:
-        return SourceRobot(_recordings(options), types, at=options.at)
-    if len(options.sources) > 1:
-        given = ", ".join(str(one) for one in options.source)
+    lives = [_live(given) for given in options.live_sources]
+    folder = _checked_folder(options) if lives else None
+    recorded = [given for given in options.sources if not given.is_live]
+    sources: list[Source] = [] if not recorded else [_recordings(recorded)]
+    if lives:
+        sources.append(lives[0] if len(lives) == 1 else JoinedSources(lives))
+    source = sources[0] if len(sources) == 1 else JoinedSources(sources)
+    return SourceRobot(source, types, at=options.at, recordings=folder)
+
+
+def refuse_mixture(options: Options) -> None:
+    """Refuse to look once at a live robot together with other sources.
+
+    Raises:
+        UsageError: the options name such a robot, and others or a prefix.
+    """
+    prefixed = any(given.prefix for given in options.live_sources)
+    if options.live_sources and (len(options.sources) > 1 or prefixed):
         raise UsageError(
-            "a live robot is not shown together with recordings or another robot; "
-            f"name one of these alone: {given}"
+            "a command that looks once listens to one robot, without a prefix: name "
+            "one source; the page shows several"
         )
+
+
+def _live(given: GivenSource) -> Source:
+    """Return a live robot, not connected yet."""
+    from sambot_viz.sources.prefixed_source import PrefixedSource
     from sambot_viz.sources.registry import open_source
 
-    source = open_source(options.live_sources[0].uri)
-    return SourceRobot(source, types, recordings=_checked_folder(options))
+    source = open_source(given.uri)
+    return PrefixedSource(source, given.prefix) if given.prefix else source
 
 
 def _checked_folder(options: Options) -> Path | None:
@@ -64,22 +84,32 @@ def _checked_folder(options: Options) -> Path | None:
     return folder
 
 
-def _recordings(options: Options) -> Source:
-    """Open all recordings of the options as one.
+def _recordings(given: Sequence[GivenSource]) -> Source:
+    """Open recordings as one; those with the same name, or without, are one already.
 
     Raises:
         SourceError: one of them cannot be opened.
     """
     from sambot_viz.sources.bag import open_recording
+    from sambot_viz.sources.bag.beside import Beside, beside_each_other
     from sambot_viz.sources.playback import RecordingPlayback
 
-    paths = [Path(given.path) for given in options.sources]
-    name = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
-    recording = open_recording(paths)
-    # What is large and without an index is looked through now: a second or two a GB.
-    while not recording.index_more():
-        pass
-    return RecordingPlayback(recording, name)
+    groups: dict[tuple[str, str], list[Path]] = {}
+    for one in given:
+        groups.setdefault((one.name, one.prefix), []).append(Path(one.path))
+    opened: list[Beside] = []
+    for (name, prefix), paths in groups.items():
+        called = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
+        recording = open_recording(paths)
+        # What is large and has no index is looked through now: a second or two a GB.
+        while not recording.index_more():
+            pass
+        opened.append(Beside(recording, name or called, prefix))
+    name = " and ".join(one.name for one in opened)
+    only = opened[0]
+    if len(opened) == 1 and not only.prefix:
+        return RecordingPlayback(only.bag, name)
+    return RecordingPlayback(beside_each_other(opened), name)
 
 
 def refuse_time_of_live(options: Options) -> None:
@@ -88,7 +118,7 @@ def refuse_time_of_live(options: Options) -> None:
     Raises:
         UsageError: the options name such a robot, and a time.
     """
-    if options.at is not None and options.live_sources:
+    if options.at is not None and options.live_sources == options.sources:
         raise UsageError(
             "--at is a time of a recording; of a live robot the last messages are shown"
         )

@@ -25,6 +25,7 @@ from sambot_viz.flags import (
     check_header,
     check_token,
     declared,
+    named_words,
     new_token,
     option,
     static_transforms,
@@ -54,12 +55,14 @@ def _is_live(uri: str) -> bool:
     return is_live(uri)
 
 
-def _given_sources(words: Sequence[str]) -> tuple[GivenSource, ...]:
-    if not words:
+def _given_sources(
+    words: Sequence[str], prefixes: Mapping[str, str]
+) -> tuple[GivenSource, ...]:
+    if not words and not prefixes:
         return ()
-    from sambot_viz.sources.given import given_source
+    from sambot_viz.sources.given import given_sources
 
-    return tuple(given_source(one) for one in words)
+    return given_sources(words, prefixes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +125,16 @@ class Options:
         group="source",
         metavar="[NAME=]URI",
         read=words_of,
+    )
+    source_prefix: Mapping[str, str] = option(
+        None,
+        "a prefix for the topics and frames of a source that has a name, so that "
+        f"robots with the same names are shown together{AGAIN}",
+        "--source-prefix",
+        group="source",
+        metavar="NAME=PREFIX",
+        factory=dict,
+        read=named_words,
     )
     at: float | None = option(
         None,
@@ -371,7 +384,8 @@ class Options:
                 f"--at {self.at:g} needs a recording: give its file, or --source FILE"
             )
         object.__setattr__(self, "source", source)
-        object.__setattr__(self, "sources", _given_sources(source))
+        sources = _given_sources(source, self.source_prefix)
+        object.__setattr__(self, "sources", sources)
         for flag, given in (
             ("--record", self.record),
             ("--record-dir", self.record_dir),
@@ -408,7 +422,8 @@ class Options:
     @property
     def waits_for_robot(self) -> bool:
         """Whether the robot is the one that a live source will describe."""
-        return self.model is None and bool(self.live_sources)
+        live = self.live_sources
+        return self.model is None and bool(live) and live == self.sources
 
     @property
     def start_pose(self) -> StartPose:

@@ -30,8 +30,8 @@ FORMS = {
 """The placeholder of an option with numbers → how they stand in its value."""
 OTHERS = {
     "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI",
-    "[NAME=]URI", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE", "JOINT", "SOURCE",
-    "TARGET", "HOST",
+    "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
+    "JOINT", "SOURCE", "TARGET", "HOST",
     None,
 }  # fmt: skip
 """Placeholders of what is no number."""

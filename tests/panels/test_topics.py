@@ -34,7 +34,7 @@ class Opened:
             self.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
         self.remade = 0
         self.panel = TopicsPanel(self.data.topics, session.scene, self._remake)
-        connect([self.data.topics.looked], lambda: self._remake(self.panel))
+        connect(self.data.topics.remade_by, lambda: self._remake(self.panel))
 
     def _remake(self, panel: Panel) -> None:
         self.remade += 1
@@ -46,7 +46,8 @@ class Opened:
 
     def look(self) -> None:
         """Open the panel, and look at all messages at once."""
-        survey = self.data.topics._survey  # pyright: ignore[reportPrivateUsage]
+        assert self.data.topics.recorded is not None
+        survey = self.data.topics.recorded._survey  # pyright: ignore[reportPrivateUsage]
         with self.session.lock:
             survey.finish()
         self.run("topics/show", True)
@@ -75,7 +76,7 @@ def test_nothing_is_looked_at_before_somebody_opens_the_panel(opened: Opened) ->
     assert list(opened.values()) == ["topics/wait"]
     assert opened.panel.values() == {}
     assert list(opened.panel.moved_by) == []
-    assert opened.data.topics.report.rate("/tf") is None
+    assert opened.data.topics.rate("/tf") is None
 
 
 def test_each_topic_has_its_facts_and_its_reason(opened: Opened) -> None:
@@ -328,10 +329,13 @@ def test_while_the_connection_is_lost_topics_are_not_to_blame(
 def test_however_many_look_a_topic_is_looked_at_once_a_second(
     live: LiveOpened, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    topics, asked = live.data.topics, list[str]()
+    topics, asked = live.data.topics.live, list[str]()
+    assert topics is not None
     live.look()
     scene = live.session.scene
-    others = [TopicsPanel(topics, scene, lambda panel: None) for _ in range(2)]
+    others = [
+        TopicsPanel(live.data.topics, scene, lambda panel: None) for _ in range(2)
+    ]
     with live.session.lock:
         live.panel.rows()
         for panel in others:

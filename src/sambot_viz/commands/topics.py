@@ -12,7 +12,7 @@ from typing import Any
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.listened import Listened
-from sambot_viz.moved_by import open_moved_by, refuse_time_of_live
+from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
 from sambot_viz.problems import write_problems
@@ -49,6 +49,7 @@ def _looked_at(
 ) -> tuple[list[TopicStatus], list[Problem]]:
     """Return what is to be said of each topic, and what is wrong with all of it."""
     refuse_time_of_live(options)
+    refuse_mixture(options)
     moved_by = open_moved_by(options)
     if moved_by is None:
         raise UsageError(_no_recording(options))

@@ -157,6 +157,8 @@ class DisplayContext:
         highlighted: links of that robot that a program highlights.
         messages: those that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
+        is_paced: whether the time of a frame is another one, such as that of a
+            recording beside a live robot: it does not grow old.
         pictures: those that panels show beside the view.
         displays: returns all displays, in their order.
         apply: runs a function that draws, from any thread, and sends what it draws.
@@ -179,6 +181,7 @@ class DisplayContext:
     highlighted: set[str] = field(default_factory=set[str])
     messages: TopicMessages | None = None
     now: Callable[[], float] | None = None
+    is_paced: Callable[[str], bool] = lambda frame: False
     pictures: Pictures = field(default_factory=Pictures)
     displays: Callable[[], Sequence[Display]] = tuple
     apply: Callable[[Callable[[], None]], None] = lambda action: action()

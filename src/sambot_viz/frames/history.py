@@ -9,7 +9,7 @@ and texts are those of tf2 in ROS 2.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -131,6 +131,12 @@ class FrameHistory:
     def clear(self) -> None:
         """Forget what moves, as after a jump in time; static transforms stay."""
         self._samples = Samples(self._duration)
+
+    def forget(self, children: Iterable[str]) -> None:
+        """Forget how some frames move, as after a jump in the time of their source."""
+        for child in children:
+            if child in self._samples:
+                self._samples.forget(child)
 
     def lookup(
         self,

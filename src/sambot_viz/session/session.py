@@ -121,6 +121,7 @@ class Session:
                 moved_by, frames, data_frames, robot, change, worker, scene.fault_of
             )
             scene.context.now = self.data.time_s
+            scene.context.is_paced = self.data.is_paced
             scene.context.messages = self.data.messages
             is_given, redraw = options.model is not None, self._redraw
             self._descriptions = SourceDescriptions(moved_by, is_given, worker, redraw)

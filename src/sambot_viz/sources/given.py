@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os.path
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 
 from sambot_viz.errors import UsageError
 from sambot_viz.files import RECORDING_ENDINGS
@@ -13,6 +14,7 @@ from sambot_viz.text import text
 
 _RECORDING = "bag:"
 _NAMED = re.compile(r"([A-Za-z][\w-]*)=(.*)", re.DOTALL)
+_WORD = re.compile(r"[A-Za-z_]\w*(/[A-Za-z_]\w*)*")
 _PLACE = re.compile(r"(\[[0-9a-fA-F:]+\]|[\w.-]+):\d+(/.*)?")
 """A host with a port, and no kind of source before it."""
 
@@ -24,10 +26,12 @@ class GivenSource:
     Attributes:
         uri: the address of a live robot, or bag:PATH.
         name: what the user calls it; "" for none.
+        prefix: what is put before its topics and frames; "" for nothing.
     """
 
     uri: str
     name: str = ""
+    prefix: str = ""
 
     @property
     def is_live(self) -> bool:
@@ -63,3 +67,33 @@ def given_source(words: str) -> GivenSource:
         raise UsageError(f"{text(uri)}: no such file or folder; known: {KNOWN}")
     live_address(uri)
     return GivenSource(uri, name)
+
+
+def given_sources(
+    words: Iterable[str], prefixes: Mapping[str, str]
+) -> tuple[GivenSource, ...]:
+    """Read all sources of a command line.
+
+    Args:
+        words: as for `given_source`.
+        prefixes: name → what is put before the topics and frames of that source.
+
+    Raises:
+        UsageError: as `given_source`; a prefix of no source, or one that cannot be; or
+            a robot with the name of another source.
+    """
+    found = [given_source(one) for one in words]
+    names = [one.name for one in found if one.name]
+    for name, prefix in prefixes.items():
+        if name not in names:
+            listed = ", ".join(names) or "none has a name: write --source NAME=URI"
+            raise UsageError(f"--source-prefix {name}: no such source; {listed}")
+        if not _WORD.fullmatch(prefix):
+            raise UsageError(
+                f"--source-prefix {name}={text(prefix)}: a prefix has letters, digits "
+                "and _, as in robot1"
+            )
+    for one in found:
+        if one.is_live and names.count(one.name) > 1:
+            raise UsageError(f"two sources are called {one.name}: name them otherwise")
+    return tuple(replace(one, prefix=prefixes.get(one.name, "")) for one in found)

@@ -24,6 +24,7 @@ class TopicChannel:
         message_encoding: "cdr", "ros1", "json", … or "" when it was not given.
         qos: what the publishers offered, as far as it is known.
         is_latched: as `SourceTopic.is_latched`.
+        frame_prefix: as `SourceTopic.frame_prefix`.
     """
 
     topic: str
@@ -31,6 +32,7 @@ class TopicChannel:
     message_encoding: str
     qos: Qos | None = None
     is_latched: bool = False
+    frame_prefix: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +52,8 @@ class SourceTopic:
         count: how many messages a recording has that can be read; None while that is
             not known, and of a live robot.
         left_out: what of it is not read, and why; empty for nothing.
+        frame_prefix: what is put before the frames in its messages, without a slash at
+            its end; empty for nothing.
     """
 
     name: str
@@ -61,6 +65,7 @@ class SourceTopic:
     reason: str | None = None
     count: int | None = None
     left_out: str = ""
+    frame_prefix: str = ""
 
 
 @dataclass(frozen=True, slots=True)

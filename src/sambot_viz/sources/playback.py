@@ -40,6 +40,8 @@ class RecordingPlayback:
     """
 
     has_clock = False
+    hidden = ()
+    live = None
 
     def __init__(self, recording: Bag, uri: str, at_ns: int | None = None) -> None:
         self.recording = recording

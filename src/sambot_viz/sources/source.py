@@ -12,7 +12,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from sambot_viz.errors import SourceError
+from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.message import Recorded, SourceTopic
 
 if TYPE_CHECKING:
@@ -111,6 +111,16 @@ class Source(Protocol):
     @property
     def playback(self) -> Playback | None:
         """Its time, with the capability seek; None without."""
+        ...
+
+    @property
+    def hidden(self) -> tuple[Problem, ...]:
+        """Which topics are not handed on, as another part of it has the same."""
+        ...
+
+    @property
+    def live(self) -> Source | None:
+        """What has a clock, with the capability clock; None without."""
         ...
 
     def topics(self) -> Mapping[str, SourceTopic]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from operator import attrgetter
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.frames.samples import FramePair
 from sambot_viz.meanings import has_ros_look, reader_of
 from sambot_viz.meanings.reading import Read
 from sambot_viz.messages import (
@@ -24,6 +25,11 @@ from sambot_viz.messages import (
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.name_spaces import NameSpaces
 from sambot_viz.topics.transforms import Transforms
+
+_MOST_KEPT = 1000
+_FRAMES = ("frame_id", "child_frame_id")
+_HAVE_FRAMES = ("header", "markers", "poses", "transforms", "erases")
+"""Fields of messages that have frames, or elements with frames, in them."""
 
 
 class Decoding:
@@ -41,6 +47,7 @@ class Decoding:
         self.spaces = NameSpaces() if spaces is None else spaces
         self._transforms: dict[str, TransformDecoder] = {}
         self._readers: dict[Decoder, Read] = {}
+        self._prefixed: dict[tuple[str, int], tuple[object, tuple[FramePair, ...]]] = {}
 
     def decode(self, message: Recorded, kept: KeptElements | None = None) -> Any:
         """Return a message in the look of its meaning (see `Meaning`).
@@ -68,7 +75,10 @@ class Decoding:
         read = self._readers.get(decoder)
         if read is None:
             read = self._readers[decoder] = reader_of(decoder, self.types)
-        return read(message.payload, kept)
+        value = read(message.payload, kept)
+        if channel.frame_prefix:
+            put_prefix(value, channel.frame_prefix)
+        return value
 
     def in_turn(self) -> Callable[[Recorded], Any]:
         """Return what decodes messages that come one after the other, as `decode`."""
@@ -92,11 +102,58 @@ class Decoding:
         decoder = self._transforms.get(encoding)
         if decoder is None:
             decoder = self._transforms[encoding] = TransformDecoder(encoding)
+        prefix = message.channel.frame_prefix
         if decoder.is_fast and has_ros_look(message.channel.schema.name):
             found = decoder.decode(message.payload)
+            if prefix:
+                found = self._with_prefix(found, prefix)
         else:
             found = decoder.sorted(self._read(message).transforms)
         return self.spaces.transforms(message.topic, found) if self.spaces else found
+
+    def _with_prefix(self, transforms: Transforms, prefix: str) -> Transforms:
+        """Return transforms with other names, the same tuple for the same frames."""
+        found: list[tuple[int, tuple[FramePair, ...], Any]] = []
+        for stamp, edges, poses in transforms:
+            key = (prefix, id(edges))
+            # The decoder's tuple is kept too, so that no other one gets its id.
+            if key not in self._prefixed or self._prefixed[key][0] is not edges:
+                if len(self._prefixed) >= _MOST_KEPT:
+                    self._prefixed.clear()
+                named = tuple(
+                    (prefixed(one, prefix), prefixed(other, prefix))
+                    for one, other in edges
+                )
+                self._prefixed[key] = edges, named
+            found.append((stamp, self._prefixed[key][1], poses))
+        return found
+
+
+def prefixed(frame: str, prefix: str) -> str:
+    """Return the name of a frame with a prefix; one that has it already keeps it."""
+    frame = plain_name(frame)
+    has_it = not frame or frame.startswith(f"{prefix}/")
+    return frame if has_it else f"{prefix}/{frame}"
+
+
+def put_prefix(value: Any, prefix: str) -> None:
+    """Put a prefix before the frames of a message, and of the elements of its arrays.
+
+    Args:
+        value: has its fields; what is shared with other messages is changed once.
+        prefix: without a slash at its end.
+    """
+    for name in _FRAMES:
+        frame = getattr(value, name, None)
+        if isinstance(frame, str):
+            setattr(value, name, prefixed(frame, prefix))
+    for name in _HAVE_FRAMES:
+        below = getattr(value, name, None)
+        if isinstance(below, list):
+            for one in cast("list[Any]", below):
+                put_prefix(one, prefix)
+        elif below is not None and not isinstance(below, Rows):
+            put_prefix(below, prefix)
 
 
 def frame_and_stamp(message: Any) -> tuple[str, int | None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -118,15 +119,20 @@ class SourceRobot:
         source.on_topics = self._look
         source.on_status = self.tell_status
         self.recorder: SourceRecorder | None = None
-        if self.can("clock"):
+        if source.live is not None:
             # It is told of topics first, and passes that on.
-            self.recorder = SourceRecorder(source, recordings, self.tell_status)
+            self.recorder = SourceRecorder(source.live, recordings, self.tell_status)
         if source.playback is not None:
             start = source.playback.recording.start_ns
             if at is not None and start is not None:
                 self.at_ns = start + round(at * 1e9)
                 source.playback.seek(self.at_ns)
             self._look()
+
+    @property
+    def hidden(self) -> tuple[Problem, ...]:
+        """Which topics of a source are hidden by those of another one."""
+        return self.source.hidden
 
     def close(self) -> None:
         """End the recording and the connection; a second call does nothing."""
@@ -384,22 +390,45 @@ class SourceRobot:
 
     def _look(self) -> None:
         """Find the topics of the robot; in the thread of a live source."""
-        before, self.topics = self.topics, robot_topics(self.types, self.named)
+        before, self.topics = self.topics, self._chosen(self.types)
         self.spaces.set_spaces(self.topics.spaces)
-        if self.recording is None:
-            self._listen(before)
-        elif self._index is None or self.topics != before:
-            self._read(self.recording)
+        recording = self.recording
+        if recording is not None and (self._index is None or self.topics != before):
+            self._read(recording)
+        if self.source.live is not None:
+            self._listen(self.source.live, before)
         for listener in list(self.on_topics):
             listener()
         if self.topics != before:
             self.tell_status()
 
+    def _chosen(self, known: Mapping[str, str]) -> RobotTopics:
+        """Return the topics of the robot, and the transforms of all sources.
+
+        Each source has its frames, which a prefix tells from those of the others.
+        """
+        topics = self.source.topics()
+        prefixes = dict.fromkeys(topics[name].frame_prefix for name in known)
+        found = robot_topics(known, self.named)
+        if len(prefixes) < 2:
+            return found
+        each = [
+            robot_topics(
+                {n: k for n, k in known.items() if topics[n].frame_prefix == p}
+            )
+            for p in prefixes
+        ]
+        moving = {name: None for one in each for name in one.moving}
+        static = {name: None for one in each for name in one.static}
+        return replace(found, moving=tuple(moving), static=tuple(static))
+
     def _read(self, recording: Bag) -> None:
         """Take what a recording says of the robot, at whatever time."""
-        self.description = self.last_text(self.topics.description or "")
-        decode = self.transform_decoder()
-        self._index = TransformIndex(recording, self.topics.moving, decode)
+        main, decode = self.topics.description or "", self.transform_decoder()
+        if self.has_recorded(main):
+            self.description = self.last_text(main)
+        moving = [name for name in self.topics.moving if self.has_recorded(name)]
+        self._index = TransformIndex(recording, moving, decode)
         # What the begin tells of frames; every session starts from it.
         self._told = self._make_transforms(FrameHistory())
         if self.spaces:
@@ -407,14 +436,16 @@ class SourceRobot:
             self._told.expect(self._first_transforms(recording))
         self._told.expect(self._first_transforms(recording))
 
-    def _listen(self, before: RobotTopics) -> None:
+    def _listen(self, live: Source, before: RobotTopics) -> None:
         """Ask a live source for what it says of the robot."""
         self._told.set_topics(self.topics.moving, self.topics.static)
-        if self.topics.description not in (None, before.description):
-            self.source.subscribe(self.topics.description or "", self._describe)
+        main = self.topics.description
+        if main is not None and main != before.description:
+            if not self.has_recorded(main):
+                live.subscribe(main, self._describe)
         for topic in (*self.topics.moving, *self.topics.static):
-            if self._seen < ENOUGH:
-                self.source.subscribe(topic, self._expect)
+            if self._seen < ENOUGH and not self.has_recorded(topic):
+                live.subscribe(topic, self._expect)
 
     def _describe(self, message: Recorded) -> None:
         text = self.decoding.text(message)
@@ -428,15 +459,24 @@ class SourceRobot:
             self._told.expect([message])
             self._framed.notify_all()
         self._seen += 1
-        if self._seen == ENOUGH:
+        live = self.source.live
+        if self._seen == ENOUGH and live is not None:
             for topic in (*self.topics.moving, *self.topics.static):
-                self.source.unsubscribe(topic, self._expect)
+                live.unsubscribe(topic, self._expect)
 
     def _make_transforms(self, history: FrameHistory) -> TransformTopics:
         topics, decode = self.topics, self.transform_decoder()
+        moving, static, index = topics.moving, topics.static, self._index
         return TransformTopics(
-            history, topics.moving, topics.static, decode, self._index, self.spaces
+            history, moving, static, decode, index, self.spaces, self._source_of
         )
+
+    def _source_of(self, topic: str) -> str | None:
+        """Return the prefix of the live source that has a topic; None: recorded."""
+        if self.has_recorded(topic):
+            return None
+        known = self.source.topics().get(topic)
+        return "" if known is None else known.frame_prefix
 
     def _first_transforms(self, recording: Bag) -> Iterator[Recorded]:
         start, moving = recording.start_ns, self.topics.moving

@@ -56,6 +56,7 @@ class _Publication:
     edges: tuple[FramePair, ...]
     children: tuple[str, ...]
     newest: int
+    topic: str
 
 
 class TransformTopics:
@@ -68,6 +69,8 @@ class TransformTopics:
         decode: the transforms of a message; raises DecodeError.
         index: of the recording whose messages they are; None for a live robot.
         spaces: name the frames of robots with name spaces.
+        source_of: returns which live source has a topic, None for a recording: a jump
+            in the time of one makes what another says no older.
 
     Attributes:
         history: as given.
@@ -92,6 +95,7 @@ class TransformTopics:
         decode: Decode,
         index: TransformIndex | None = None,
         spaces: NameSpaces | None = None,
+        source_of: Callable[[str], str | None] = lambda topic: None,
     ) -> None:
         self.history = history
         self.renamed = 0
@@ -109,6 +113,7 @@ class TransformTopics:
         self.limit = FrameLimit()
         self._decode = decode
         self._index = index
+        self._source_of = source_of
         self._holding = HoldingMessages()
         # All that has ever moved, and what has a place since the last jump.
         self._moving: dict[str, None] = {}
@@ -162,15 +167,26 @@ class TransformTopics:
         return max((group.newest for group in self._groups.values()), default=0)
 
     def go_back(self, by_ns: int) -> None:
-        """Forget what moves: the time has gone back [ns]."""
+        """Forget what moves by live sources: their time has gone back [ns]."""
         self.turned_back_by = by_ns
-        self.clear()
+        self._forget(lambda source: source is not None)
 
     def clear(self) -> None:
-        """Forget what moves; static transforms stay."""
-        self.history.clear()
-        self._groups.clear()
-        self._placed.clear()
+        """Forget what moves by the recording; static transforms stay."""
+        self._forget(lambda source: source is None)
+
+    def _forget(self, is_outdated: Callable[[str | None], bool]) -> None:
+        groups = self._groups.items()
+        gone = {k: g for k, g in groups if is_outdated(self._source_of(g.topic))}
+        if len(gone) == len(self._groups):
+            self.history.clear()
+            self._groups.clear()
+            self._placed.clear()
+            return
+        for key, group in gone.items():
+            self.history.forget(group.children)
+            self._placed.difference_update(group.children)
+            del self._groups[key]
 
     def expect(self, messages: Iterable[Recorded]) -> None:
         """Learn from messages, without taking them, which frames there will be."""
@@ -231,7 +247,7 @@ class TransformTopics:
         self._named = self._spaces.version
         self.renamed += 1
         self.history.forget_all()
-        self.clear()
+        self._forget(lambda source: True)
         self.limit = FrameLimit()
         self.parents.clear()
         self.first.clear()
@@ -254,6 +270,7 @@ class TransformTopics:
     ) -> None:
         topic, holding = message.topic, self._holding
         is_before = message.log_ns < holding.begin_ns
+        is_before = is_before and self._source_of(topic) is None
         for (parent, child), row in zip(edges, poses.tolist(), strict=True):
             if is_before and plain_name(child) in holding.were_moving:
                 continue
@@ -274,12 +291,15 @@ class TransformTopics:
             # A simulation was reset: the robot would stand still until the old stamps
             # are passed.
             self.turned_back_by = group.newest - stamp
-            self.clear()
+            turned = self._source_of(topic)
+            self._forget(lambda source: source == turned)
             group = None
         is_new = group is None
         if group is None:
             children = tuple(plain_name(child) for _, child in edges)
-            group = self._groups[id(edges)] = _Publication(edges, children, stamp)
+            group = self._groups[id(edges)] = _Publication(
+                edges, children, stamp, topic
+            )
         group.newest = max(group.newest, stamp)
         is_new = is_new or not self._placed.issuperset(group.children)
         faults = self.history.add(stamp, edges, poses)

@@ -108,7 +108,7 @@ class FrameAges:
             stamp = self._context.tree.latest_common_time(self._fixed, frame)
         except FrameError:
             return 0.0
-        if stamp == 0.0:
+        if stamp == 0.0 or self._context.is_paced(frame):
             return 0.0
         seen = self._seen.get(frame)
         if seen is None:

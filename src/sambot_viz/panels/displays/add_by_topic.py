@@ -8,8 +8,7 @@ from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Row
-from sambot_viz.session.data.live_topics import LiveTopics
-from sambot_viz.session.data.recorded_topics import RecordedTopics
+from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.scene.scene import Scene
 
 MOST_SHOWN = 200
@@ -34,7 +33,7 @@ class AddByTopicPanel(Panel):
 
     def __init__(
         self,
-        topics: RecordedTopics | LiveTopics | None,
+        topics: SourceTopics | None,
         scene: Scene,
         remake: Callable[[Panel], None],
     ) -> None:

@@ -10,8 +10,7 @@ from sambot_viz.errors import Severity
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
-from sambot_viz.session.data.live_topics import LiveTopics
-from sambot_viz.session.data.recorded_topics import RecordedTopics
+from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
 from sambot_viz.text import capitalized
@@ -43,7 +42,7 @@ class TopicsPanel(Panel):
 
     def __init__(
         self,
-        topics: RecordedTopics | LiveTopics,
+        topics: SourceTopics,
         scene: Scene,
         remake: Callable[[Panel], None],
     ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from sambot_viz.session.data.player import Player
 from sambot_viz.sources.source import OnMessage, Source
@@ -39,20 +39,26 @@ class Feed:
             subscriber: takes what is recorded, in the session's worker.
             receive: gets what comes by itself, in the thread of its source.
         """
-        if self.player is not None:
+        if self.player is not None and not self._is_live(subscriber.topics):
             self.player.add(subscriber)
         self._receivers[subscriber] = (receive, {})
         self.listen(subscriber, subscriber.topics)
 
+    def _is_live(self, topics: Collection[str]) -> bool:
+        """Return whether no jump in a recording is a matter of some topics."""
+        has_live = self.source.live is not None and bool(topics)
+        return has_live and not any(map(self.is_recorded, topics))
+
     def listen(self, subscriber: Subscriber, topics: Iterable[str]) -> None:
         """Ask for topics that one that was added may have got since."""
-        if "clock" not in self.source.capabilities:
+        live = self.source.live
+        if live is None:
             return
         receive, asked = self._receivers[subscriber]
         for topic in topics:
             if topic not in asked and not self.is_recorded(topic):
                 asked[topic] = None
-                self.source.subscribe(topic, receive)
+                live.subscribe(topic, receive)
 
     def remove(self, subscriber: Subscriber) -> None:
         """Give one that was added no more messages."""
@@ -60,4 +66,5 @@ class Feed:
             self.player.remove(subscriber)
         receive, asked = self._receivers.pop(subscriber)
         for topic in asked:
-            self.source.unsubscribe(topic, receive)
+            if self.source.live is not None:
+                self.source.live.unsubscribe(topic, receive)

@@ -65,8 +65,11 @@ class LiveTopics:
         self._fault_of = fault_of
         self._ticked = Signal(change, None)
         self._live = live
+        self._source = live.source.live or live.source
         self._worker = worker
         self._known: Mapping[str, SourceTopic] = {}
+        self._known_of: object = None
+        self._names: Sequence[str] = ()
         self._viewers: dict[object, tuple[Collection[str], str]] = {}
         self._heard: dict[str, _Heard] = {}
         # The thread of the source adds messages.
@@ -79,8 +82,12 @@ class LiveTopics:
     @property
     def names(self) -> Sequence[str]:
         """The names of the topics that there are now, sorted."""
-        self._known = self._live.source.topics()
-        return sorted(self._known)
+        known, hidden = self._source.topics(), self._live.has_recorded
+        if self._known_of is not known:
+            self._known_of = known
+            self._known = {n: t for n, t in known.items() if not hidden(n)}
+            self._names = sorted(self._known)
+        return self._names
 
     @property
     def remade_by(self) -> Sequence[Signal[Any]]:
@@ -149,12 +156,12 @@ class LiveTopics:
         if heard is None or known is None or known.is_latched:
             return None
         with self._lock:
-            return heard.topic.rate(self._live.source.clock_ns())
+            return heard.topic.rate(self._source.clock_ns())
 
     def age(self, name: str) -> float | None:
         """Return how long ago the last message came [s]; None before the first."""
         heard = self._heard.get(name)
-        return None if heard is None else heard.topic.age(self._live.source.clock_ns())
+        return None if heard is None else heard.topic.age(self._source.clock_ns())
 
     def facts(self, name: str) -> Mapping[str, str]:
         """Return what the robot says of a topic: who publishes it, and how."""
@@ -190,7 +197,7 @@ class LiveTopics:
 
     def _listen(self) -> None:
         """Subscribe to what viewers see, and to nothing else."""
-        source, known = self._live.source, self._known
+        source, known = self._source, self._known
         wanted = {
             name
             for names, chosen in self._viewers.values()
@@ -212,7 +219,7 @@ class LiveTopics:
 
     def _reason(self, topic: SourceTopic, heard: _Heard | None) -> TopicReason | None:
         """Return the first reason that holds for a topic that can be read."""
-        if not self._live.source.status.is_connected:
+        if not self._source.status.is_connected:
             # The line below the view says it, for all of them.
             return None
         if (nobody := no_publisher(topic.name, topic.publishers)) is not None:

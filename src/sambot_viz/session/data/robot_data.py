@@ -7,6 +7,7 @@ from functools import partial
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import Sample
 from sambot_viz.session.data.display_topics import DisplayTopics
@@ -16,6 +17,7 @@ from sambot_viz.session.data.live_clock import LiveClock
 from sambot_viz.session.data.live_topics import FaultOf, LiveTopics
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.recorded_topics import RecordedTopics
+from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
@@ -98,12 +100,13 @@ class RobotData:
         self.messages = DisplayTopics(
             moved_by, self._feed, self.inbox.wake, worker.report
         )
-        self.topics: RecordedTopics | LiveTopics
+        recorded = live = None
         if self.player is not None:
             tree = frames.tree
-            self.topics = RecordedTopics(moved_by, tree, self.player, change, worker)
-        else:
-            self.topics = LiveTopics(moved_by, fault_of, change, worker)
+            recorded = RecordedTopics(moved_by, tree, self.player, change, worker)
+        if source.live is not None:
+            live = LiveTopics(moved_by, fault_of, change, worker)
+        self.topics = SourceTopics(recorded, live)
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
         frames.prefix = lambda robot: moved_by.prefix_of(robot, self.transforms.pairs())
@@ -118,6 +121,7 @@ class RobotData:
         moved_by.on_topics.append(self._look)
         moved_by.on_status.append(self._tell_status)
         if moved_by.can("clock"):
+            self._tell_problems()
             self._tick()
 
     @property
@@ -138,11 +142,11 @@ class RobotData:
 
     def resume(self) -> None:
         """Show what messages say now, after another robot is shown."""
-        if self.player is not None:
-            self.player.resume()
-        else:
+        if self.source.live is not None:
             self._robot.note_followed(self._joint_states.last)
             self._robot.draw_moved()
+        if self.player is not None:
+            self.player.resume()
 
     def follow(self, follow: bool) -> None:
         """Let the messages move the joints, or users; frames such as odom move on."""
@@ -153,6 +157,13 @@ class RobotData:
     def time_s(self) -> float:
         """Return the time of the messages [s since 1970]."""
         return self.source.clock_ns() * 1e-9
+
+    def is_paced(self, frame: str) -> bool:
+        """Return whether a frame has the time of a recording beside a live robot."""
+        if self.player is None or self.source.live is None:
+            return False
+        told_by = self.transforms.parents.get(plain_name(frame), {}).values()
+        return bool(told_by) and all(map(self._feed.is_recorded, told_by))
 
     def close(self) -> None:
         """Take nothing any more."""
@@ -186,6 +197,12 @@ class RobotData:
         if not self._closed:
             for one in (self.transforms, self._joint_states):
                 self._feed.listen(one, one.topics)
+            self._tell_problems()
+
+    def _tell_problems(self) -> None:
+        is_live, name = self.player is None, self.name
+        of_frames = problems_of_transforms(self.transforms, name, is_live=is_live)
+        self.problems.set((*self.moved_by.hidden, *of_frames))
 
     def _take(self, message: Recorded) -> None:
         if message.topic in self.transforms.topics:
@@ -197,10 +214,7 @@ class RobotData:
         said = (self.transforms.turned_back_by, self.transforms.limit.left_out)
         if said != self._said:
             self._said = said
-            is_live = self.player is None
-            self.problems.set(
-                problems_of_transforms(self.transforms, self.name, is_live=is_live)
-            )
+            self._tell_problems()
         if self._renamed != self.transforms.renamed:
             self._renamed, jumped = self.transforms.renamed, True
         self._robot.note_followed(self._joint_states.changed())
@@ -238,6 +252,8 @@ class RobotData:
             self._joint_states.clear()
             self.messages.reset()
             self._draw(True)
+            if self.player is not None:
+                self.player.resume()
 
     def _look_at_clock(self) -> None:
         self.clock.look()

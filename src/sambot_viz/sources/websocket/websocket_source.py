@@ -20,6 +20,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import limits
+from sambot_viz.errors import Problem
 from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
@@ -138,6 +139,16 @@ class WebsocketSource:
     def capabilities(self) -> frozenset[Capability]:
         """What it can do; what the server says of files, of the last connection."""
         return _ALWAYS | _FILES if "assets" in self._capabilities else _ALWAYS
+
+    @property
+    def hidden(self) -> tuple[Problem, ...]:
+        """Nothing: it is one."""
+        return ()
+
+    @property
+    def live(self) -> Source:
+        """Itself."""
+        return self
 
     @property
     def playback(self) -> None:

@@ -1,0 +1,143 @@
+"""Several sources at once: two recordings, and a robot beside a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from live_peers import eventually
+from made_recording import START, described, write_recording
+from robot_peer import RobotPeer, square_peer
+
+from sambot_viz import UsageError, Visualizer
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+
+NS = 10**9
+
+
+def run(folder: Path, name: str, begin: float = 0.0) -> Path:
+    """A recording of a robot at as many metres as its times say, from a time on."""
+    path = folder / f"{name}.mcap"
+    told = [
+        ("/tf", begin + second, {"base_link": "odom"}) for second in (0.0, 1.0, 2.0)
+    ]
+    texts = {} if begin else {"/robot_description": described("base_link")}
+    return write_recording(path, texts, told)
+
+
+@pytest.fixture
+def peer(repository: Path) -> Iterator[RobotPeer]:
+    with square_peer(repository, RobotPeer) as peer:
+        yield peer
+
+
+def x(viz: Visualizer, frame: str) -> float:
+    prefix = frame.rpartition("/")[0]
+    odom = f"{prefix}/odom".strip("/")
+    return round(float(viz.frames.lookup(odom, frame).translation[0]), 2)
+
+
+def is_at(
+    at: float, peer: RobotPeer, seconds: float, viz: Visualizer, name: str
+) -> bool:
+    """Whether a robot that goes on publishing its place of a time is seen there [m]."""
+    peer.play(seconds, from_s=seconds - 0.2)
+    return x(viz, name) == pytest.approx(at, abs=0.03)
+
+
+def test_two_recordings_of_one_time_are_beside_each_other(tmp_path: Path) -> None:
+    one, other = run(tmp_path, "one"), run(tmp_path, "other")
+    source = [f"a={one}", f"b={other}"]
+    with Visualizer(source=source, source_prefix={"b": "robot2"}, port=0) as viz:
+        session = session_of(viz)
+        assert session.data is not None
+        names = set(session.data.topics.names)
+        assert names == {
+            *("/tf", "/robot_description"),
+            *("/robot2/tf", "/robot2/robot_description"),
+        }
+        viz.player.jump(1.0)
+        assert (x(viz, "base_link"), x(viz, "robot2/base_link")) == (1.0, 1.0)
+
+
+def test_runs_of_two_days_begin_together(tmp_path: Path) -> None:
+    one, other = run(tmp_path, "one"), run(tmp_path, "other", begin=86_400.0)
+    source = [f"a={one}", f"b={other}"]
+    with Visualizer(source=source, source_prefix={"b": "robot2"}, port=0) as viz:
+        assert viz.player.duration == pytest.approx(2.0)
+        viz.player.jump(1.0)
+        assert (x(viz, "base_link"), x(viz, "robot2/base_link")) == (1.0, 86_401.0)
+
+
+def test_the_same_topics_without_a_prefix_hide_each_other(tmp_path: Path) -> None:
+    one, other = run(tmp_path, "one"), run(tmp_path, "other")
+    with Inputs(Options(source=[f"a={one}", f"b={other}"])) as inputs:
+        (problem,) = (p for p in inputs.problems() if p.code == "topic-hidden")
+        assert inputs.moved_by is not None
+        assert inputs.moved_by.name == "a and b"
+    assert "/robot_description, /tf of a hides the same of b" in problem.message
+    assert "--source-prefix" in problem.hint
+    with Inputs(Options(source=[f"a={one}", f"a={other}"])) as inputs:
+        assert not [p for p in inputs.problems() if p.code == "topic-hidden"]
+
+
+def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
+    before = run(tmp_path, "before")
+    source = [f"before={before}", f"now={peer.uri}"]
+    prefixes = {"before": "old"}
+    with Visualizer(source=source, source_prefix=prefixes, port=0) as viz:
+        session = session_of(viz)
+        eventually(lambda: {"/tf", "/tf_static"} <= set(peer.subscribed()))
+        eventually(lambda: is_at(1.0, peer, 9.0, viz, "base_link"))
+        viz.player.jump(2.0)
+        assert x(viz, "old/base_link") == 2.0
+        # A jump of the recording is none of the robot, which has said nothing since.
+        assert x(viz, "base_link") == pytest.approx(1.0, abs=0.03)
+        # The robot goes on by itself.
+        eventually(lambda: is_at(0.0, peer, 14.0, viz, "base_link"))
+        assert x(viz, "old/base_link") == 2.0
+        assert session.data is not None
+        topics = session.data.topics
+        assert {"/tf", "/old/tf"} <= set(topics.names)
+        # The recording stands still while the robot's clock goes on.
+        assert [session.data.is_paced(n) for n in ("old/base_link", "base_link")] == [
+            True,
+            False,
+        ]
+        messages = session.data.messages
+        assert messages.now_ns("/old/tf") == (START + 2) * NS
+        assert messages.now_ns("/tf") > messages.now_ns("/old/tf")
+
+
+def test_two_robots_are_told_apart_by_a_prefix(
+    peer: RobotPeer, repository: Path
+) -> None:
+    with square_peer(repository, RobotPeer) as other:
+        source = [f"a={peer.uri}", f"b={other.uri}"]
+        with Visualizer(source=source, source_prefix={"b": "b"}, port=0) as viz:
+            for one in (peer, other):
+                eventually(lambda one=one: "/tf" in one.subscribed())
+            eventually(lambda: is_at(0.5, peer, 2.0, viz, "base_link"))
+            eventually(lambda: is_at(1.0, other, 4.0, viz, "b/base_link"))
+            other.stop()
+            sentence = session_of(viz).data.moved_by.source.status.sentence
+            assert sentence.count(";") >= 1
+
+
+@pytest.mark.parametrize(
+    ("source", "prefixes", "words"),
+    [
+        (["one.mcap"], {"a": "b"}, "no such source; none has a name"),
+        (["a=one.mcap"], {"b": "x"}, "--source-prefix b: no such source; a"),
+        (["a=one.mcap"], {"a": "x y"}, "a prefix has letters"),
+        (["a=foxglove://h", "a=foxglove://i"], {}, "two sources are called a"),
+    ],
+)
+def test_names_and_prefixes_that_cannot_be_are_refused(
+    source: list[str], prefixes: dict[str, str], words: str
+) -> None:
+    with pytest.raises(UsageError, match=words):
+        Options(source=source, source_prefix=prefixes)
