@@ -13,7 +13,7 @@ from made_recording import described, write_recording
 from user import User
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, bundled
 
 MAIN, OTHER = "/robot_description", "/other/robot_description"
 FRAMES = {"a_base": "odom", "a_arm": "a_base", "b_base": "odom", "b_arm": "b_base"}
@@ -25,7 +25,9 @@ pytestmark = pytest.mark.browser
 def viz(tmp_path: Path) -> Iterator[Visualizer]:
     texts = {MAIN: described("a_base", "a_arm"), OTHER: described("b_base", "b_arm")}
     path = write_recording(tmp_path / "two.mcap", texts, [("/tf", 0.0, FRAMES)])
-    with Visualizer(path, look="rviz", port=0) as viz:
+    # Without a config both robots would be shown.
+    config = bundled.config_path()
+    with Visualizer(path, config=config, look="rviz", port=0) as viz:
         yield viz
 
 
