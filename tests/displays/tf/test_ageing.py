@@ -55,6 +55,10 @@ class Context:
     fixed_frame: str = "odom"
     time: float = 1e6
 
+    def is_paced(self, frame: str) -> bool:
+        del frame
+        return False
+
     def now(self) -> float:
         return self.time
 
