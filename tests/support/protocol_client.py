@@ -60,7 +60,7 @@ import viser
 import zstandard
 from hand_clock import HandClock
 from page_rows import PageRows, Row, decode, named
-from patience import patience
+from patience import patience, until
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -488,11 +488,14 @@ def wait_for_workers(timeout: float = 10.0, put_off: float = 0.0) -> None:
                 if isinstance(thread.clock, HandClock):
                     thread.clock.advance(delay)
                 waited.append((thread, done))
-        end = time.monotonic() + patience(timeout)
-        for thread, done in waited:
-            # A worker that is closed meanwhile drops what was posted to it.
-            while not done.wait(0.02) and thread.is_alive():
-                assert time.monotonic() < end, "a session hangs"
+        # A worker that is closed meanwhile drops what was posted to it.
+        until(
+            lambda waited=waited: all(
+                done.is_set() or not thread.is_alive() for thread, done in waited
+            ),
+            timeout,
+            "a session hangs",
+        )
 
 
 def _behind_all(worker: Worker, action: Callable[[], None]) -> None:

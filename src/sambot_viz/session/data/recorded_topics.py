@@ -66,6 +66,10 @@ class RecordedTopics:
             self._names = sorted(topics)
         return self._names
 
+    def has(self, name: str) -> bool:
+        """Return whether a topic is one of the recording."""
+        return name in self.recording.topics
+
     @property
     def is_complete(self) -> bool:
         """Whether all messages that are looked at at all were."""

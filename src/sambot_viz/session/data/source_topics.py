@@ -33,6 +33,8 @@ class SourceTopics:
     @property
     def names(self) -> Sequence[str]:
         """The names of the topics that there are now, sorted."""
+        if len(self._all) == 1:
+            return self._all[0].names
         return sorted({name for one in self._all for name in one.names})
 
     @property
@@ -89,4 +91,7 @@ class SourceTopics:
         return self._of(name).facts(name)
 
     def _of(self, name: str) -> RecordedTopics | LiveTopics:
-        return next((one for one in self._all if name in one.names), self._all[0])
+        recorded, live = self.recorded, self.live
+        if recorded is not None and (live is None or recorded.has(name)):
+            return recorded
+        return self._all[-1] if live is None else live
