@@ -24,6 +24,7 @@ from sambot_viz.session.data.descriptions import descriptions_of
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.first_sight import is_map, show_topics
 from sambot_viz.session.own_config import fit_own_config, fit_robot
+from sambot_viz.session.undo import History
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
 from sambot_viz.topics.source_robot import SourceRobot
 
@@ -145,12 +146,16 @@ class ShownInputs:
         if document.unasked and missing and moved_by.can("seek"):
             _without_robot(document)
 
-    def _take_frame(self, shown: ShownDocument, live: SourceRobot) -> None:
+    def _take_frame(
+        self, shown: ShownDocument, history: History, live: SourceRobot
+    ) -> None:
         """Show the frames of a live robot that does not say what it looks like."""
         top, document = live.top_of_frames(), shown.config
         fixed = document.global_options.get("Fixed Frame")
         if live.topics.description is None and top and fixed == STAND_IN_LINK:
-            shown.set_option("Fixed Frame", top)
+            # No user has done that, and none is to undo it.
+            with history.unrecorded():
+                shown.set_option("Fixed Frame", top)
             if self._inputs.options.model is None:
                 self._switched_off += _without_robot(document)
                 shown.show()
@@ -163,7 +168,9 @@ class ShownInputs:
             show = partial(self._show_live_data, session.document, live)
             session.worker.post(show)
             # Its transforms say which frame is at the top, and come a little later.
-            take_frame = partial(self._take_frame, session.document, live)
+            take_frame = partial(
+                self._take_frame, session.document, session.history, live
+            )
             session.worker.post_later(FRAMES_WITHIN, take_frame)
 
     def _show_live_data(self, shown: ShownDocument, live: SourceRobot) -> None:
