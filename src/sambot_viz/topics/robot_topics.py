@@ -30,7 +30,6 @@ class RobotTopics:
         others: descriptions of further robots, for displays that ask for them.
         spaces: name spaces whose frames are kept apart; none where there is one.
         joints_of: further description → the topics of the positions of its joints.
-        hidden: topics of transforms that are not taken.
         all: every topic of which messages are taken.
     """
 
@@ -43,7 +42,6 @@ class RobotTopics:
     joints_of: Mapping[str, tuple[str, ...]] = field(
         default_factory=dict[str, tuple[str, ...]]
     )
-    hidden: tuple[str, ...] = ()
     all: frozenset[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -90,7 +88,6 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
             name: tuple(n for n in joints if space_of(n) == its)
             for name, its in others.items()
         },
-        tuple(name for name in every if name not in transforms),
     )
 
 
