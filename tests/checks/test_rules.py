@@ -179,6 +179,44 @@ def test_a_wheel_across_its_axle_turns_end_over_end(
     assert advice in problem.hint
 
 
+WHEEL_OF_SEVERAL = (
+    '<link name="w{n}"><visual><origin rpy="{rpy}"/>'
+    '<geometry><cylinder radius="0.1" length="0.04"/></geometry></visual></link>'
+    '<joint name="j{n}" type="continuous"><parent link="a"/><child link="w{n}"/>'
+    '<origin xyz="{xyz}"/><axis xyz="{axis}"/></joint>'
+)
+BESIDE = ["0 0.2 0", "0 -0.2 0"]
+IN_FRONT = [f"0.3 {xyz[2:]}" for xyz in BESIDE]
+LAID, TURNED = 'rpy="1.5708 0 0"', '<axis xyz="0 1 0"/>'
+
+
+@pytest.mark.parametrize("places", [BESIDE, BESIDE + IN_FRONT])
+@pytest.mark.parametrize(
+    ("rpy", "axis", "advice"),
+    [
+        # The places of the wheels say what is wrong: the shapes, the axes, or both.
+        ("0 1.5708 0", "0 1 0", [LAID]),
+        ("0 0 0", "0 1 0", [LAID]),
+        ("1.5708 0 0", "1 0 0", [TURNED]),
+        ("0 0 0", "1 0 0", [LAID, TURNED]),
+    ],
+)
+def test_an_axle_goes_through_two_wheels(
+    checked: Checked, places: list[str], rpy: str, axis: str, advice: list[str]
+) -> None:
+    body = '<link name="a"/>' + "".join(
+        WHEEL_OF_SEVERAL.format(n=n, rpy=rpy, axis=axis, xyz=xyz)
+        for n, xyz in enumerate(places)
+    )
+
+    (problem,) = checked(body, "wheel-across-axle")
+
+    assert [text for text in (LAID, TURNED) if text in problem.hint] == advice
+    body = body.replace(f'rpy="{rpy}"', LAID if LAID in advice else f'rpy="{rpy}"')
+    right = body.replace(f'<axis xyz="{axis}"/>', TURNED)
+    assert checked(right, "wheel-across-axle") == []
+
+
 @pytest.mark.parametrize(
     ("rpy", "axis", "length"),
     [

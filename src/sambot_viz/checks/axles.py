@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.checks.rule import Subject, axis_text, listed
 from sambot_viz.errors import Problem
+from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
 
@@ -19,6 +20,8 @@ _WHEEL = re.compile("wheel|whl|t[iy]re")
 _SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 _ACROSS = 0.1
 """Largest cosine between two directions that are across each other (84°)."""
+_ALONG = 0.99
+"""Smallest cosine between two directions that are one (8°)."""
 
 
 def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
@@ -36,7 +39,7 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
         if axle is None:
             continue
         upright = abs((poses[joint.child][:3, :3] @ axle)[2])
-        if upright > _ACROSS and (upright < 0.99 or not _only_rolls(joint, robot)):
+        if upright > _ACROSS and (upright < _ALONG or not _only_rolls(joint, robot)):
             continue
         link = robot.links[joint.child]
         for shapes in (link.visuals, link.collisions):
@@ -46,18 +49,81 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
         return
     joint, shape, axle = next(iter(across.values()))
     middle = shape.origin.matrix[:3, 2]
-    lies_flat = abs((poses[joint.child][:3, :3] @ middle)[2]) > _ACROSS
+    along = _through_both_wheels(joint, shape, axle, robot, poses)
+    if along is None:
+        lies_flat = abs((poses[joint.child][:3, :3] @ middle)[2]) > _ACROSS
+        along = axle if lies_flat else middle
+    advice: list[str] = []
+    place = joint.place
+    if abs(float(middle @ along)) < _ALONG:
+        advice.append(_laid_down(shape, along, robot.language))
+        place = shape.place
+    if abs(float(axle @ along)) < _ALONG:
+        advice.append(_turned_axis(joint, along, robot.language))
     turns = "the wheel {} turns" if len(across) == 1 else "the wheels {} turn"
     yield Problem.at(
-        shape.place if lies_flat else joint.place,
+        place,
         "warning",
         "wheel-across-axle",
         f"{turns.format(listed(across))} end over end: joint {joint.name} turns "
         f"about {_named(axle)}, but the middle line of the cylinder is along "
         f"{_named(middle)}",
-        _laid_down(shape, axle, robot.language)
-        if lies_flat
-        else _turned_axis(joint, middle, robot.language),
+        ", and ".join(advice),
+    )
+
+
+def _through_both_wheels(
+    joint: Joint,
+    shape: Shape,
+    axle: _Vector,
+    robot: Robot,
+    poses: Mapping[str, Matrix],
+) -> _Vector | None:
+    """Return the direction in which another wheel lies, in this wheel's link, or None.
+
+    An axle goes through two wheels. Where one lies in front as well, as with four
+    wheels, the axle is the one across x, which is the robot's way forward. The axis,
+    the middle line, and what is level and across the axis are asked.
+    """
+    turned: _Vector = poses[joint.child][:3, :3]
+    asked: list[_Vector] = [turned @ axle, turned @ shape.origin.matrix[:3, 2]]
+    level: _Vector = np.cross(asked[0], (0.0, 0.0, 1.0))
+    if np.linalg.norm(level) > _ACROSS:
+        asked.append(level / np.linalg.norm(level))
+    ways = list(_ways_to_others(joint, shape, robot, poses))
+    found = [
+        direction
+        for direction in asked
+        if any(abs(float(way @ direction)) > _ALONG for way in ways)
+    ]
+    if not found:
+        return None
+    return max(found, key=lambda direction: abs(direction[1])) @ turned
+
+
+def _ways_to_others(
+    joint: Joint, shape: Shape, robot: Robot, poses: Mapping[str, Matrix]
+) -> Iterator[_Vector]:
+    """Yield the directions in which wheels of the same size lie, in the root."""
+    here = (poses[joint.child] @ shape.origin.matrix)[:3, 3]
+    for other in robot.joints.values():
+        link = robot.links[other.child]
+        for found in (link.visuals or link.collisions)[:1]:
+            if _axle(other) is None or not _is_like(found, shape):
+                continue
+            way = (poses[other.child] @ found.origin.matrix)[:3, 3] - here
+            length = float(np.linalg.norm(way))
+            if length > 0:
+                yield way / length
+
+
+def _is_like(one: Shape, other: Shape) -> bool:
+    """Tell whether two shapes are discs of the same radius."""
+    discs = one.geometry, other.geometry
+    return (
+        isinstance(discs[0], Cylinder)
+        and isinstance(discs[1], Cylinder)
+        and abs(discs[0].radius - discs[1].radius) < 0.01 * discs[1].radius
     )
 
 
@@ -124,7 +190,7 @@ _UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 def _named(direction: _Vector) -> str:
     """Name a direction: "y", or its numbers where it is between x, y and z."""
     for name, part in zip("xyz", direction, strict=True):
-        if abs(part) > 0.99:
+        if abs(part) > _ALONG:
             return name
     return _numbers(direction)
 
@@ -135,7 +201,7 @@ def _numbers(values: _Vector) -> str:
 
 def _laid_down(shape: Shape, axle: _Vector, language: Language) -> str:
     """Say how a cylinder is laid along its axle."""
-    rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0"}.get(_named(axle))
+    rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0", "z": "0 0 0"}.get(_named(axle))
     if rpy is None:
         return "turn the shape so that its z axis is along the axle"
     xyz = _numbers(shape.origin.matrix[:3, 3])
