@@ -62,7 +62,13 @@ def sentences(path: Path, roots: tuple[Path, ...] | None) -> str:
     return "\n".join(str(problem) for problem in mesh.problems)
 
 
-NAMES = ["../secret.bin", "{}/secret.bin", "file://{}/secret.bin", "link.bin"]
+NAMES = [
+    "model://secret.bin",
+    "../secret.bin",
+    "{}/secret.bin",
+    "file://{}/secret.bin",
+    "link.bin",
+]
 
 
 @pytest.mark.parametrize("name", [*NAMES, "../gone.bin", "/etc/gone.bin"])
@@ -157,13 +163,17 @@ def test_files_that_meshes_name_are_not_read_when_they_are_too_large(
         ("my%20skin.png", "meshes/my skin.png"),
         ("100%.png", "meshes/100%.png"),
         ("skin.png", "materials/textures/skin.png"),
+        ("model://suv/materials/textures/skin.png", "suv/materials/textures/skin.png"),
+        ("package://suv/a/my%20skin.png", "suv/a/my skin.png"),
+        # Gazebo's models lie beside each other, and a mesh may name its own.
+        ("model://car/meshes/skin.png", "meshes/skin.png"),
     ],
 )
 def test_textures_are_found_where_exporters_leave_them(
     write: Write, tmp_path: Path, name: str, there: str
 ) -> None:
-    mesh = write("meshes/a.dae", "")
-    image = write(there, b"x")
+    mesh = write("car/meshes/a.dae", "")
+    image = write(there if there.startswith("suv") else f"car/{there}", b"x")
     assert NamedFiles(mesh).find(name).samefile(image)
 
 

@@ -7,6 +7,7 @@ largest size.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path, PureWindowsPath
 from urllib.parse import unquote
@@ -15,6 +16,9 @@ from sambot_viz.errors import SambotVizError
 from sambot_viz.files import is_below, is_lfs_pointer, read_limited, reason_of
 
 _FOLDERS = ("", "textures", "../materials/textures", "../textures")
+_OF_PACKAGES = re.compile("(?:model|package)://([^/].*)")
+_MAX_UP = 6
+"""Packages are looked for in so many folders above the mesh."""
 
 
 class NamedFileError(SambotVizError):
@@ -47,7 +51,8 @@ class NamedFiles:
 
         Looked for relative to the mesh, with the letter case as it comes, and by its
         last part beside the mesh, in `textures` and in `../materials/textures`:
-        exporters write paths of the machine they ran on.
+        exporters write paths of the machine they ran on. `model://` and `package://`
+        name a folder that is above the mesh, or beside one that is.
 
         Args:
             name: as written in the mesh; may be a URI, percent-encoded, or a Windows
@@ -102,6 +107,9 @@ class NamedFiles:
         for text in dict.fromkeys((plain, unquote(plain))):
             if not text or "\0" in text:
                 continue
+            if package := _OF_PACKAGES.fullmatch(text):
+                for above in list(self._mesh.absolute().parents)[:_MAX_UP]:
+                    yield above / package[1], True
             yield folder / text.replace("\\", "/"), True
             base = PureWindowsPath(text).name
             if base:
