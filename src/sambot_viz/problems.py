@@ -40,6 +40,7 @@ _SENTENCES = {
     "package; what was found elsewhere in it was used",
     "file-by-path-only": "{count} files of {cause}: not found by package or folder; "
     "files whose paths end in the same way were used",
+    "file-name-form": "{count} files: {cause}; what was found here was used",
     "package-three-slashes": "{count} files: package:/// has three slashes, so the "
     "name of the package is empty and ROS finds nothing",
     "joint-parent-unknown": "{count} joints have the parent {cause}, which does not "

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from pathlib import Path
 
+import pytest
+
 from sambot_viz import check
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import load_robot
@@ -93,14 +95,107 @@ def test_three_slashes_without_a_file_are_explained_too(tmp_path: Path) -> None:
     assert "no file was used" in problem.message
 
 
-def test_backslashes_after_a_package_are_the_cause_that_is_named(
+FORMS = [
+    (r"package:\\arm\m\a.obj", r"it has \ in place of /"),
+    (r"package://arm\m\a.obj", r"it has \ in place of /"),
+    (r"package://arm/m\a.obj", r"it has \ in place of /"),
+    (r"..\m\a.obj", r"it has \ in place of /"),
+    (r"file:///C:\ws\arm\m\a.obj", r"it has \ in place of /"),
+    (r"%USERPROFILE%\arm\m\a.obj", "only a shell"),
+    ("~/ws/arm/m/a.obj", "only a shell"),
+    ("file://~/ws/arm/m/a.obj", "only a shell"),
+    ("$HOME/ws/arm/m/a.obj", "only a shell"),
+    ("package:/arm/m/a.obj", "a colon and two slashes"),
+    ("package:arm/m/a.obj", "a colon and two slashes"),
+    ("package//arm/m/a.obj", "a colon and two slashes"),
+    ("Package://arm/m/a.obj", "in small letters"),
+    ("pkg://arm/m/a.obj", "ROS knows package://"),
+    ("package://arm/m/a.obj ", "a blank"),
+    ("&#10; package://arm/m/a.obj", "a blank"),
+    ("'package://arm/m/a.obj'", "quotation marks"),
+    ("file://../m/a.obj", "a relative path"),
+    ("file:../m/a.obj", "a relative path"),
+]
+
+
+def arm(tmp_path: Path) -> Path:
+    """Write a package with one mesh, whose model is not the file of a user's home."""
+    folder = tmp_path / "elsewhere"
+    (folder / "m").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>arm</name></package>")
+    (folder / "m" / "a.obj").write_text(CUBE)
+    return folder
+
+
+@pytest.mark.parametrize(("name", "cause"), FORMS, ids=[name for name, _ in FORMS])
+def test_a_form_of_names_that_ros_does_not_read_is_explained_and_the_file_is_drawn(
+    tmp_path: Path, name: str, cause: str
+) -> None:
+    folder = arm(tmp_path)
+
+    (found,) = problems_with(folder, name)
+    (shape,) = load_robot(folder / "urdf" / "r.urdf").links["a"].visuals
+
+    assert found.code == "file-name-form"
+    assert cause in found.message
+    assert getattr(shape.geometry, "path", Path()).samefile(folder / "m" / "a.obj")
+
+
+@pytest.mark.parametrize("name", [name for name, _ in FORMS])
+def test_the_form_is_named_also_where_there_is_no_file(
+    tmp_path: Path, name: str
+) -> None:
+    (found,) = problems_with(tmp_path, name)
+
+    assert found.code == "mesh-not-found"
+    assert dict(FORMS)[name] in found.message
+    assert found.hint.startswith(("write ", "delete "))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "package://arm/m/a.obj",
+        "package://arm//m/a.obj",
+        "../m/a.obj",
+        "{folder}/m/a.obj",
+        "file://{folder}/m/a.obj",
+        "file:{folder}/m/a.obj",
+        "file://localhost{folder}/m/a.obj",
+    ],
+)
+def test_forms_that_are_right_are_read_and_nothing_is_said(
+    tmp_path: Path, name: str
+) -> None:
+    folder = arm(tmp_path)
+
+    assert problems_with(folder, name.format(folder=folder)) == ()
+    (shape,) = load_robot(folder / "urdf" / "r.urdf").links["a"].visuals
+    assert getattr(shape.geometry, "path", None) is not None
+
+
+@pytest.mark.parametrize("path", [r"C:\my ws", "C:/my ws", r"\\server\ws", "/home/kim"])
+def test_a_path_of_another_machine_is_no_form_that_is_wrong(
+    tmp_path: Path, path: str
+) -> None:
+    (found,) = problems_with(arm(tmp_path), f"{path}/arm/m/a.obj")
+
+    assert found.code == "file-other-machine"
+
+
+def test_what_follows_a_form_that_is_wrong_is_written_out_where_it_is_known(
     tmp_path: Path,
 ) -> None:
     (problem,) = problems_with(tmp_path, r"package://arm\meshes\a.stl")
 
-    assert problem.code == "mesh-not-found"
-    assert r"it has \ in place of /" in problem.message
     assert problem.hint == "write package://arm/meshes/a.stl"
+
+
+def test_a_package_without_a_name_is_said_to_be_none(tmp_path: Path) -> None:
+    (problem,) = problems_with(tmp_path, "package://")
+
+    assert "it names no package" in problem.message
+    assert problem.hint == "write package://PACKAGE/…"
 
 
 def test_the_package_that_was_meant_is_named(tmp_path: Path) -> None:

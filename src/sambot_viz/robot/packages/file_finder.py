@@ -50,6 +50,7 @@ _DOUBTS = {
         "write package://PACKAGE/…, which RViz finds, and Gazebo too when the share "
         "folder of the workspace is in GZ_SIM_RESOURCE_PATH",
     ),
+    "name-form": ("file-name-form", "{cause}; {path} was used", ""),
 }
 _MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
 """Endings of the mesh files that are read."""
@@ -136,23 +137,24 @@ class FileFinder:
     ) -> None:
         code, message, hint = _DOUBTS[found.doubt or "path-only"]
         path = found.path or "no file"
-        text = message.format(path=path, name=found.path.name if found.path else "")
+        name, cause = found.path.name if found.path else "", _home_of(filename)
+        if found.form is not None:
+            cause, hint = found.form.cause, found.form.hint
+        text = message.format(path=path, name=name, cause=cause)
         hint = self._with_near_package(filename, found) or hint
-        self._warn(code, f"the {kind} {filename}: {text}", hint, filename, element)
+        self._warn(code, f"the {kind} {filename}: {text}", hint, cause, element)
 
     def _report_missing(
         self, kind: str, filename: str, found: Resolution, element: Element
     ) -> None:
         package = found.missing_package
-        if package is not None:
+        if package == "":
+            reason, hint = "it names no package", "write package://PACKAGE/…"
+        elif package is not None:
             searched = ", ".join(found.searched[:4]) or "nowhere"
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
             hint = self._with_near_package(filename, found) or hint
-            if "\\" in package:
-                reason = "it has \\ in place of /"
-                right = filename.replace("\\", "/")
-                hint = f"write {right}"
         elif found.searched == (_OUTSIDE,):
             reason = _OUTSIDE
             hint = "put the file below the model's folder, or open a model you trust"
@@ -165,9 +167,13 @@ class FileFinder:
             folder = Path(found.searched[0]) if found.searched else None
             if folder is not None and folder.is_absolute() and folder.is_dir():
                 reason, hint = "it is a folder", _file_in(folder, filename)
+        if found.form is not None:
+            right = found.form.right
+            reason = f"{found.form.cause} (tried: {', '.join(found.searched[:4])})"
+            hint = f"write {right}" if right.startswith("pack") else found.form.hint
         stand_in = _STAND_IN if kind == "mesh" else ""
         text = f"the {kind} {filename}{_NOT_FOUND}{reason}{stand_in}"
-        self._warn(f"{kind}-not-found", text, hint, filename, element)
+        self._warn(f"{kind}-not-found", text, hint, _home_of(filename), element)
 
     def _with_near_package(self, filename: str, found: Resolution) -> str:
         """Advise to name a package with a name like it, or with words behind it."""
@@ -189,9 +195,8 @@ class FileFinder:
         )
 
     def _warn(
-        self, code: str, text: str, hint: str, filename: str, element: Element
+        self, code: str, text: str, hint: str, cause: str, element: Element
     ) -> None:
-        cause = _home_of(filename)
         self._findings.warn(code, text, hint, element, "filename", cause=cause)
 
 

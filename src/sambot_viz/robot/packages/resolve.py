@@ -8,12 +8,14 @@ the xacro child reads this module too.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Literal
 from urllib.parse import unquote
 
+from sambot_viz.robot.packages.name_form import NameForm, name_form
 from sambot_viz.robot.packages.package_index import PackageIndex
 
 Doubt = Literal[
@@ -23,10 +25,14 @@ Doubt = Literal[
     "path-only",
     "three-slashes",
     "model-scheme",
+    "name-form",
 ]
 """The reason why ROS would not find a file that was found here by this name."""
 
 _MAX_FOLDERS = 2000
+_HERE = ("localhost/", "127.0.0.1/")
+"""Computers that file:// may name before a path, as RViz reads it."""
+_OF_WINDOWS = re.compile(r"[A-Za-z]:[\\/]|\\\\")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +45,7 @@ class Resolution:
         doubt: set when ROS would not find a file by this name.
         missing_package: the package that was not found, when that is the reason.
         known_packages: those that were found while it was looked for.
+        form: set when ROS does not read names of this form.
     """
 
     path: Path | None
@@ -46,6 +53,7 @@ class Resolution:
     doubt: Doubt | None = None
     missing_package: str | None = None
     known_packages: tuple[str, ...] = ()
+    form: NameForm | None = None
 
 
 class FileResolver:
@@ -71,27 +79,50 @@ class FileResolver:
         """
         if name not in self._answers:
             try:
-                self._answers[name] = self._resolve(name)
+                self._answers[name] = self._resolve_form(name)
             except (OSError, ValueError) as error:
                 # A name that is too long, or one that no file system can hold.
                 reason = getattr(error, "strerror", None) or str(error)
                 self._answers[name] = Resolution(None, (reason,))
         return self._answers[name]
 
+    def _resolve_form(self, name: str) -> Resolution:
+        """Find a file by its name, else by what was meant by the form of the name."""
+        found = self._resolve(name)
+        form = name_form(name) if found.path is None else None
+        if form is None:
+            return found
+        again = self._resolve(form.right)
+        doubt: Doubt | None = "name-form" if again.path else None
+        return replace(again, doubt=doubt, form=form)
+
     def _resolve(self, name: str) -> Resolution:
         scheme, separator, rest = name.partition("://")
+        if not separator and name.startswith("file:"):
+            return self._file(name.removeprefix("file:"))
         if not separator:
-            return self._plain(name.replace("\\", "/") if "\\" in name else name)
+            windows = _OF_WINDOWS.match(name) is not None
+            return self._plain(name.replace("\\", "/") if windows else name)
         if scheme in ("package", "model"):
             return self._in_package(rest, scheme)
         if scheme == "file":
-            return self._plain(rest)
+            return self._file(rest)
         return Resolution(None, (f"{scheme} addresses are not fetched",))
+
+    def _file(self, rest: str) -> Resolution:
+        """A file of "file://rest": a path, after the name of this computer or none."""
+        for computer in _HERE:
+            if rest.startswith(computer):
+                return self._plain(rest[len(computer) - 1 :])
+        if rest.startswith("/") or _OF_WINDOWS.match(rest):
+            return self._plain(rest)
+        return Resolution(None)
 
     def _in_package(self, rest: str, scheme: str) -> Resolution:
         if rest.startswith("/"):
             return self._without_package(rest.lstrip("/"))
         package, _, tail = rest.partition("/")
+        tail = tail.lstrip("/")
         lookup = self._index.find(package)
         if lookup.path is None:
             found = self._by_tail(tail) if scheme == "package" else None
