@@ -36,9 +36,11 @@ from sambot_viz.displays.data.poses.particle_cloud import ParticleCloudDisplay
 from sambot_viz.displays.data.poses.pose import PoseDisplay, PoseWithCovarianceDisplay
 from sambot_viz.displays.data.poses.pose_array import PoseArrayDisplay
 from sambot_viz.displays.data.range import RangeDisplay
-from sambot_viz.displays.data.vectors.accel import AccelStampedDisplay
-from sambot_viz.displays.data.vectors.twist import TwistStampedDisplay
-from sambot_viz.displays.data.vectors.wrench import WrenchDisplay
+from sambot_viz.displays.data.vectors import (
+    AccelStampedDisplay,
+    TwistStampedDisplay,
+    WrenchDisplay,
+)
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.grid import GridDisplay
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay

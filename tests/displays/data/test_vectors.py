@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.displays.data.vectors.vectors import VectorLook, arrow_of, ring_of
+from sambot_viz.displays.data.vectors import VectorLook, arrow_of, ring_of
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]

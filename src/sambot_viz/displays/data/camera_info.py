@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.image.camera_info import projection_of
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import Floats, require_finite
-from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.meshes import TriangleMesh
-from sambot_viz.displays.picking.placed import HERE, Placed, PlacedMesh
+from sambot_viz.displays.picking.placed import PlacedMesh
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
 from sambot_viz.displays.scene.ribbons import RibbonNode
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.geometry import Matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.meshes.glb import OPAQUE_FROM
-from sambot_viz.rviz import BoolProperty, ColorProperty, DisplayConfig, FloatProperty
+from sambot_viz.rviz import BoolProperty, ColorProperty, FloatProperty
 
 STATUS = "Camera Info"
 _EDGE_WIDTH = 0.01
@@ -29,7 +32,23 @@ _SIDES = np.array([(0, 2, 1), (0, 3, 2), (0, 4, 3), (0, 1, 4)])
 """Of the eye, 0, and the four corners."""
 
 
-class CameraInfoDisplay(NewestMessageDisplay[Floats]):
+class _SidesNode(GlbNode):
+    """The sides of a pyramid, seen through from both sides."""
+
+    corners: npt.NDArray[np.float32]
+    """Those that were drawn last, three of each side, (N, 3) [m]."""
+
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[PlacedMesh]:
+        """Yield the sides for rays (see `scene.points.PointNode.placed`)."""
+        if self.is_drawn:
+            faces = np.reshape(np.arange(len(self.corners)), (-1, 3))
+            sides = TriangleMesh.of(self.corners, faces).both_sides()
+            yield PlacedMesh(item, sides, self.place(T_fixed_above), is_clear=True)
+
+
+class CameraInfoDisplay(MessageFilterDisplay[Floats]):
     """The corners of the image of sensor_msgs/CameraInfo, seen from the camera."""
 
     kind = "rviz_default_plugins/CameraInfo"
@@ -58,12 +77,8 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
         ),
         FloatProperty("Alpha", default=0.5, help="How opaque edges and sides are."),
     )
-
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._edges = RibbonNode(context.scene, f"/{key}e")
-        self._sides = GlbNode(context.scene, f"/{key}s")
+    _edges = DisplayNode(RibbonNode, "e")
+    _sides = DisplayNode(_SidesNode, "s")
 
     def read(self, message: Any) -> Floats:
         """Return the corners of the image at a depth of 1 m, (4, 3) [m].
@@ -79,8 +94,9 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
         self.status.set(STATUS, "Ok", "OK")
         return found
 
-    def draw_read(self, read: Floats, wxyz: Wxyz, position: Vector3) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Floats]]) -> None:
         """Draw the pyramid as it looks now."""
+        read, (wxyz, position) = kept[-1].read, kept[-1].pose
         if not len(read):
             self.remove()
             return
@@ -104,6 +120,7 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
             rgba = rgba_rows(get("Color"), alpha, len(corners))
             drawn = {"POSITION": corners, "COLOR_0": rgba}
             blended = alpha < OPAQUE_FROM
+            self._sides.corners = corners
             self._sides.show(
                 (corners, rgba),
                 lambda: drawn_glb("triangles", drawn, blended=blended),
@@ -113,25 +130,10 @@ class CameraInfoDisplay(NewestMessageDisplay[Floats]):
         else:
             self._sides.remove()
 
-    def placed(self) -> Iterator[Placed]:
-        """Yield the edges and the sides, which cannot be selected, as in RViz."""
-        yield from self._edges.placed(HERE, None)
-        taken = self.taken
-        if taken is not None and self._sides.is_drawn:
-            corners, T_fixed_frame = taken
-            at = single(np.vstack([np.zeros(3), corners * self.config.get("Far clip")]))
-            sides = TriangleMesh.of(at, _SIDES).both_sides()
-            yield PlacedMesh(None, sides, T_fixed_frame, is_clear=True)
-
     def drop(self) -> None:
         """Take the pyramid out of the scene, and forget the message."""
         super().drop()
         self.status.remove(STATUS)
-
-    def remove(self) -> None:
-        """Take the pyramid out of the scene."""
-        self._edges.remove()
-        self._sides.remove()
 
 
 def corners_of(message: Any) -> Floats:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, ClassVar, Generic
 
+from sambot_viz.displays.data.kept import Held, HeldMessages, T, Taken
 from sambot_viz.displays.data.message_numbers import at_sensor
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
@@ -33,53 +33,59 @@ def is_final(refused: LookupRefused) -> bool:
     return refused.reason == "extrapolation-past" or not refused.source
 
 
-class _Held:
-    """A message that waits for its transform; it is decoded when it is its turn.
-
-    Attributes:
-        recorded: as it came.
-        refused: why it had no place when that was looked for last.
-    """
-
-    def __init__(self, recorded: Recorded, decode: Callable[[Recorded], Any]) -> None:
-        self.recorded = recorded
-        self.refused: LookupRefused | None = None
-        self._decode = decode
-        self._message: Any = None
-
-    @property
-    def message(self) -> Any:
-        """The message with its fields; raises DecodeError."""
-        if self._message is None:
-            self._message = self._decode(self.recorded)
-        return self._message
-
-    def forget(self) -> None:
-        """Keep the bytes alone."""
-        self._message = None
-
-
-class MessageFilterDisplay(TopicDisplay):
+class MessageFilterDisplay(TopicDisplay, Generic[T]):
     """Draws each message in the place where its frame was at its stamp.
 
     A message is held until that is known; of more than "Filter size" the oldest is
     dropped, and the status says why it had no place. What was drawn stays where it is,
     whatever its frame does later, until the fixed frame is another one.
+
+    A display reads what it draws in `read`, and draws what is kept of that in
+    `draw_kept`; one that keeps messages in another way has its own `process`,
+    `show_taken` and `drop`.
+
+    Attributes:
+        held: the messages, as they came.
+        kept: what was read of those that are shown, the newest last.
     """
+
+    length: ClassVar[str] = ""
+    """The property that says how many messages are shown; the newest alone without."""
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._held: deque[_Held] = deque()
-        self._drawn: deque[_Held] = deque(maxlen=MOST_WAITING)
+        self.held = HeldMessages(MOST_WAITING)
+        self.kept: list[Taken[T]] = []
         self._drawn_in = context.fixed_frame
 
     # For the displays that derive from it
 
+    def read(self, message: Any) -> T:
+        """Return what is drawn of a message.
+
+        Raises:
+            MessageRefused: it cannot be drawn.
+        """
+        raise NotImplementedError
+
+    def draw_kept(self, kept: Sequence[Taken[T]]) -> None:
+        """Draw what was read as it looks now, and nothing else.
+
+        Args:
+            kept: of the messages that are shown, the newest last; at least one.
+        """
+        raise NotImplementedError
+
+    @property
+    def most(self) -> int:
+        """So many messages are shown."""
+        return int(self.config.acting(self.length)) if self.length else 1
+
     @property
     def needs_last_only(self) -> bool:
         """Whether only the newest message that has a place is drawn."""
-        return True
+        return self.most == 1
 
     @property
     def depth_s(self) -> float:
@@ -89,7 +95,7 @@ class MessageFilterDisplay(TopicDisplay):
     @property
     def waits(self) -> bool:
         """Whether there is something to do also when no message comes."""
-        return bool(self._held)
+        return bool(self.held.waiting)
 
     @property
     def most_held(self) -> int:
@@ -101,7 +107,7 @@ class MessageFilterDisplay(TopicDisplay):
         return came
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Take a message; `show_taken` draws what several have brought.
+        """Keep what is drawn of a message; `show_taken` draws what several brought.
 
         Args:
             message: with its fields.
@@ -111,15 +117,18 @@ class MessageFilterDisplay(TopicDisplay):
         Raises:
             MessageRefused: it cannot be drawn, and why.
         """
-        raise NotImplementedError
+        self.kept.append(Taken(self.read(message), T_fixed_frame.matrix))
 
     def show_taken(self) -> None:
         """Draw what was taken as it looks now; what is the same is not sent again."""
-        raise NotImplementedError
+        del self.kept[: -self.most]
+        if self.kept:
+            self.draw_kept(self.kept)
 
     def drop(self) -> None:
-        """Take everything out of the scene."""
-        raise NotImplementedError
+        """Take everything out of the scene, and forget what was read."""
+        self.kept.clear()
+        self.remove()
 
     def place(self, message: Any) -> Transform:
         """Return where the frame of a message was at its stamp, T_fixed_frame.
@@ -135,8 +144,7 @@ class MessageFilterDisplay(TopicDisplay):
 
     def forget(self) -> None:
         """Drop what is drawn and what waits."""
-        self._held.clear()
-        self._drawn.clear()
+        self.held.clear()
         self._drawn_in = self.context.fixed_frame
         self.refusal = ""
         self.drop()
@@ -146,10 +154,10 @@ class MessageFilterDisplay(TopicDisplay):
     def redraw(self) -> None:
         """Draw again; in another fixed frame what is drawn gets other places."""
         if self.context.fixed_frame != self._drawn_in:
-            again = [*self._drawn, *self._held]
+            again = [*self.held.drawn, *self.held.waiting]
             self.forget()
-            self._held.extend(again)
-            self._try()
+            self.held.waiting.extend(again)
+            self.place_held()
         else:
             self.show_taken()
 
@@ -159,8 +167,8 @@ class MessageFilterDisplay(TopicDisplay):
             return
         decode = self.subscription.decode
         came = self.wanted(self.subscription.drain())
-        self._held.extend(_Held(one, decode) for one in came)
-        self._try()
+        self.held.waiting.extend(Held(one, decode) for one in came)
+        self.place_held()
 
     def time_passed(self) -> None:
         """Say how many messages have come, and why none is shown."""
@@ -168,9 +176,11 @@ class MessageFilterDisplay(TopicDisplay):
         if self.shown:
             self._report_waiting()
 
-    def _try(self) -> None:
+    def place_held(self) -> None:
+        """Draw what has a place now."""
+        held = self.held
         last_only, is_new, is_fine = self.needs_last_only, False, True
-        for one in reversed(self._held) if last_only else tuple(self._held):
+        for one in reversed(held.waiting) if last_only else tuple(held.waiting):
             one.refused = None
             try:
                 is_done = self._is_done(one)
@@ -181,8 +191,8 @@ class MessageFilterDisplay(TopicDisplay):
                 continue
             if is_done:
                 if last_only:
-                    self._drawn.clear()
-                self._drawn.append(one)
+                    held.drawn.clear()
+                held.drawn.append(one)
                 is_new = True
                 if is_fine:
                     self._say_fine()
@@ -190,26 +200,14 @@ class MessageFilterDisplay(TopicDisplay):
                     break
         if is_new:
             self.show_taken()
-        self._leave_waiting(last_only)
+        for dropped in held.leave(self.most_held, last_only=last_only):
+            if dropped.refused is not None:
+                self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)
         if self.subscription is not None:
             self.subscription.waits = self.waits
         self._report_waiting()
 
-    def _leave_waiting(self, last_only: bool) -> None:
-        """Keep what waits; what is older than the newest that is drawn does not."""
-        kept: list[_Held] = []
-        for one in reversed(self._held):
-            if one.refused is not None:
-                kept.append(one)
-            elif last_only:
-                break
-        size = self.most_held if kept else 0
-        for dropped in kept[size:]:
-            if dropped.refused is not None:
-                self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)
-        self._held = deque(reversed(kept[:size]))
-
-    def _is_done(self, one: _Held) -> bool:
+    def _is_done(self, one: Held) -> bool:
         """Take a message if it has a place; return whether that was done.
 
         Raises:
@@ -252,12 +250,12 @@ class MessageFilterDisplay(TopicDisplay):
     def _report_waiting(self) -> None:
         """Say why nothing is shown; RViz says nothing for as long as there is room."""
         messages = self.context.messages
-        if self._drawn or not self._held or messages is None:
+        if self.held.drawn or not self.held.waiting or messages is None:
             return
         said = self.status.rows.get(TRANSFORM)
         if said is not None and said.level == "Error":
             return
-        oldest = self._held[0]
+        oldest = self.held.waiting[0]
         waited = messages.now_ns(oldest.recorded.topic) - oldest.recorded.log_ns
         # That the fixed frame does not exist is no matter of a second, and while a
         # recording is paused no time passes.

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+import viser
 
-from sambot_viz.displays.data.kept_messages import KeptMessagesDisplay
-from sambot_viz.displays.data.message_numbers import poses_of
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
+from sambot_viz.displays.data.message_numbers import Floats, poses_of
 from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
@@ -19,8 +19,7 @@ from sambot_viz.displays.scene.lines import LineNode, chain_segments
 from sambot_viz.displays.scene.nodes import position_of, short_id
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode
-from sambot_viz.frames import Transform
-from sambot_viz.geometry import Matrix, Vector3, wxyz_from_matrix
+from sambot_viz.geometry import Vector3, wxyz_from_matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     ColorProperty,
@@ -30,48 +29,42 @@ from sambot_viz.rviz import (
     IntProperty,
     VectorProperty,
 )
-from sambot_viz.sources.message import Recorded
 
 LINES, RIBBONS = "Lines", "Billboards"
 NONE, AXES, ARROWS = "None", "Axes", "Arrows"
 MOST_PATHS = 100
 """So many paths are drawn at most, whatever the Buffer Length."""
 _IF_AXES, _IF_ARROWS = ("Pose Style", AXES), ("Pose Style", ARROWS)
-Floats = npt.NDArray[np.float64]
+Poses = tuple[Floats, Floats]
+"""Rotations, (N, 4), and positions, (N, 3) [m]."""
 
 
-@dataclass(slots=True, eq=False)
-class _Path:
-    """A path and the nodes that draw it.
+class _PathNodes:
+    """The nodes that draw one path.
+
+    Args:
+        scene: where to draw.
+        name: what the names of the nodes begin with.
 
     Attributes:
-        turns: (N, 4), w, x, y, z of its poses.
-        points: (N, 3) [m].
-        T_fixed_frame: (4, 4), of the frame they are given in.
-        drawn: the settings that they were drawn with last.
+        drawn: the path and the settings that they were drawn with last.
     """
 
-    turns: Floats
-    points: Floats
-    T_fixed_frame: Matrix
-    lines: LineNode
-    ribbon: RibbonNode
-    axes: AxesNode
-    arrows: ArrowsNode
-    drawn: tuple[Any, ...] | None = None
-
-    @property
-    def nodes(self) -> tuple[LineNode, RibbonNode, AxesNode, ArrowsNode]:
-        """What draws it."""
-        return self.lines, self.ribbon, self.axes, self.arrows
+    def __init__(self, scene: viser.SceneApi, name: str) -> None:
+        self.lines = LineNode(scene, f"{name}l")
+        self.ribbon = RibbonNode(scene, f"{name}r")
+        self.axes = AxesNode(scene, f"{name}x")
+        self.arrows = ArrowsNode(scene, f"{name}a")
+        self.all = self.lines, self.ribbon, self.axes, self.arrows
+        self.drawn: tuple[Any, ...] | None = None
 
     def remove(self) -> None:
-        """Take it out of the scene."""
-        for node in self.nodes:
+        """Take them out of the scene."""
+        for node in self.all:
             node.remove()
 
 
-class PathDisplay(KeptMessagesDisplay):
+class PathDisplay(MessageFilterDisplay[Poses]):
     """The poses of nav_msgs/Path as a line, with axes or arrows."""
 
     kind = "rviz_default_plugins/Path"
@@ -132,52 +125,48 @@ class PathDisplay(KeptMessagesDisplay):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._paths: list[_Path] = []
+        self._nodes: dict[Taken[Poses], _PathNodes] = {}
         self._made = 0
 
-    def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Take a path; the oldest one that is too many goes."""
-        turns, points = poses_of(message.poses, "pose.")
-        T = T_fixed_frame.matrix
-        # The nodes of a path that goes are used again.
-        if len(self._paths) >= self.most:
-            nodes = self._paths.pop(0).nodes
-        else:
-            self._made += 1
-            name, scene = f"/{self.key}{short_id(self._made)}", self.context.scene
-            nodes = (
-                LineNode(scene, f"{name}l"),
-                RibbonNode(scene, f"{name}r"),
-                AxesNode(scene, f"{name}x"),
-                ArrowsNode(scene, f"{name}a"),
-            )
-        self._paths.append(_Path(turns, points, T, *nodes))
+    def read(self, message: Any) -> Poses:
+        """Return the rotations and the positions of the poses of a path."""
+        return poses_of(message.poses, "pose.")
 
     def placed(self) -> Iterator[Placed]:
         """Yield the paths, which cannot be selected, as in RViz."""
-        for path in self._paths:
-            for node in path.nodes:
+        for nodes in self._nodes.values():
+            for node in nodes.all:
                 yield from node.placed(HERE, None)
 
-    def drop(self) -> None:
+    def remove(self) -> None:
         """Take all paths out of the scene."""
-        for path in self._paths:
-            path.remove()
-        self._paths.clear()
+        for nodes in self._nodes.values():
+            nodes.remove()
+        self._nodes.clear()
 
-    def show_taken(self) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Poses]]) -> None:
         """Draw the paths as they look now."""
-        while len(self._paths) > self.most:
-            self._paths.pop(0).remove()
         names = (one.name for one in self.properties if one.name != self.length)
         look = tuple(self.config.get(name) for name in names)
-        for path in self._paths:
-            if path.drawn != look or any(node.is_gone for node in path.nodes):
-                self._show(path)
-                path.drawn = look
+        # The nodes of a path that goes are used again.
+        gone = [one for one in self._nodes if one not in kept]
+        free = [self._nodes.pop(one) for one in gone]
+        for path in kept:
+            if path not in self._nodes:
+                self._nodes[path] = free.pop(0) if free else self._new_nodes()
+            nodes = self._nodes[path]
+            if nodes.drawn != (path, look) or any(node.is_gone for node in nodes.all):
+                self._show(path, nodes)
+                nodes.drawn = path, look
+        for nodes in free:
+            nodes.remove()
 
-    def _show(self, path: _Path) -> None:
-        get = self.config.get
+    def _new_nodes(self) -> _PathNodes:
+        self._made += 1
+        return _PathNodes(self.context.scene, f"/{self.key}{short_id(self._made)}")
+
+    def _show(self, path: Taken[Poses], nodes: _PathNodes) -> None:
+        get, points = self.config.get, path.read[1]
         offset: Vector3 = get("Offset")
         T = np.array(path.T_fixed_frame)
         T[:3, 3] += offset
@@ -187,21 +176,21 @@ class PathDisplay(KeptMessagesDisplay):
         }
         color, alpha = get("Color"), min(max(float(get("Alpha")), 0.0), 1.0)
         if get("Line Style") == RIBBONS:
-            path.lines.remove()
+            nodes.lines.remove()
             width = float(get("Line Width"))
-            path.ribbon.draw(path.points, width, color, alpha=alpha, **place)
+            nodes.ribbon.draw(points, width, color, alpha=alpha, **place)
         else:
-            path.ribbon.remove()
-            path.lines.draw(chain_segments(path.points), color, alpha=alpha, **place)
-        style, poses = str(get("Pose Style")), (path.turns, path.points)
+            nodes.ribbon.remove()
+            nodes.lines.draw(chain_segments(points), color, alpha=alpha, **place)
+        style, poses = str(get("Pose Style")), path.read
         if style == AXES:
             sizes = float(get("Length")), float(get("Radius"))
-            path.axes.draw(*poses, *sizes, **place)
+            nodes.axes.draw(*poses, *sizes, **place)
         else:
-            path.axes.remove()
+            nodes.axes.remove()
         if style == ARROWS:
             shaft = float(get("Shaft Length")), float(get("Shaft Diameter"))
             head = float(get("Head Length")), float(get("Head Diameter"))
-            path.arrows.draw(*poses, shaft, head, get("Pose Color"), **place)
+            nodes.arrows.draw(*poses, shaft, head, get("Pose Color"), **place)
         else:
-            path.arrows.remove()
+            nodes.arrows.remove()

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from sambot_viz.displays.data.kept_messages import KeptSolidsDisplay
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import point_of
 from sambot_viz.displays.data.properties import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
-from sambot_viz.displays.scene.solid_nodes import Solid
+from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.geometry import IDENTITY, Matrix, Vector3
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, IntProperty
@@ -19,7 +22,7 @@ from sambot_viz.rviz import ColorProperty, IntProperty
 MOST_POINTS = 10_000
 
 
-class PointStampedDisplay(KeptSolidsDisplay):
+class PointStampedDisplay(MessageFilterDisplay[Vector3]):
     """The points of geometry_msgs/PointStamped as balls."""
 
     kind = "rviz_default_plugins/PointStamped"
@@ -41,15 +44,19 @@ class PointStampedDisplay(KeptSolidsDisplay):
             help=f"So many points stay; here up to {MOST_POINTS:,}.",
         ),
     )
+    _node = DisplayNode(SolidsNode, "")
 
-    def measured(self, message: Any) -> Vector3:
+    def read(self, message: Any) -> Vector3:
         """Return the point [m]."""
         return point_of(message.point)
 
-    def solid(self, measured: Any, T_fixed_frame: Matrix) -> Solid:
-        """Return a ball at the point."""
+    def draw_kept(self, kept: Sequence[Taken[Vector3]]) -> None:
+        """Draw the balls."""
+        self._node.draw([self._ball(one.read, one.T_fixed_frame) for one in kept])
+
+    def _ball(self, point: Vector3, T_fixed_frame: Matrix) -> Solid:
         T = np.array(T_fixed_frame)
-        T[:3, 3] += T[:3, :3] @ np.array(measured)
+        T[:3, 3] += T[:3, :3] @ np.array(point)
         size = float(self.config.get("Radius"))
         color, alpha = self.config.get("Color"), float(self.config.get("Alpha"))
         sizes = (size, size, size)

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from typing import Any
 
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import Floats, points_of
-from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.lines import LineNode, chain_segments
-from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meanings import Meaning
-from sambot_viz.rviz import ColorProperty, DisplayConfig
+from sambot_viz.rviz import ColorProperty
 
 
-class PolygonDisplay(NewestMessageDisplay[Floats]):
+class PolygonDisplay(MessageFilterDisplay[Floats]):
     """The closed outline of geometry_msgs/PolygonStamped, one pixel wide."""
 
     kind = "rviz_default_plugins/Polygon"
@@ -28,30 +27,19 @@ class PolygonDisplay(NewestMessageDisplay[Floats]):
         ColorProperty("Color", default=(25, 255, 0), help="The colour of the outline."),
         alpha_property(),
     )
-
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._node = LineNode(context.scene, f"/{key}l")
+    _node = DisplayNode(LineNode, "l")
 
     def read(self, message: Any) -> Floats:
         """Return the corners, (N, 3) [m]."""
         return points_of(message.polygon.points)
 
-    def draw_read(self, read: Floats, wxyz: Wxyz, position: Vector3) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Floats]]) -> None:
         """Draw the outline as it looks now."""
+        wxyz, position = kept[-1].pose
         self._node.draw(
-            chain_segments(read, closed=True),
+            chain_segments(kept[-1].read, closed=True),
             self.config.get("Color"),
             alpha=float(self.config.get("Alpha")),
             wxyz=wxyz,
             position=position,
         )
-
-    def placed(self) -> Iterator[Placed]:
-        """Yield the outline, which cannot be selected, as in RViz."""
-        yield from self._node.placed(HERE, None)
-
-    def remove(self) -> None:
-        """Take the outline out of the scene."""
-        self._node.remove()

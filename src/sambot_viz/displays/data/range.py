@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from sambot_viz.displays.data.kept_messages import KeptSolidsDisplay
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.nodes import position_of
-from sambot_viz.displays.scene.solid_nodes import Solid
+from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.meshes.primitives import CONE_TIP
@@ -23,8 +26,11 @@ _WIDEST = math.radians(179)
 _TO_SENSOR = np.array([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 """A cone with its tip along z, turned so that the tip points along −x."""
 
+Reading = tuple[float, float]
+"""A distance [m], 0 without one, and a field of view [rad]."""
 
-class RangeDisplay(KeptSolidsDisplay):
+
+class RangeDisplay(MessageFilterDisplay[Reading]):
     """The readings of sensor_msgs/Range: the tip of a cone is at the sensor."""
 
     kind = "rviz_default_plugins/Range"
@@ -45,8 +51,9 @@ class RangeDisplay(KeptSolidsDisplay):
             help=f"So many of the newest readings are shown, up to {MOST_RANGES:,}.",
         ),
     )
+    _node = DisplayNode(SolidsNode, "")
 
-    def measured(self, message: Any) -> tuple[float, float]:
+    def read(self, message: Any) -> Reading:
         """Return the distance [m], 0 without one, and the field of view [rad]."""
         least, most = float(message.min_range), float(message.max_range)
         require_finite((least, most, float(message.field_of_view)))
@@ -58,9 +65,14 @@ class RangeDisplay(KeptSolidsDisplay):
             distance = 0.0
         return distance, float(message.field_of_view)
 
-    def solid(self, measured: Any, T_fixed_frame: Matrix) -> Solid | None:
+    def draw_kept(self, kept: Sequence[Taken[Reading]]) -> None:
+        """Draw the cones."""
+        cones = (self._cone(one.read, one.T_fixed_frame) for one in kept)
+        self._node.draw([cone for cone in cones if cone is not None])
+
+    def _cone(self, reading: Reading, T_fixed_frame: Matrix) -> Solid | None:
         """Return the cone of a reading; None for nothing in its range."""
-        distance, angle = measured
+        distance, angle = reading
         angle = min(max(angle, 0.0), _WIDEST)
         if distance <= 0.0 or angle == 0.0:
             return None

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import ClassVar
 
+from sambot_viz.displays.data.display_node import nodes_of
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.meshes import Part
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
-from sambot_viz.displays.picking.placed import Placed, PlacedShapes
+from sambot_viz.displays.picking.placed import HERE, Placed, PlacedShapes
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import (
@@ -55,6 +56,7 @@ class TopicDisplay(Display):
     drops what it shows in `forget`.
 
     Attributes:
+        nodes: those that its class declares (`DisplayNode`).
         subscription: its messages; None while it has none.
         refusal: what is wrong with the newest message, said in place of how many have
             come; empty for nothing.
@@ -69,6 +71,7 @@ class TopicDisplay(Display):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
+        self.nodes = nodes_of(type(self), context.scene, key)
         self.subscription: Subscription | None = None
         self.refusal = ""
 
@@ -100,9 +103,20 @@ class TopicDisplay(Display):
     def begin(self) -> None:
         """Take note that messages of another time or topic follow."""
 
+    @property
+    def item(self) -> Selectable | None:
+        """What a click on it selects; None for nothing, as in RViz for most of them."""
+        return None
+
     def placed(self) -> Iterator[Placed]:
-        """Yield what it shows now, for rays; most nodes can say it of themselves."""
-        yield from ()
+        """Yield what its nodes show now, for rays."""
+        for node in self.nodes.values():
+            yield from node.placed(HERE, self.item)
+
+    def remove(self) -> None:
+        """Take its nodes out of the scene."""
+        for node in self.nodes.values():
+            node.remove()
 
     @property
     def depth_s(self) -> float:

@@ -10,6 +10,7 @@ import numpy.typing as npt
 import viser
 
 from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode, arrow_solids
 from sambot_viz.displays.scene.solids import Arrow, Rgb
@@ -95,14 +96,12 @@ class RingsNode:
             points, width, np.repeat(colors, counts, axis=0), counts=counts
         )
 
-    def placed(self, T_fixed_above: Matrix) -> Iterator[Placed]:
-        """Yield rings and solids for rays; nothing of them can be selected.
-
-        Args:
-            T_fixed_above: (4, 4), of the node above.
-        """
-        yield from self._lines.placed(T_fixed_above, None)
-        yield from self._solids.placed(T_fixed_above, None)
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[Placed]:
+        """Yield rings and solids for rays (see `scene.points.PointNode.placed`)."""
+        yield from self._lines.placed(T_fixed_above, item)
+        yield from self._solids.placed(T_fixed_above, item)
 
     def remove(self) -> None:
         """Take everything out of the scene."""

@@ -81,7 +81,7 @@ class _Shown:
         self.drawn = self.colors, style
 
 
-class CloudDisplay(MessageFilterDisplay):
+class CloudDisplay(MessageFilterDisplay[None]):
     """Draws the points of messages, of the newest one or of some seconds."""
 
     properties: ClassVar[tuple[Property, ...]] = (topic_property(), *CLOUD_PROPERTIES)

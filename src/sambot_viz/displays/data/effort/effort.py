@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.effort.joints import (
     JOINTS,
     EffortJoints,
@@ -13,12 +14,11 @@ from sambot_viz.displays.data.effort.joints import (
     max_effort,
     placed_ring,
 )
-from sambot_viz.displays.data.kept_messages import KeptReadingsDisplay
-from sambot_viz.displays.data.message_filter import TRANSFORM
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import TRANSFORM, MessageFilterDisplay
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
-from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.robot_model.described_robot import DescribedRobot
 from sambot_viz.displays.scene.glb_node import single
@@ -51,7 +51,7 @@ _NO_JOINT = (
 )
 
 
-class EffortDisplay(KeptReadingsDisplay):
+class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
     """The efforts of sensor_msgs/JointState; those of revolute joints, as RViz.
 
     A message needs no frame: each circle is where the child link of its joint was.
@@ -103,11 +103,11 @@ class EffortDisplay(KeptReadingsDisplay):
             open_keys=True,
         ),
     )
+    _node = DisplayNode(RingsNode, "")
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self._node = RingsNode(context.scene, f"/{key}")
         self._source = DescribedRobot(context, self._named_topic, self._model_read)
         self._robot: Robot | None = None
         self._joints: EffortJoints | None = None
@@ -165,7 +165,7 @@ class EffortDisplay(KeptReadingsDisplay):
     def say_placed(self) -> None:
         """Say nothing of a place: the statuses of the joints do."""
 
-    def measured(self, message: Any) -> Sequence[JointEffort]:
+    def read(self, message: Any) -> Sequence[JointEffort]:
         """Return the efforts of a message that have a place and a number."""
         joints = self._joints
         if joints is None:
@@ -230,7 +230,7 @@ class EffortDisplay(KeptReadingsDisplay):
 
     # The scene
 
-    def draw_kept(self, kept: Sequence[tuple[Any, Matrix]]) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Sequence[JointEffort]]]) -> None:
         """Draw the circles of the joints whose box is ticked."""
         joints = self._joints
         width = float(self.config.get("Width"))
@@ -238,16 +238,8 @@ class EffortDisplay(KeptReadingsDisplay):
             self._node.remove()
             return
         scale = float(self.config.get("Scale"))
-        efforts = (one for some, _ in kept for one in some if joints.is_on(one.joint))
+        efforts = (one for some in kept for one in some.read if joints.is_on(one.joint))
         self._node.draw([one.ring(scale, width) for one in efforts], width)
-
-    def placed(self) -> Iterator[Placed]:
-        """Yield the circles, which cannot be selected, as in RViz."""
-        yield from self._node.placed(HERE)
-
-    def remove(self) -> None:
-        """Take all circles out of the scene."""
-        self._node.remove()
 
     def drop(self) -> None:
         """Take all circles out of the scene, and forget what was said of joints."""

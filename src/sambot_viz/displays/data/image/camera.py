@@ -32,6 +32,7 @@ from sambot_viz.displays.data.image.transports import (
     sent_topic,
 )
 from sambot_viz.displays.data.image.visibility import VISIBILITY, Visibility
+from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import MOST_WAITING, topic_property
@@ -58,7 +59,7 @@ MOST_HELD = 10
 """So many pictures wait for their transform."""
 
 
-class CameraDisplay(MessageFilterDisplay):
+class CameraDisplay(MessageFilterDisplay[Any]):
     """The newest picture of a camera, and what the page needs to draw the scene in it.
 
     The picture is made while some page shows it.
@@ -114,7 +115,6 @@ class CameraDisplay(MessageFilterDisplay):
         self._visibility = Visibility(self)
         self._ranges = Ranges()
         self._info: Recorded | None = None
-        self._taken: tuple[Any, Matrix] | None = None
         self._made: CameraPicture | None = None
         self._put: CameraPicture | None = None
 
@@ -164,11 +164,12 @@ class CameraDisplay(MessageFilterDisplay):
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
         """Take a picture; it is made when it is shown."""
-        self._taken, self._made = (message, T_fixed_frame.matrix), None
+        self._made, self.kept = None, [Taken(message, T_fixed_frame.matrix)]
 
     def drop(self) -> None:
         """Show no picture."""
-        self._taken = self._made = None
+        super().drop()
+        self._made = None
         self._show(NO_PICTURE)
 
     def draw(self) -> None:
@@ -185,18 +186,18 @@ class CameraDisplay(MessageFilterDisplay):
     def time_passed(self) -> None:
         """Look whether other displays are to be drawn: some were added or renamed."""
         super().time_passed()
-        if self.shown and self._taken is not None:
+        if self.shown and self.kept:
             self.show_taken()
 
     # What is shown
 
     def show_taken(self) -> None:
         """Show the picture as it looks now; what is the same is not sent again."""
-        if self._taken is None:
+        if not self.kept:
             if self.context.messages is not None and self.topic:
                 self.status.set(IMAGE, "Warn", NONE_YET)
             return
-        message, T_fixed_camera = self._taken
+        message, T_fixed_camera = self.kept[-1].read, self.kept[-1].T_fixed_frame
         camera = self._camera()
         if not self.context.pictures.is_wanted(self.key):
             # A picture that could not be made is not made again to say so.
@@ -242,7 +243,7 @@ class CameraDisplay(MessageFilterDisplay):
     def _camera(self) -> CameraNumbers | None:
         """Return the numbers of the camera, or say why there are none."""
         messages, topic = self.context.messages, info_topic(self.topic)
-        if self._info is None or self.subscription is None or self._taken is None:
+        if self._info is None or self.subscription is None or not self.kept:
             self.status.set(CAMERA_INFO, "Warn", no_info(topic, messages))
             return None
         try:
@@ -251,7 +252,7 @@ class CameraDisplay(MessageFilterDisplay):
         except MessageRefused as refused:
             self.status.set(CAMERA_INFO, "Error", refused.text)
             return None
-        image, doubt = self._taken[0], None
+        image, doubt = self.kept[-1].read, None
         if hasattr(image, "width"):
             doubt = size_doubt(camera, (int(image.width), int(image.height)))
         self.status.set(CAMERA_INFO, "Warn" if doubt else "Ok", doubt or "OK")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
+from sambot_viz.displays.data.kept import HeldMessages
 from sambot_viz.displays.data.markers.markers import Markers
 from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
 from sambot_viz.displays.data.message_filter import (
@@ -51,7 +51,7 @@ _NAMESPACES = GroupProperty(
 )
 
 
-class MarkerDisplay(MessageFilterDisplay):
+class MarkerDisplay(MessageFilterDisplay[None]):
     """The markers of a topic, and of another one with arrays of markers."""
 
     kind = "rviz_default_plugins/Marker"
@@ -70,7 +70,7 @@ class MarkerDisplay(MessageFilterDisplay):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
         # What is drawn is kept by its markers.
-        self._drawn = deque(maxlen=1)
+        self.held = HeldMessages(most_drawn=1)
         self._is_after_jump = True
         self._has_left_out = False
         self._given_way = 0
@@ -190,7 +190,7 @@ class MarkerDisplay(MessageFilterDisplay):
         if self.context.fixed_frame != self._drawn_in:
             self._drawn_in = self.context.fixed_frame
             self._markers.place_again()
-            self._try()
+            self.place_held()
         self._markers.follow_frames()
         self._markers.files_read()
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Protocol
 
+from sambot_viz.displays.data.display_node import Drawable
 from sambot_viz.displays.data.markers.checks import (
     LINES,
     LISTS,
@@ -41,20 +41,6 @@ ALONE = 100
 """So many that can be seen through have nodes of their own, which browsers sort."""
 
 
-class MarkerNode(Protocol):
-    """What draws one marker that is no solid."""
-
-    def placed(
-        self, T_fixed_above: Matrix, item: Selectable | None
-    ) -> Iterable[Placed]:
-        """Yield it for rays (see `scene.points.PointNode.placed`)."""
-        ...
-
-    def remove(self) -> None:
-        """Take it out of the scene."""
-        ...
-
-
 @dataclass(slots=True, eq=False)
 class _Batch:
     """Solids that are drawn together."""
@@ -81,7 +67,7 @@ class MarkerNodes:
         self._finders: dict[str, MeshFinder] = {}
         self._batches: dict[Hashable, _Batch] = {}
         self._batch_of: dict[Key, Hashable] = {}
-        self._single: dict[Key, tuple[Hashable, MarkerNode]] = {}
+        self._single: dict[Key, tuple[Hashable, Drawable]] = {}
 
     @property
     def meshes(self) -> Mapping[Key, MeshNodes]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import (
     covariance_of,
@@ -28,8 +30,6 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.refusals import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
@@ -43,7 +43,7 @@ from sambot_viz.geometry import (
     wxyz_rotated,
 )
 from sambot_viz.meanings import Meaning
-from sambot_viz.rviz import DisplayConfig, EnumProperty, FloatProperty, IntProperty
+from sambot_viz.rviz import EnumProperty, FloatProperty, IntProperty
 from sambot_viz.sources.message import Recorded
 
 _IF_ARROW, _IF_AXES = ("Shape", ARROW), ("Shape", AXES)
@@ -85,7 +85,7 @@ class _PastPose:
         return self._solids
 
 
-class OdometryDisplay(MessageFilterDisplay):
+class OdometryDisplay(MessageFilterDisplay[_PastPose]):
     """The poses of nav_msgs/Odometry that are apart from each other."""
 
     kind = "rviz_default_plugins/Odometry"
@@ -128,13 +128,13 @@ class OdometryDisplay(MessageFilterDisplay):
         ),
         COVARIANCE,
     )
+    _shapes = DisplayNode(PoseShapes, "")
+    _solids = DisplayNode(SolidsNode, "c")
 
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._shapes = PoseShapes(context.scene, f"/{key}")
-        self._solids = SolidsNode(context.scene, f"/{key}c")
-        self._kept: list[_PastPose] = []
+    @property
+    def most(self) -> int:
+        """So many poses are shown."""
+        return min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)
 
     @property
     def needs_last_only(self) -> bool:
@@ -155,24 +155,13 @@ class OdometryDisplay(MessageFilterDisplay):
                 TOPIC,
             )
         wxyz = (w, x, y, z)
-        if self._kept and not self._is_apart(wxyz, position):
+        if self.kept and not self._is_apart(wxyz, position):
             return
-        covariance = covariance_of(message.pose)
-        self._kept.append(_PastPose(wxyz, position, T_fixed_frame.matrix, covariance))
-
-    def placed(self) -> Iterator[Placed]:
-        """Yield the poses, which cannot be selected, as in RViz."""
-        yield from self._shapes.placed(None)
-        yield from self._solids.placed(HERE, None)
-
-    def drop(self) -> None:
-        """Take all poses out of the scene."""
-        self._kept.clear()
-        self._shapes.remove()
-        self._solids.remove()
+        T, covariance = T_fixed_frame.matrix, covariance_of(message.pose)
+        self.kept.append(Taken(_PastPose(wxyz, position, T, covariance), T))
 
     def _is_apart(self, wxyz: Wxyz, position: Vector3) -> bool:
-        last = self._kept[-1]
+        last = self.kept[-1].read
         if math.dist(position, last.position) >= self._tolerance("Position"):
             return True
         w, x, y, z = last.wxyz
@@ -183,15 +172,12 @@ class OdometryDisplay(MessageFilterDisplay):
     def _tolerance(self, of: str) -> float:
         return float(self.config.get(f"{of} Tolerance"))
 
-    def show_taken(self) -> None:
+    def draw_kept(self, kept: Sequence[Taken[_PastPose]]) -> None:
         """Draw the poses as they look now."""
-        del self._kept[: -min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)]
-        if not self._kept:
-            return
-        turns, places = zip(*(one.fixed for one in self._kept), strict=True)
+        turns, places = zip(*(one.read.fixed for one in kept), strict=True)
         self._shapes.draw(look_of(self.config, "Shape/"), turns, places)
         look = covariance_look(self.config)
-        self._solids.draw([solid for one in self._kept for solid in one.solids(look)])
+        self._solids.draw([solid for one in kept for solid in one.read.solids(look)])
 
 
 def _moved(

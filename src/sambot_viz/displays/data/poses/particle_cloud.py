@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import (
     Floats,
     poses_of,
     require_few,
     require_finite,
 )
-from sambot_viz.displays.data.poses.many_poses import (
-    ManyPosesDisplay,
-    many_poses_properties,
-)
 from sambot_viz.displays.data.poses.pose_shapes import (
     PoseLook,
+    PoseShapes,
+    many_poses_properties,
 )
 from sambot_viz.displays.data.properties import metres
-from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meanings import Meaning
 
 SHORTEST, LONGEST = "Min Arrow Length", "Max Arrow Length"
@@ -30,7 +31,7 @@ Particles = tuple[Floats, Floats, Floats]
 """Rotations, (N, 4), positions, (N, 3) [m], and weights, (N,)."""
 
 
-class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
+class ParticleCloudDisplay(MessageFilterDisplay[Particles]):
     """The particles of nav2_msgs/ParticleCloud; the newest message alone."""
 
     kind = "nav2_rviz_plugins/ParticleCloud"
@@ -41,6 +42,7 @@ class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
         metres(SHORTEST, 0.02, "Length of a particle without weight."),
         metres(LONGEST, 0.3, "Length of a particle with the weight 1."),
     )
+    _shapes = DisplayNode(PoseShapes, "")
 
     def read(self, message: Any) -> Particles:
         """Return the rotations, the positions and the weights of the particles."""
@@ -50,10 +52,10 @@ class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
         require_finite(weights)
         return (*poses_of([one.pose for one in particles]), np.array(weights))
 
-    def draw_read(self, read: Particles, wxyz: Wxyz, position: Vector3) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Particles]]) -> None:
         """Draw the particles as they look now."""
         get = self.config.get
-        turns, places, weights = read
+        turns, places, weights = kept[-1].read
         shortest, longest = float(get(SHORTEST)), float(get(LONGEST))
         lengths = shortest + weights.clip(0.0, 1.0) * max(0.0, longest - shortest)
         look = PoseLook(
@@ -65,4 +67,4 @@ class ParticleCloudDisplay(ManyPosesDisplay[Particles]):
             SHAFT,
             1.0,
         )
-        self._shapes.draw(look, turns, places, wxyz, position, sizes=lengths)
+        self._shapes.draw(look, turns, places, *kept[-1].pose, sizes=lengths)

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import (
     Floats,
     covariance_of,
     point_of,
     wxyz_of,
 )
-from sambot_viz.displays.data.newest_message import NewestMessageDisplay
 from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
 from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
@@ -27,18 +29,18 @@ from sambot_viz.displays.data.poses.pose_shapes import (
 from sambot_viz.displays.data.properties import alpha_property
 from sambot_viz.displays.data.selected_pose import SelectedPose
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.display import DisplayContext, numbers
-from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.display import numbers
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import Fact, SelectedData
 from sambot_viz.displays.scene.covariance import covariance_solids
 from sambot_viz.displays.scene.solid_nodes import SolidsNode
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meanings import Meaning
-from sambot_viz.rviz import DisplayConfig, EnumProperty
+from sambot_viz.rviz import EnumProperty
+from sambot_viz.topics.decoding import frame_and_stamp
 
-PoseRead = tuple[Wxyz, Vector3, Floats]
-"""Rotation and position [m] of a pose in its frame, and its covariance, (36,)."""
+PoseRead = tuple[str, Wxyz, Vector3, Floats]
+"""The frame of a pose, its rotation and position [m] there, its covariance, (36,)."""
 NO_COVARIANCE = np.zeros(36)
 _IF_ARROW, _IF_AXES = ("Shape", ARROW), ("Shape", AXES)
 POSE_PROPERTIES = (
@@ -53,56 +55,45 @@ POSE_PROPERTIES = (
 )
 
 
-class PoseDisplay(NewestMessageDisplay[PoseRead]):
+class PoseDisplay(MessageFilterDisplay[PoseRead]):
     """The pose of geometry_msgs/PoseStamped."""
 
     kind = "rviz_default_plugins/Pose"
     help = "A pose as an arrow or as axes."
     meanings = frozenset({Meaning.POSE})
     properties = POSE_PROPERTIES
-
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._shapes = PoseShapes(context.scene, f"/{key}")
+    _shapes = DisplayNode(PoseShapes, "")
 
     def read(self, message: Any) -> PoseRead:
         """Return the pose."""
-        pose = message.pose
-        return wxyz_of(pose.orientation), point_of(pose.position), NO_COVARIANCE
+        return (*_frame_and_pose(message, message.pose), NO_COVARIANCE)
 
-    def draw_read(self, read: PoseRead, wxyz: Wxyz, position: Vector3) -> None:
+    def draw_kept(self, kept: Sequence[Taken[PoseRead]]) -> None:
         """Draw the pose as it looks now."""
-        turn, at, _ = read
-        self._shapes.draw(look_of(self.config), [turn], [at], wxyz, position)
+        _, turn, at, _ = kept[-1].read
+        self._shapes.draw(look_of(self.config), [turn], [at], *kept[-1].pose)
 
     @property
     def item(self) -> Selectable:
         """The pose as something that can be selected."""
         return Selectable("pose", self.config.name, self.key)
 
-    def placed(self) -> Iterator[Placed]:
-        """Yield the pose for rays."""
-        yield from self._shapes.placed(self.item)
-
     def selected(self, item: Selectable) -> SelectedData | None:
         """Return the pose as its message has it."""
-        taken = self.taken
-        if item != self.item or taken is None:
+        if item != self.item or not self.kept:
             return None
-        (turn, at, covariance), T = taken
+        (frame, turn, at, covariance), T = (
+            self.kept[-1].read,
+            self.kept[-1].T_fixed_frame,
+        )
         title, here = f"Pose {self.config.name}", T[:3, :3] @ np.array(at) + T[:3, 3]
         more = self.other_facts(covariance)
-        return SelectedPose(title, self.frame, turn, at, here, more)
+        return SelectedPose(title, frame, turn, at, here, more)
 
     def other_facts(self, covariance: Floats) -> Sequence[Fact]:
         """Return what else is said of a selected pose."""
         del covariance
         return ()
-
-    def remove(self) -> None:
-        """Take the pose out of the scene."""
-        self._shapes.remove()
 
 
 class PoseWithCovarianceDisplay(PoseDisplay):
@@ -112,29 +103,20 @@ class PoseWithCovarianceDisplay(PoseDisplay):
     help = "A pose with its uncertainty."
     meanings = frozenset({Meaning.POSE_WITH_COVARIANCE})
     properties = (*POSE_PROPERTIES, COVARIANCE)
-
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._solids = SolidsNode(context.scene, f"/{key}c")
+    _solids = DisplayNode(SolidsNode, "c")
 
     def read(self, message: Any) -> PoseRead:
         """Return the pose and its covariance."""
-        turn, at, _ = super().read(message.pose)
-        return turn, at, covariance_of(message.pose)
+        pose = message.pose
+        return (*_frame_and_pose(message, pose.pose), covariance_of(pose))
 
-    def draw_read(self, read: PoseRead, wxyz: Wxyz, position: Vector3) -> None:
+    def draw_kept(self, kept: Sequence[Taken[PoseRead]]) -> None:
         """Draw the pose and its covariance as they look now."""
-        super().draw_read(read, wxyz, position)
-        turn, at, covariance = read
+        super().draw_kept(kept)
+        (_, turn, at, covariance), (wxyz, position) = kept[-1].read, kept[-1].pose
         look = covariance_look(self.config)
         solids = covariance_solids(covariance, turn, at, look)
         self._solids.draw(solids, wxyz=wxyz, position=position)
-
-    def placed(self) -> Iterator[Placed]:
-        """Yield the pose and its covariance for rays."""
-        yield from super().placed()
-        yield from self._solids.placed(HERE, self.item)
 
     def other_facts(self, covariance: Floats) -> Sequence[Fact]:
         """Return the variances of the position [m²] and of the orientation [rad²]."""
@@ -144,7 +126,8 @@ class PoseWithCovarianceDisplay(PoseDisplay):
             ("Covariance Orientation", f"{numbers(variances[3:])} rad²"),
         )
 
-    def remove(self) -> None:
-        """Take the pose out of the scene."""
-        super().remove()
-        self._solids.remove()
+
+def _frame_and_pose(message: Any, pose: Any) -> tuple[str, Wxyz, Vector3]:
+    """Return the frame of a message, and rotation and position [m] of a pose there."""
+    frame, _ = frame_and_stamp(message)
+    return frame, wxyz_of(pose.orientation), point_of(pose.position)

@@ -10,14 +10,15 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.data.properties import metres
-from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.data.properties import alpha_property, metres
+from sambot_viz.displays.data.topic_display import topic_property
+from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
-from sambot_viz.rviz import ColorProperty, ConfigItem, Property
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
+from sambot_viz.rviz import ColorProperty, ConfigItem, EnumProperty, Property
 
 Floats = npt.NDArray[np.float64]
 ARROW, AXES = "Arrow", "Axes"
@@ -109,14 +110,12 @@ class PoseShapes:
         else:
             self._lines.remove()
 
-    def placed(self, item: Selectable | None) -> Iterator[Placed]:
-        """Yield the shapes for rays.
-
-        Args:
-            item: what they are to a selection.
-        """
+    def placed(
+        self, T_fixed_above: Matrix, item: Selectable | None
+    ) -> Iterator[Placed]:
+        """Yield the shapes for rays (see `scene.points.PointNode.placed`)."""
         for node in (self._arrows, self._axes, self._lines):
-            yield from node.placed(HERE, item)
+            yield from node.placed(T_fixed_above, item)
 
     def remove(self) -> None:
         """Take all out of the scene."""
@@ -159,6 +158,26 @@ def color_property(default: Rgb = COLOR, shape: Any = None) -> ColorProperty:
     """Return the colour of arrows."""
     return ColorProperty(
         "Color", default=default, help="The colour.", hidden_unless=shape
+    )
+
+
+def many_poses_properties(each: str) -> tuple[Property, ...]:
+    """Return the properties of the topic and of the shape of all poses.
+
+    Args:
+        each: what one of them is.
+    """
+    if_arrow = ("Shape", (FLAT_ARROW, SOLID_ARROW))
+    return (
+        topic_property(),
+        EnumProperty(
+            "Shape",
+            default=FLAT_ARROW,
+            options=(FLAT_ARROW, SOLID_ARROW, AXES),
+            help=f"How each {each} is drawn.",
+        ),
+        color_property(shape=if_arrow),
+        alpha_property(hidden_unless=if_arrow),
     )
 
 

@@ -1,26 +1,28 @@
-"""Base of the displays of two vectors: one along which, one about which it goes."""
+"""AccelStamped, TwistStamped and Wrench: a vector along an axis, and one about it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
+from operator import attrgetter
 from typing import Any, ClassVar
 
 import numpy as np
 
-from sambot_viz.displays.data.kept_messages import KeptReadingsDisplay
+from sambot_viz.displays.data.display_node import DisplayNode
+from sambot_viz.displays.data.kept import Taken
+from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import vector_of
-from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.scene.rings import Ring, RingsNode
 from sambot_viz.displays.scene.solid_nodes import Solid, arrow_solids
 from sambot_viz.displays.scene.solids import Arrow, Rgb
 from sambot_viz.geometry import ORIGIN, Matrix, Vector3, rotation_from_xyzw, wxyz_from_z
+from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,
-    DisplayConfig,
     FloatProperty,
     IntProperty,
     Property,
@@ -100,6 +102,9 @@ def vector_properties(along: str, about: str) -> tuple[Property, ...]:
     )
 
 
+ACCEPTS_NAN = BoolProperty(
+    "Accept NaN Values", default=False, help="Numbers that are NaN are drawn as 0."
+)
 HIDES = BoolProperty(
     "Hide Small Values",
     default=True,
@@ -107,56 +112,49 @@ HIDES = BoolProperty(
 )
 
 
-class VectorsDisplay(KeptReadingsDisplay):
+Vectors = tuple[Vector3, Vector3]
+
+
+class VectorsDisplay(MessageFilterDisplay[Vectors]):
     """Draws two vectors of each message; one with a circle, as it turns about it."""
 
     length = LENGTH
     words: ClassVar[tuple[str, str]]
     """What RViz calls the two: "Force" and "Torque", or "Linear" and "Angular"."""
+    field: ClassVar[str]
+    """The field of the message that has two fields of these names."""
+    _node = DisplayNode(RingsNode, "")
 
-    def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is drawn before `draw`."""
-        super().__init__(context, config, key)
-        self._node = RingsNode(context.scene, f"/{key}")
-
-    def vectors(self, message: Any) -> tuple[Any, Any]:
-        """Return the two vectors of a message, geometry_msgs/Vector3."""
-        raise NotImplementedError
-
-    @property
-    def hides_small(self) -> bool:
-        """Whether a vector that is too short for its width is left out."""
-        return True
-
-    @property
-    def nan_is_zero(self) -> bool:
-        """Whether a number that is NaN is drawn as 0; else its message is refused."""
-        return False
-
-    def measured(self, message: Any) -> tuple[Vector3, Vector3]:
+    def read(self, message: Any) -> Vectors:
         """Return the vectors of a message."""
-        along, about = self.vectors(message)
-        zero = self.nan_is_zero
+        along, about = attrgetter(*map(str.lower, self.words))(
+            getattr(message, self.field)
+        )
+        zero = self._is(ACCEPTS_NAN, otherwise=False)
         return vector_of(along, nan_is_zero=zero), vector_of(about, nan_is_zero=zero)
 
-    def draw_kept(self, kept: Sequence[tuple[Any, Matrix]]) -> None:
+    def draw_kept(self, kept: Sequence[Taken[Vectors]]) -> None:
         """Draw arrows and circles."""
         along, about = (self._look(word) for word in self.words)
         solids: list[Solid] = []
         rings: list[Ring] = []
-        for (first, second), T in kept:
+        for one in kept:
+            (first, second), T = one.read, one.T_fixed_frame
             solids += arrow_of(first, along, T)
             solids += arrow_of(second, about, T)
             rings += ring_of(second, about, T)
         self._node.draw(rings, 0.05 * about.width, solids)
 
-    def placed(self) -> Iterator[Placed]:
-        """Yield the arrows and circles, which cannot be selected, as in RViz."""
-        yield from self._node.placed(HERE)
+    def property_changed(self, path: str) -> None:
+        """A property has a new value; what NaN means is decided once a message."""
+        if self.shown and path == ACCEPTS_NAN.name:
+            self.clear()
+        super().property_changed(path)
 
-    def remove(self) -> None:
-        """Take all arrows out of the scene."""
-        self._node.remove()
+    def _is(self, switch: BoolProperty, *, otherwise: bool) -> bool:
+        """Return the value of a switch; of displays without it another one."""
+        has_it = switch in self.properties
+        return bool(self.config.get(switch.name)) if has_it else otherwise
 
     def _look(self, word: str) -> VectorLook:
         get = self.config.get
@@ -165,7 +163,7 @@ class VectorsDisplay(KeptReadingsDisplay):
             min(max(float(get("Alpha")), 0.0), 1.0),
             float(get(f"{word} Arrow Scale")),
             float(get("Arrow Width")),
-            self.hides_small,
+            self._is(HIDES, otherwise=True),
         )
 
 
@@ -213,3 +211,33 @@ def ring_of(vector: Vector3, look: VectorLook, T_fixed_frame: Matrix) -> Sequenc
             look.alpha,
         ),
     )
+
+
+class AccelStampedDisplay(VectorsDisplay):
+    """The linear and the angular part of geometry_msgs/AccelStamped."""
+
+    kind = "rviz_default_plugins/AccelStamped"
+    help = "An acceleration as arrows."
+    meanings = frozenset({Meaning.ACCELERATION})
+    words, field = ("Linear", "Angular"), "accel"
+    properties = (topic_property(), *vector_properties(*words), HIDES)
+
+
+class TwistStampedDisplay(VectorsDisplay):
+    """The linear and the angular part of geometry_msgs/TwistStamped."""
+
+    kind = "rviz_default_plugins/TwistStamped"
+    help = "A velocity as arrows."
+    meanings = frozenset({Meaning.VELOCITY})
+    words, field = ("Linear", "Angular"), "twist"
+    properties = (topic_property(), *vector_properties(*words), HIDES)
+
+
+class WrenchDisplay(VectorsDisplay):
+    """The force and the torque of geometry_msgs/WrenchStamped."""
+
+    kind = "rviz_default_plugins/Wrench"
+    help = "A force and a torque as arrows."
+    meanings = frozenset({Meaning.FORCE})
+    words, field = ("Force", "Torque"), "wrench"
+    properties = (topic_property(), ACCEPTS_NAN, *vector_properties(*words))

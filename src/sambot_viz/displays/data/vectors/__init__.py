@@ -1,1 +1,0 @@
-"""Displays of two vectors at a frame: forces, velocities and accelerations."""
