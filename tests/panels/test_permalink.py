@@ -16,7 +16,7 @@ from sambot_viz.panels.joints.joints import JointsPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.rows.row import Answer
-from sambot_viz.panels.sources.player import PlayerPanel
+from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
@@ -34,8 +34,8 @@ class Links:
     def __init__(self, session: Session, client: Client, joints: bool = True) -> None:
         self.session, self.client = session, client
         panels: list[Panel] = [panel_of(JointsPanel, session)] if joints else []
-        if session.data is not None and session.data.player is not None:
-            panels.append(PlayerPanel(session.data.player, "a recording"))
+        if session.data is not None:
+            panels.append(SourcePanel(session.data))
         self.panel = panel_of(
             PermalinkPanel,
             session,

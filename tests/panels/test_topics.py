@@ -19,7 +19,7 @@ from sambot_viz import Visualizer, bundled
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.sources.topics import MOST_SHOWN, TopicsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.data import live_topics
+from sambot_viz.session.data import source_topics
 from sambot_viz.session.signals import connect
 
 
@@ -46,8 +46,7 @@ class Opened:
 
     def look(self) -> None:
         """Open the panel, and look at all messages at once."""
-        assert self.data.topics.recorded is not None
-        survey = self.data.topics.recorded._survey  # pyright: ignore[reportPrivateUsage]
+        survey = self.data.topics._survey  # pyright: ignore[reportPrivateUsage]
         with self.session.lock:
             survey.finish()
         self.run("topics/show", True)
@@ -290,7 +289,7 @@ def test_large_messages_come_when_their_row_is_chosen(
 def test_why_nothing_of_a_live_topic_is_seen(
     live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(live_topics, "SILENT_AFTER", 0.0)
+    monkeypatch.setattr(source_topics, "SILENT_AFTER", 0.0)
     peer.advertise("/silent")
     peer.advertise("/odd", schema="nobody_msgs/msg/Nothing")
     live.look()
@@ -317,7 +316,7 @@ def test_why_nothing_of_a_live_topic_is_seen(
 def test_while_the_connection_is_lost_topics_are_not_to_blame(
     live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(live_topics, "SILENT_AFTER", 0.0)
+    monkeypatch.setattr(source_topics, "SILENT_AFTER", 0.0)
     peer.advertise("/silent")
     live.look()
     live.until_shown(lambda shown: "has come yet" in shown["topic:/silent/reason"])
@@ -329,7 +328,7 @@ def test_while_the_connection_is_lost_topics_are_not_to_blame(
 def test_however_many_look_a_topic_is_looked_at_once_a_second(
     live: LiveOpened, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    topics, asked = live.data.topics.live, list[str]()
+    topics, asked = live.data.topics, list[str]()
     assert topics is not None
     live.look()
     scene = live.session.scene

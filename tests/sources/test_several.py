@@ -14,6 +14,7 @@ from robot_peer import RobotPeer, square_peer
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
+from sambot_viz.panels.sources.source import SourcePanel
 
 NS = 10**9
 
@@ -96,6 +97,13 @@ def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
         assert x(viz, "old/base_link") == 2.0
         # A jump of the recording is none of the robot, which has said nothing since.
         assert x(viz, "base_link") == pytest.approx(1.0, abs=0.03)
+        # What can seek is played, and of the robot is told how it is.
+        panel = SourcePanel(session.data)
+        assert [row.id for row in panel.rows()][:2] == ["player/time", "player/playing"]
+        told = {one.id: one.value for one in panel.data()}
+        assert told["player/name"] == "before"
+        assert told["source/status"]["connected"]
+        assert panel.values()["player/time"] == 2.0
         # The robot goes on by itself.
         eventually(lambda: is_at(0.0, peer, 14.0, viz, "base_link"))
         assert x(viz, "old/base_link") == 2.0

@@ -21,7 +21,6 @@ from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
-from sambot_viz.panels.sources.player import PlayerPanel
 from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
@@ -89,11 +88,8 @@ class Window:
                 remake,
             ),
         ]
-        data = session.data
-        if data is not None and data.player is not None:
-            panels.append(PlayerPanel(data.player, data.name))
-        if data is not None and data.moved_by.can("clock"):
-            panels.append(SourcePanel(data, not session.private))
+        if session.data is not None:
+            panels.append(SourcePanel(session.data, not session.private))
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [

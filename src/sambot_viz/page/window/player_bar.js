@@ -84,13 +84,14 @@ export const play = () => send("player/playing", !rows.value("player/playing"));
 /** @param {boolean} back */
 export const step = (back) => act("player/step", [back]);
 
+/** A line for each thing that sources can: what seeks is played, of live robots is told how they are. */
 export function PlayerBar() {
-  const time = useRow("player/time");
-  const source = useData("source/status");
-  if (source) return html`<${Source} ...${source} />`;
-  if (!time) return null;
-  return html`<section class="player-bar" aria-label="Player"><${Controls} time=${time} />
-  </section>`;
+  const [time, source] = [useRow("player/time"), useData("source/status")];
+  if (!time && !source) return null;
+  return html`<div class="bars">
+    ${time && html`<section class="player-bar" aria-label="Player"><${Controls} time=${time} /></section>`}
+    ${source && html`<${Source} ...${source} />`}
+  </div>`;
 }
 
 /** @param {number} bytes */

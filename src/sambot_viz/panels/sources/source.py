@@ -1,27 +1,34 @@
-"""How the connection to a live robot is, for the line below the view."""
+"""The line below the view: the time of what can be played, and how live robots are."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
-from sambot_viz.panels.command import command
+from sambot_viz.panels.command import FLAG, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.rows.row import Data, Json
+from sambot_viz.panels.rows.row import Data, Json, Row
+from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.signals import Signal
 from sambot_viz.topics.live_reasons import lagging
 
-CLOCK = "source/clock"
+TIME, PLAYING, CLOCK = "player/time", "player/playing", "source/clock"
+ANY = "any"
+"""Instead of a topic: messages of all topics that are shown."""
+MOST_TOPICS = 300
+"""So many topics are offered to step by."""
 
 
 class SourcePanel(Panel):
-    """Says what is connected, missing, lost and recorded; starts and stops recordings.
+    """Shows what the sources can: those that seek are played, those with a clock told.
+
+    Who has control plays, stops, jumps and records for all.
 
     Args:
-        data: the messages of a live robot.
-        offers_recording: whether users of this session may record, if the command
-            line has named a folder for it.
+        data: the messages of the sources.
+        offers_recording: whether users of this session may record a live robot, if the
+            command line has named a folder for it.
     """
 
     name = "source"
@@ -29,12 +36,121 @@ class SourcePanel(Panel):
 
     def __init__(self, data: RobotData, offers_recording: bool = False) -> None:
         self.remade_by = (data.status,)
+        self.changed_by = () if data.player is None else (data.player.playback,)
         self._data = data
+        self._player = data.player
+        self._is_live = data.source.live is not None
         self._offers_recording = offers_recording
         self._recorder = data.moved_by.recorder
+        self._topic = ANY
+
+    @property
+    def moved_by(self) -> Sequence[Signal[Any]]:
+        """The steps of the player; the clock, when a page cannot know it by itself."""
+        steps = () if self._player is None else (self._player.stepped,)
+        return (*steps, self._data.clock.state) if self._is_live else steps
 
     def data(self) -> Sequence[Data]:
-        """Return the sentence of the source, and whether messages can come."""
+        """Return name and begin [s since 1970] of what is played; how robots are."""
+        found: list[Data] = []
+        if (player := self._player) is not None:
+            found.append(Data("player/name", player.source.uri))
+            found.append(Data("player/begin", player.start_ns * 1e-9))
+        if self._is_live:
+            found += [Data("source/status", self._status()), Data(CLOCK, self._clock())]
+        return found
+
+    def rows(self) -> Sequence[Row]:
+        """Return what can be set: the time from the begin [s], playing, rate, loop."""
+        return () if self._player is None else self._controls(self._player)
+
+    def changed_rows(self) -> Sequence[Row]:
+        """Return all: there are a few."""
+        return self.rows()
+
+    def values(self) -> dict[str, Json]:
+        """Return the time of what is played, and of the robot."""
+        times: dict[str, Json] = {}
+        if self._player is not None:
+            times[TIME] = _time(self._player)
+        if self._is_live:
+            times[CLOCK] = self._clock()
+        return times
+
+    # What can seek
+
+    def _controls(self, player: Player) -> Sequence[Row]:
+        playback = player.playback.value
+        topics = [ANY, *sorted(player.recording.topics)[:MOST_TOPICS]]
+        return [
+            Row(
+                TIME,
+                "",
+                "slider",
+                "Time",
+                value=_time(player),
+                unit="s",
+                least=0.0,
+                most=(player.end_ns - player.start_ns) / 1e9,
+                help="Time from the first message; drag it to go there.",
+                set=lambda seconds: player.jump(player.start_ns + round(seconds * 1e9)),
+            ),
+            Row(
+                PLAYING,
+                "",
+                "bool",
+                "Playing",
+                value=playback.playing,
+                help="Space plays and pauses.",
+                set=lambda playing: player.play() if playing else player.pause(),
+            ),
+            Row(
+                "player/rate",
+                "",
+                "float",
+                "Rate",
+                value=playback.rate,
+                least=SLOWEST,
+                most=FASTEST,
+                help="How much faster than it was recorded.",
+                set=player.set_rate,
+            ),
+            Row(
+                "player/loop",
+                "",
+                "bool",
+                "Loop",
+                value=playback.loop,
+                help="Begin again at the end.",
+                set=player.set_loop,
+            ),
+            Row(
+                "player/topic",
+                "",
+                "enum",
+                "Step to messages of",
+                value=self._topic,
+                options=topics,
+                help="Whose messages the steps go to: all that are shown, or one.",
+                set=self._set_topic,
+            ),
+        ]
+
+    def _set_topic(self, topic: str) -> None:
+        self._topic = topic
+        if self._player is not None:
+            self._player.playback.touch()
+
+    @command("player/step", FLAG)
+    def _step(self, back: bool) -> None:
+        if self._player is not None:
+            topic = None if self._topic == ANY else self._topic
+            self._player.step(topic, back=back)
+
+    # What has a clock
+
+    def _status(self) -> Json:
+        """Return the sentence of the robots, and whether messages can come."""
         robot = self._data.moved_by
         status, sentence = robot.source.status, robot.sentence
         if status.retry_s is not None and not status.is_connected:
@@ -44,27 +160,13 @@ class SourcePanel(Panel):
         behind = lagging(status.dropped + self._data.inbox.lost, "this computer")
         if behind is not None:
             sentence += f"; {behind.text}"
-        return [
-            Data(
-                "source/status",
-                {
-                    "name": robot.name,
-                    "connected": status.is_connected,
-                    "sentence": sentence,
-                    "recording": self._recording(),
-                },
-            ),
-            Data(CLOCK, self._clock()),
-        ]
-
-    @property
-    def moved_by(self) -> Sequence[Signal[Any]]:
-        """The clock of the robot, when a page cannot know it by itself."""
-        return (self._data.clock.state,)
-
-    def values(self) -> dict[str, Json]:
-        """Return the time of the robot."""
-        return {CLOCK: self._clock()}
+        live = self._data.source.live
+        return {
+            "name": robot.name if live is None else live.uri,
+            "connected": status.is_connected,
+            "sentence": sentence,
+            "recording": self._recording(),
+        }
 
     def _clock(self) -> Json:
         state = self._data.clock.state.value
@@ -84,7 +186,9 @@ class SourcePanel(Panel):
         }
 
     def offers(self, command_id: str) -> bool:
-        """Offer to begin, or to end, what the command line allows to record."""
+        """Offer to step, and to begin or end what the command line allows to record."""
+        if command_id == "player/step":
+            return self._player is not None
         recorder = self._recorder
         if recorder is None or recorder.folder is None or not self._offers_recording:
             return False
@@ -101,3 +205,8 @@ class SourcePanel(Panel):
     def _stop(self) -> None:
         if self._recorder is not None:
             self._recorder.stop(wait=False)
+
+
+def _time(player: Player) -> float:
+    # As exact as it was set, for permalinks of single messages.
+    return (player.time_ns - player.start_ns) / 1e9

@@ -14,10 +14,8 @@ from sambot_viz.session.data.display_topics import DisplayTopics
 from sambot_viz.session.data.feed import Feed
 from sambot_viz.session.data.inbox import Inbox
 from sambot_viz.session.data.live_clock import LiveClock
-from sambot_viz.session.data.live_topics import FaultOf, LiveTopics
 from sambot_viz.session.data.player import Player
-from sambot_viz.session.data.recorded_topics import RecordedTopics
-from sambot_viz.session.data.source_topics import SourceTopics
+from sambot_viz.session.data.source_topics import FaultOf, SourceTopics
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
@@ -100,13 +98,9 @@ class RobotData:
         self.messages = DisplayTopics(
             moved_by, self._feed, self.inbox.wake, worker.report
         )
-        recorded = live = None
-        if self.player is not None:
-            tree = frames.tree
-            recorded = RecordedTopics(moved_by, tree, self.player, change, worker)
-        if source.live is not None:
-            live = LiveTopics(moved_by, fault_of, change, worker)
-        self.topics = SourceTopics(recorded, live)
+        self.topics = SourceTopics(
+            moved_by, frames.tree, self.player, fault_of, change, worker
+        )
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
         frames.prefix = lambda robot: moved_by.prefix_of(robot, self.transforms.pairs())

@@ -10,40 +10,47 @@ import pytest
 from inside import session_of
 
 from sambot_viz import Visualizer
-from sambot_viz.panels.sources.player import PlayerPanel
+from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.session.data.player import Player
+from sambot_viz.session.data.robot_data import RobotData
 
 
 @pytest.fixture
-def player(repository: Path) -> Iterator[Player]:
+def data(repository: Path) -> Iterator[RobotData]:
     path = repository / "assets" / "square.mcap"
     with Visualizer(path, port=0) as viz:
         data = session_of(viz).data
         assert data is not None
         data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
-        yield data.player
+        yield data
 
 
 @pytest.fixture
-def panel(player: Player) -> PlayerPanel:
-    return PlayerPanel(player, "square.mcap")
+def player(data: RobotData) -> Player:
+    assert data.player is not None
+    return data.player
 
 
-def value(panel: PlayerPanel, row_id: str) -> Any:
+@pytest.fixture
+def panel(data: RobotData) -> SourcePanel:
+    return SourcePanel(data)
+
+
+def value(panel: SourcePanel, row_id: str) -> Any:
     return next(row.value for row in panel.rows() if row.id == row_id)
 
 
-def put(panel: PlayerPanel, row_id: str, value: Any) -> None:
+def put(panel: SourcePanel, row_id: str, value: Any) -> None:
     row = next(row for row in panel.rows() if row.id == row_id)
     assert row.set is not None
     row.set(value)
 
 
-def run(panel: PlayerPanel, command_id: str, *arguments: Any) -> None:
+def run(panel: SourcePanel, command_id: str, *arguments: Any) -> None:
     next(c for c in panel.commands() if c.id == command_id).run(*arguments)
 
 
-def test_the_time_is_from_the_first_message(panel: PlayerPanel, player: Player) -> None:
+def test_the_time_is_from_the_first_message(panel: SourcePanel, player: Player) -> None:
     assert value(panel, "player/time") == 0.0
     put(panel, "player/time", 5.5)
     assert value(panel, "player/time") == 5.5
@@ -51,7 +58,7 @@ def test_the_time_is_from_the_first_message(panel: PlayerPanel, player: Player) 
     assert panel.values() == {"player/time": 5.5}
 
 
-def test_the_controls_play_and_stop(panel: PlayerPanel, player: Player) -> None:
+def test_the_controls_play_and_stop(panel: SourcePanel, player: Player) -> None:
     put(panel, "player/rate", 2.0)
     put(panel, "player/loop", True)
     put(panel, "player/playing", True)
@@ -61,7 +68,7 @@ def test_the_controls_play_and_stop(panel: PlayerPanel, player: Player) -> None:
     assert not player.playback.value.playing
 
 
-def test_steps_go_to_messages_of_the_chosen_topic(panel: PlayerPanel) -> None:
+def test_steps_go_to_messages_of_the_chosen_topic(panel: SourcePanel) -> None:
     put(panel, "player/topic", "/scan")
     assert value(panel, "player/topic") == "/scan"
     run(panel, "player/step", False)
@@ -72,6 +79,6 @@ def test_steps_go_to_messages_of_the_chosen_topic(panel: PlayerPanel) -> None:
     assert value(panel, "player/time") == first
 
 
-def test_only_who_has_control_plays(panel: PlayerPanel) -> None:
+def test_only_who_has_control_plays(panel: SourcePanel) -> None:
     assert not any(row.client_local for row in panel.rows())
     assert not any(one.client_local for one in panel.commands())

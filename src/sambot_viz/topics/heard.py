@@ -1,0 +1,136 @@
+"""What has come of a topic since somebody listens to it, and how often.
+
+No clock is asked here. Times are those of the source, which may be of a simulation, be
+paused, and go back.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics import reasons
+from sambot_viz.topics.contents import content_reason
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.reasons import TopicReason
+
+WINDOW_NS = 5_000_000_000
+"""The rate is that of the last seconds [ns]."""
+_MOST_TIMES = 512
+"""So many of the last messages count at most: half a second at 1 kHz."""
+_SILENCE = 3
+"""So many periods without a message, and a topic is slower than it was."""
+
+
+class Heard:
+    """Counts the messages of a topic, and keeps the last one.
+
+    Args:
+        since: when somebody began to listen, by the clock of the session [s].
+
+    Attributes:
+        since: as given.
+        count: so many messages have come.
+        last: the newest message, None before the first one.
+        reason: what is wrong with the message that was looked at last.
+        frame: of its header; "" without.
+    """
+
+    def __init__(self, since: float = 0.0) -> None:
+        self.since = since
+        self.count = 0
+        self.last: Recorded | None = None
+        self.reason: TopicReason | None = None
+        self.frame = ""
+        self._looked: Recorded | None = None
+        self._times: deque[int] = deque(maxlen=_MOST_TIMES)
+        # The thread of the source adds messages.
+        self._lock = threading.Lock()
+
+    def take(self, message: Recorded) -> None:
+        """Take a message that has come; one that is older begins a new run."""
+        with self._lock:
+            if self._times and message.log_ns < self._times[-1]:
+                self._times.clear()
+            self._times.append(message.log_ns)
+        self.keep(message)
+
+    def keep(self, message: Recorded) -> None:
+        """Take a message that came before anybody listened: it has no part in rates."""
+        self.count += 1
+        self.last = message
+
+    def look(self, decoding: Decoding, is_placed: bool) -> None:
+        """Look at the last message, unless that has been done.
+
+        Args:
+            decoding: decodes it.
+            is_placed: whether it is drawn in the frame of its header.
+        """
+        message = self.last
+        if message is None or message is self._looked:
+            return
+        self._looked, self.reason, self.frame = message, None, ""
+        try:
+            decoded = decoding.decode(message)
+        except DecodeError as error:
+            self.reason = reasons.not_decodable(
+                1, 1, str(error), is_all=False, is_live=True
+            )
+            return
+        header = getattr(decoded, "header", None)
+        if header is not None and is_placed:
+            self.frame = plain_name(str(getattr(header, "frame_id", "")))
+        self.reason = content_reason(decoded)
+
+    @property
+    def period(self) -> float | None:
+        """The mean time between the last messages [s]; None with less than two."""
+        times = self._known()
+        if len(times) < 2:
+            return None
+        return (times[-1] - times[0]) / (len(times) - 1) / 1e9
+
+    def age(self, now_ns: int) -> float | None:
+        """Return how long ago the last message came [s]; None before the first.
+
+        Args:
+            now_ns: the time of the source [ns].
+        """
+        if self.last is None:
+            return None
+        # Clocks that are told from time to time are a little behind their messages.
+        return max(0, now_ns - self.last.log_ns) / 1e9
+
+    def rate(self, now_ns: int) -> float | None:
+        """Return how many messages come in a second.
+
+        Args:
+            now_ns: the time of the source [ns].
+
+        Returns:
+            The rate in the last seconds [1/s], 0.0 when there was silence, None when
+            fewer than two messages have come at different times.
+        """
+        times = self._known()
+        if len(times) < 2 or times[0] == times[-1]:
+            return None
+        recent = [time for time in times if now_ns - time <= WINDOW_NS]
+        if not recent:
+            return 0.0
+        # The last message before the window bounds the first period.
+        before = len(times) - len(recent) - 1
+        first = times[before] if before >= 0 else recent[0]
+        periods = len(recent) - (before < 0)
+        period = (recent[-1] - first) / periods if periods else 0.0
+        end = recent[-1]
+        if now_ns - end > _SILENCE * period:
+            end = now_ns
+        return periods * 1e9 / (end - first) if end > first else None
+
+    def _known(self) -> list[int]:
+        with self._lock:
+            return list(self._times)
