@@ -102,6 +102,36 @@ def test_a_page_that_waited_shows_the_robot_as_a_later_one_does(
         eventually(lambda: looks(early) == pytest.approx(looks(late), abs=0.1))
 
 
+def test_a_description_that_comes_again_leaves_the_camera_where_it_is(
+    peer: RobotPeer, protocol: Callable[..., ProtocolClient]
+) -> None:
+    text = expand(bundled.assets_folder() / "sam_bot.urdf.xacro")
+    mast = (
+        '<link name="mast"><visual><geometry><box size="1 1 9"/></geometry></visual>'
+        '</link><joint name="mast_joint" type="fixed"><parent link="base_link"/>'
+        '<child link="mast"/></joint></robot>'
+    )
+    with Visualizer(source=peer.uri, port=0) as viz:
+        session = session_of(viz)
+        page = protocol(viz.viser.get_port(), camera=False)
+        page.send("ViewerCameraMessage", **{**CAMERA, "position": VISER_FIRST_POSITION})
+        eventually(lambda: "/tf" in peer.subscribed())
+        peer.play(1.0)
+        eventually(lambda: len(session.clients.all) == 1)
+        (client,) = session.clients.all.values()
+        eventually(lambda: 0.5 < client.view.values["Distance"] < 2.0)
+        eventually(lambda: client.view.values["Target Frame"] == "base_link")
+        eventually(lambda: session.scene.context.assets.progress is None)
+        wait_for_workers()
+        seen = looks(client)
+
+        peer.publish("/robot_description", text.replace("</robot>", mast))
+        eventually(lambda: "mast" in session.robot.model.links)
+        wait_for_workers()
+
+        assert looks(client) == seen
+
+
 def test_a_page_that_only_waited_has_no_view_of_its_own_when_it_comes_back(
     peer: RobotPeer, protocol: Callable[..., ProtocolClient]
 ) -> None:

@@ -68,6 +68,8 @@ class ShownInputs:
         self._stand_in_frame = document.global_options.get("Fixed Frame")
         # Of a live robot that had not said what it looks like.
         self._switched_off: list[DisplayConfig] = []
+        # Root and top frame of the live robot that config and cameras were fitted to.
+        self._ends_of_live: tuple[str, str] | None = None
         self._reloader: Reloader | None = None
         self._live_model: LiveModel | None = None
         models = ModelThread(inputs.load, options.package_path, self._load_described)
@@ -193,7 +195,9 @@ class ShownInputs:
         live = self._inputs.live
         topics = RobotTopics() if live is None else live.topics
         sessions.set_reload_problems("model", (*missing, *self._start_problems(robot)))
-        if self._stand_in is self.configs.current:
+        # One that describes itself again leaves what users have chosen since.
+        is_another, self._ends_of_live = (root, top) != self._ends_of_live, (root, top)
+        if is_another and self._stand_in is self.configs.current:
             for session in sessions.all():
                 shown = session.document
                 with session.change(shown.options, shown.displays, shown.views):
@@ -204,7 +208,7 @@ class ShownInputs:
             _name_description(self.configs.current, topics)
         sessions.show_robot(robot)
         # Pages that were opened before it came look at where nothing was.
-        for session in sessions.all():
+        for session in sessions.all() if is_another else ():
             with session.change():
                 session.clients.show_first_view()
 
