@@ -714,7 +714,7 @@ def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(
     tmp_path: Path,
 ) -> None:
     names = ("left", "right", "third", "fourth")
-    calls = "".join(f'<xacro:finger name="{name}"/>' for name in names)
+    calls = "".join(f'\n<xacro:finger name="{name}"/>' for name in names)
     path = tmp_path / "hand.urdf.xacro"
     path.write_text(
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
@@ -725,6 +725,9 @@ def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(
         f'<child link="${{name}}"/></joint></xacro:macro>{calls}</robot>'
     )
     (problem,) = (p for p in check(path) if p.code == "inertia-impossible")
-    assert "links left, right, third and fourth: " in problem.message
+    assert problem.line == 1
+    assert problem.message.startswith(
+        "links left (line 2), right (line 3), third (line 4) and fourth (line 5): "
+    )
     assert 'ixy="1e-06" ixz="1e-06" iyz="1e-06" are too large' in problem.message
     assert problem.hint.startswith("write 0 for ixy, ixz and iyz")

@@ -64,16 +64,17 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
 
 def impossible_inertia(subject: Subject) -> Iterator[Problem]:
     """Report a mass or inertia that no real body has; calls of one macro together."""
-    found: dict[Place | None, list[str]] = {}
+    found: dict[Place | None, list[tuple[str, Place | None]]] = {}
     reasons: dict[Place | None, tuple[str, str]] = {}
     for link in subject.robot.links.values():
         reason = None if link.inertial is None else _why_impossible(link.inertial)
         if link.inertial is not None and reason is not None:
             place = link.inertial.place or link.place
-            found.setdefault(place, []).append(link.name)
+            found.setdefault(place, []).append((link.name, link.inertial.call))
             reasons.setdefault(place, reason)
-    for place, names in found.items():
+    for place, links in found.items():
         reason, hint = reasons[place]
+        names = [f"{name}{_called_at(call, place)}" for name, call in links]
         yield Problem.at(
             place,
             "warning",
@@ -82,6 +83,10 @@ def impossible_inertia(subject: Subject) -> Iterator[Problem]:
             "a simulator refuses or shakes it",
             hint,
         )
+
+
+def _called_at(call: Place | None, here: Place | None) -> str:
+    return "" if call is None else f" ({where(call, here)})"
 
 
 _OF_THE_SHAPE = (

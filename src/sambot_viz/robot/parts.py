@@ -131,7 +131,11 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """Mass [kg], pose of the centre of mass (T_link_inertia), inertia [kg m²]."""
+    """Mass [kg], pose of the centre of mass (T_link_inertia), inertia [kg m²].
+
+    Attributes:
+        call: the call of the macro that has made it, or None.
+    """
 
     mass: float
     origin: Origin
@@ -142,6 +146,7 @@ class Inertial:
     iyz: float
     izz: float
     place: Place | None = field(default=None, compare=False)
+    call: Place | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
