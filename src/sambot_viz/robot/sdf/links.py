@@ -153,7 +153,9 @@ class SdfLinkReader:
         mass = number_in(element, "mass", 1.0)
         self._check_inertia(link, element, mass, moments)
         T = T_holder_model @ T_model_link @ pose_of(element, self._findings)
-        return Inertial(mass, origin_of(T), *moments, element.place, element.call)
+        return Inertial(
+            mass, origin_of(T), *moments, place=element.place, call=element.call
+        )
 
     def _check_inertia(
         self, link: Frame, element: Element, mass: float, moments: list[float]

@@ -93,7 +93,7 @@ class LinkReader:
                 inertia,
             )
         moments = (reader.number(inertia, key) for key in _INERTIA)
-        return Inertial(value, origin, *moments, element.place, element.call)
+        return Inertial(value, origin, *moments, place=element.place, call=element.call)
 
     def _child(
         self, parent: Element, tag: str, example: str, reader: AttributeReader
