@@ -210,7 +210,7 @@ def odometry(x: float, w: float = 1.0) -> Make:
 
 
 def kept(shown: Any) -> int:
-    return len(shown.display._kept)  # pyright: ignore[reportPrivateUsage]
+    return len(shown.display.kept)
 
 
 def test_odometry_keeps_poses_that_are_apart(messages: Open) -> None:

@@ -92,6 +92,5 @@ class HeldMessages:
                 kept.append(one)
             elif last_only:
                 break
-        size = most if kept else 0
-        self.waiting = deque(reversed(kept[:size]))
-        return kept[size:]
+        self.waiting = deque(reversed(kept[:most]))
+        return kept[most:]

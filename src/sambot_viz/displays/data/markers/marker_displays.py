@@ -271,3 +271,8 @@ class MarkerArrayDisplay(MarkerDisplay):
     def other_topics(self) -> Sequence[str]:
         """Return nothing: arrays are what its topic has."""
         return ()
+
+    @property
+    def most_held(self) -> int:
+        """Return 0: no array waits for a transform."""
+        return 0
