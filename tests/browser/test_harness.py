@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 import viser
+from ax_tree import rows_of
+from desk import Desk
 from patience import until
 from viewer_page import ViewerPage
 
@@ -80,3 +82,14 @@ def test_a_phone_has_fingers_and_a_narrow_page(viewer: ViewerPage) -> None:
     viewer.wait_for("innerWidth === 390 && innerHeight === 844")
     assert viewer.page.evaluate("navigator.maxTouchPoints") > 0
     until(lambda: viewer.screenshot().shape == (844, 390, 4))
+
+
+def test_a_role_is_looked_for_as_in_the_whole_page(sit: Callable[..., Desk]) -> None:
+    user = sit("S").user
+    whole = user.see().look_inside()
+    for role in {thing.role for thing in whole.walk()}:
+        found = [(t.node, t.name, t.value, t.states) for t in user.see().all(role)]
+        wanted = [(t.node, t.name, t.value, t.states) for t in whole.all(role)]
+        assert found == wanted, role
+    for path, row in rows_of(user.see().one("treegrid", "Displays")):
+        assert path[-1] == row.all("gridcell")[0].name

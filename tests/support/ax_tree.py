@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from browser_input import Caller
@@ -18,14 +18,18 @@ Role = str | re.Pattern[str]
 class Thing:
     """One thing of the page, as it was when it was looked at.
 
+    What is in it is asked for when it is needed, and then only the role that is wanted:
+    the whole of a page takes the browser and Python five times as long.
+
     Attributes:
         role: its ARIA role, such as "button".
         name: its accessible name.
         value: what it holds; None when it holds nothing.
         states: "checked", "expanded", "pressed", "selected", "disabled", "level", …
         node: the browser's number of the element.
-        parent: what it is in.
-        children: what is in it.
+        number: that of the thing in the tree.
+        around: the number of the thing that it is in.
+        page: where it is.
     """
 
     role: str
@@ -33,8 +37,37 @@ class Thing:
     value: Any
     states: dict[str, Any]
     node: int
-    parent: Thing | None = None
-    children: list[Thing] = field(default_factory=list["Thing"])
+    number: str
+    around: str
+    page: Caller
+    _inside: list[Thing] | None = None
+
+    def look_inside(self) -> Thing:
+        """Get all that is in it as it is now; returns itself."""
+        nodes = _nodes(self.page, self.node)
+        by_id = {node["nodeId"]: node for node in nodes}
+        self._inside = []
+        left = [(child, self) for child in _reversed_ids(nodes[0])]
+        while left:
+            node_id, parent = left.pop()
+            node = by_id.get(node_id)
+            if node is None:
+                continue
+            if not node.get("ignored"):
+                thing = _thing(node, self.page)
+                thing._inside = []
+                parent.children.append(thing)
+                parent = thing
+            left += [(child, parent) for child in _reversed_ids(node)]
+        return self
+
+    @property
+    def children(self) -> list[Thing]:
+        """What is in it."""
+        if self._inside is None:
+            self.look_inside()
+        assert self._inside is not None
+        return self._inside
 
     def walk(self) -> Iterator[Thing]:
         """Itself and all that is in it, in the order of the page."""
@@ -44,7 +77,12 @@ class Thing:
 
     def all(self, role: Role, name: Name = None) -> list[Thing]:
         """What is in it of a role, with a name."""
-        return [t for t in self.walk() if fits(t.role, role) and fits(t.name, name)]
+        if self._inside is None and isinstance(role, str):
+            nodes = _nodes(self.page, self.node, role)
+            found = [_thing(n, self.page) for n in nodes if not n.get("ignored")]
+        else:
+            found = [t for t in self.walk() if fits(t.role, role)]
+        return [t for t in found if fits(t.name, name)]
 
     def one(self, role: Role, name: Name = None) -> Thing:
         """The only thing in it of a role, with a name.
@@ -52,10 +90,11 @@ class Thing:
         Raises:
             AssertionError: there is none, or more than one.
         """
-        found = self.all(role, name)
+        of_role = self.all(role)
+        found = [t for t in of_role if fits(t.name, name)]
         if len(found) != 1:
             shown = getattr(name, "pattern", name)
-            known = sorted({t.name for t in self.walk() if fits(t.role, role)})
+            known = sorted({t.name for t in of_role})
             raise AssertionError(
                 f"{len(found)} things of role {role} named {shown!r} in "
                 f"{self.role} {self.name!r}; there are {known}"
@@ -87,47 +126,45 @@ def fits(name: str, wanted: Name) -> bool:
 
 
 def look(page: Caller) -> Thing:
-    """All that a page shows now; what a screen reader passes over is left out."""
-    nodes: list[dict[str, Any]] = page.call("Accessibility.getFullAXTree")["nodes"]
-    by_id = {node["nodeId"]: node for node in nodes}
-    root = _thing(nodes[0])
-    left = [(child, root) for child in reversed(nodes[0].get("childIds", []))]
-    while left:
-        node_id, parent = left.pop()
-        node = by_id.get(node_id)
-        if node is None:
-            continue
-        if not node.get("ignored"):
-            thing = _thing(node)
-            thing.parent = parent
-            parent.children.append(thing)
-            parent = thing
-        left += [(child, parent) for child in reversed(node.get("childIds", []))]
-    return root
+    """All that a page shows; what a screen reader passes over is left out."""
+    return _thing(page.call("Accessibility.getRootAXNode")["node"], page)
 
 
-def _thing(node: dict[str, Any]) -> Thing:
+def _nodes(page: Caller, node: int, role: str = "") -> list[dict[str, Any]]:
+    """An element and what is in it, in the order of the page, or one role of it."""
+    asked = {"backendNodeId": node} | ({"role": role} if role else {})
+    return list(page.call("Accessibility.queryAXTree", asked)["nodes"])
+
+
+def _reversed_ids(node: dict[str, Any]) -> list[str]:
+    return list(reversed(node.get("childIds", [])))
+
+
+def _thing(node: dict[str, Any], page: Caller) -> Thing:
     return Thing(
         str(node.get("role", {}).get("value", "")),
         str(node.get("name", {}).get("value", "")),
         node.get("value", {}).get("value"),
         {p["name"]: p["value"].get("value") for p in node.get("properties", [])},
         int(node.get("backendDOMNodeId", 0)),
+        str(node["nodeId"]),
+        str(node.get("parentId", "")),
+        page,
     )
 
 
-def row_label(row: Thing) -> str:
-    """The name of a row of a tree grid: what is in its first cell."""
-    cells = row.all("gridcell")
-    return cells[0].name if cells else row.name
-
-
 def rows_of(grid: Thing) -> list[tuple[tuple[str, ...], Thing]]:
-    """The rows of a tree grid, each with its label behind those of the rows above."""
+    """The rows of a tree grid, each with its label behind those of the rows above.
+
+    The label is what its first cell says.
+    """
+    labels: dict[str, str] = {}
+    for cell in grid.all("gridcell"):
+        labels.setdefault(cell.around, cell.name)
     found: list[tuple[tuple[str, ...], Thing]] = []
     above: list[str] = []
     for row in grid.all("row"):
         del above[max(0, int(row.states.get("level", 1)) - 1) :]
-        above.append(row_label(row))
+        above.append(labels.get(row.number, row.name))
         found.append((tuple(above), row))
     return found

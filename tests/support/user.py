@@ -19,7 +19,7 @@ from contextlib import suppress
 from itertools import pairwise
 from typing import Any, TypeVar, cast
 
-from ax_tree import Name, Role, Thing, look, row_label, rows_of
+from ax_tree import Name, Role, Thing, look, rows_of
 from browser_input import Button, Point
 from patience import until
 from recorded_page import RecordedPage
@@ -29,6 +29,8 @@ from sambot_viz.export.devtools import BrowserError
 T = TypeVar("T")
 PATIENCE = 10.0
 """How long a user waits for something to appear [s]."""
+_LEAVES = ("button", "checkbox", "menuitem", "option", "slider", "tab", "textbox")
+"""Roles of things that nothing is looked for in."""
 _SLOP = 16.0
 """How far a finger goes before a browser scrolls [CSS pixels]."""
 
@@ -89,6 +91,7 @@ _MARKED = """function () {
   return this.type === "number"
     ? false : this.selectionEnd - this.selectionStart === this.value.length;
 }"""
+_HAS_FOCUS = "function () { return document.activeElement === this; }"
 _CUT_OFF = """function () {
   const element = this.nodeType === 3 ? this.parentElement : this;
   return element.scrollWidth > element.clientWidth + 1;
@@ -143,7 +146,8 @@ class User:
             thing = self.see()
             for around in inside:
                 thing = thing.one(*around)
-            return thing.one(role, name)
+            thing = thing.one(role, name)
+            return thing if role in _LEAVES else thing.look_inside()
 
         return self.until(found)
 
@@ -170,7 +174,7 @@ class User:
             rows = rows_of(self.see().one("treegrid", panel))
             fitting = [(path, row) for path, row in rows if _is_path(path, names)]
             if fitting:
-                return min(fitting, key=lambda found: len(found[0]))[1]
+                return min(fitting, key=lambda found: len(found[0]))[1].look_inside()
             if any(path[-1] == "" for path, _ in rows):
                 at = (at + 15) % len(rows)
                 self.go_to(rows[at][1])
@@ -181,7 +185,7 @@ class User:
 
     def rows(self, panel: str) -> list[str]:
         """The labels of the rows of a panel that are unfolded."""
-        return [row_label(row) for row in self.see().one("treegrid", panel).all("row")]
+        return [path[-1] for path, _ in rows_of(self.see().one("treegrid", panel))]
 
     def reads(self, text: str, timeout: float = PATIENCE) -> None:
         """Wait until the page shows a text."""
@@ -376,8 +380,7 @@ class User:
             return
         for _ in range(2):
             self.click_on(thing)
-            focused = [t.node for t in self.see().walk() if t.state("focused")]
-            if thing.node in focused:
+            if self._ask(thing, _HAS_FOCUS):
                 return
         raise AssertionError(f"{thing.role} {thing.name!r} does not get the keys")
 

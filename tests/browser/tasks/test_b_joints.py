@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from ax_tree import Thing, row_label
+from ax_tree import Thing, rows_of
 from desk import Desk
 from judge import changed, drawn_around, look_near
 from robots import LONG_NAME, SLIDE
@@ -212,8 +212,8 @@ def test_task_17_two_joints_of_a_humanoid(t: Desk) -> None:
     user = t.user
 
     def seen() -> list[str]:
-        rows = user.see().one("treegrid", "Joints").all("row")
-        return [row_label(r) for r in rows if r.all("slider") and user.can_see(r)]
+        rows = rows_of(user.see().one("treegrid", "Joints"))
+        return [p[-1] for p, r in rows if r.all("slider") and user.can_see(r)]
 
     user.until(lambda: len(seen()) >= 12)
     longest = row(t, "left_shoulder_pitch_joint")

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from ax_tree import Thing, row_label
+from ax_tree import Thing, rows_of
 from desk import Desk
 from judge import changed, corner, drawn, drawn_around, look_near
 
@@ -41,8 +41,7 @@ def names(desk: Desk) -> list[str]:
 def listed(desk: Desk) -> list[str]:
     """The displays in the order of the page."""
     grid = desk.user.see().one("treegrid", "Displays")
-    tops = [r for r in grid.all("row") if r.states.get("level") == 1]
-    labels = [row_label(r) for r in tops]
+    labels = [path[0] for path, _ in rows_of(grid) if len(path) == 1]
     return [label for label in labels if not label.startswith("Global")]
 
 
