@@ -109,7 +109,7 @@ def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
         if len(data) <= largest:
             return data
     raise FileTooLargeError(
-        errno.EFBIG, f"it has more than {largest / 2**20:.0f} MB", str(path)
+        errno.EFBIG, f"it has more than {largest:,} bytes", str(path)
     )
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import viser
 
+from sambot_viz import limits
 from sambot_viz.displays.grid import (
-    MOST_LINES,
     drawn_cells,
     grid_segments,
     line_count,
@@ -79,7 +79,9 @@ def test_a_grid_of_far_too_many_cells_is_drawn_with_fewer(
     cells: int, layers: int
 ) -> None:
     drawn = drawn_cells(cells, layers)
-    assert len(grid_segments(*drawn, 1.0)) == line_count(*drawn) <= MOST_LINES
+    assert (
+        len(grid_segments(*drawn, 1.0)) == line_count(*drawn) <= limits.GRID_LINES.value
+    )
     assert drawn[0] >= 20
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
+from lower_limit import lower
 from patience import patience
 from protocol_client import ProtocolClient
 
@@ -66,7 +67,7 @@ def test_while_a_page_is_made_the_loop_and_the_session_are_free(
 def test_a_page_that_is_too_large_is_not_sent(
     monkeypatch: pytest.MonkeyPatch, protocol: Callable[..., ProtocolClient]
 ) -> None:
-    monkeypatch.setattr(pages, "LARGEST", 1000)
+    lower(monkeypatch, "EXPORTED_PAGE", 1000)
     with Visualizer(port=0) as viz:
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from inside import session_of
+from lower_limit import lower
 from PIL import Image
 
 from sambot_viz import Visualizer, load_robot
-from sambot_viz.export import still_picture as module
 from sambot_viz.export.still_picture import SIZE, still_picture
 
 BOX = """<robot name="box"><link name="base"><visual>
@@ -59,5 +59,5 @@ def test_nothing_to_see_and_too_much_give_no_picture(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert shown('<robot name="r"><link name="a"/></robot>', tmp_path) is None
-    monkeypatch.setattr(module, "MOST_TRIANGLES", 11)
+    lower(monkeypatch, "NOTEBOOK_TRIANGLES", 11)
     assert shown(BOX, tmp_path) is None

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lower_limit import lower
 
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused, Transform
 from sambot_viz.frames import samples as samples_module
@@ -370,7 +371,7 @@ def test_three_hundred_frames_at_a_thousand_messages_a_second_are_cheap() -> Non
 
 
 def test_the_memory_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(samples_module, "MOST_POSES", 1000)
+    lower(monkeypatch, "POSES", 1000)
     kept = Samples(10 * SECOND)
     edges = tuple(("map", f"f{n}") for n in range(10))
     for step in range(3000):

@@ -15,7 +15,8 @@ from types import SimpleNamespace
 import pytest
 from patience import until
 
-from sambot_viz.jupyter.tile import LARGEST_MESSAGE, robot_viewer
+from sambot_viz import limits
+from sambot_viz.jupyter.tile import robot_viewer
 
 MODEL = '<robot name="arm"><link name="a"/></robot>'
 
@@ -100,4 +101,4 @@ def test_the_proxy_takes_as_large_messages_as_viser(
     websocket = SimpleNamespace(_default_max_message_size=10 * 2**20)
     monkeypatch.setitem(sys.modules, "tornado.websocket", websocket)
     robot_viewer()
-    assert websocket._default_max_message_size == LARGEST_MESSAGE
+    assert websocket._default_max_message_size == limits.NOTEBOOK_MESSAGE.value

@@ -10,10 +10,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from lower_limit import lower
 
 from sambot_viz import errors
 from sambot_viz.errors import SambotVizError
-from sambot_viz.meshes import source as source_module
 from sambot_viz.meshes.mesh import MeshError
 from sambot_viz.meshes.named_files import NamedFileError
 from sambot_viz.meshes.read_mesh import read_mesh
@@ -111,7 +111,7 @@ def test_a_file_above_the_limit_is_refused_before_it_is_read(
     write: Callable[..., Path],
 ) -> None:
     path = write("a.stl", b"x" * 2_100_000)
-    with pytest.raises(MeshError, match="the mesh has more than the 1 MB"):
+    with pytest.raises(MeshError, match="the mesh has more than the 1,048,576 bytes"):
         read_mesh(path, largest=1 << 20)
 
 
@@ -134,7 +134,7 @@ def test_entries_that_the_file_does_not_contain_take_no_memory(
 def test_vertices_that_many_primitives_share_are_counted_for_each(
     write: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(source_module, "MOST_VERTICES", 1000)
+    lower(monkeypatch, "MESH_VERTICES", 1000)
     data = base64.b64encode(bytes(1200)).decode()
     document = {
         "asset": {"version": "2.0"},

@@ -125,5 +125,5 @@ def test_an_image_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "huge.png"
     with path.open("wb") as stream:
         stream.truncate(2**31)
-    with pytest.raises(TextureError, match="more than 64 MB"):
+    with pytest.raises(TextureError, match="more than 67,108,864 bytes"):
         TextureStore().from_file(path)

@@ -14,9 +14,8 @@ from panel_rows import edit, panel_of, rows_of
 from patience import until
 from robot_peer import RobotPeer, square_peer
 
-from sambot_viz import SambotVizError, Visualizer
+from sambot_viz import SambotVizError, Visualizer, limits
 from sambot_viz.panels.displays.add_by_topic import (
-    MOST_SHOWN,
     NO_SOURCE,
     NOT_SHOWN,
     AddByTopicPanel,
@@ -148,8 +147,10 @@ def test_of_thousands_of_topics_some_are_shown_and_the_search_finds_all(
         dialog = Dialog(session_of(viz))
         dialog.show("", True)
         topics = [row for row in rows_of(dialog.panel).values() if row.value]
-        assert len(topics) >= MOST_SHOWN
-        assert dialog.said() == [f"{4006 - MOST_SHOWN:,} more: use the search"]
+        assert len(topics) >= limits.ADDED_ROWS.value
+        assert dialog.said() == [
+            f"{4006 - limits.ADDED_ROWS.value:,} more: use the search"
+        ]
         assert dialog.show("cell_39/door_99", True) == ["/cell_39", "./door_99"]
 
 

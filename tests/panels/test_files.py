@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from inside import files_of, session_of
+from lower_limit import lower
 from panel_rows import edit, panel_of
 from protocol_client import ProtocolClient
 
@@ -19,7 +20,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.pictures import PicturesPanel
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.panels.unfolded import keep_expanded
-from sambot_viz.session import Session, config_file
+from sambot_viz.session import Session
 
 CONFIG = """Visualization Manager:
   Displays:
@@ -148,7 +149,7 @@ def test_a_name_that_cannot_be_written_is_refused_with_the_folder(
 def test_a_browser_cannot_fill_the_disk_with_configs(
     page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(config_file, "MOST_NAMES", 3)
+    lower(monkeypatch, "CONFIG_NAMES", 3)
     page.act("file/save-as", "third", False, [])
     with pytest.raises(UsageError, match="remove one first"):
         page.act("file/save-as", "fourth", False, [])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from lower_limit import lower
 from panel_rows import edit, panel_of, rows_of
 
 from sambot_viz import FrameError, Visualizer, load_robot
@@ -137,7 +138,7 @@ def test_a_laser_is_hung_up_moved_and_removed(
 def test_there_is_room_for_as_many_frames_as_browsers_can_show(
     panel: FramesPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(frames, "MOST_FRAMES", 2)
+    lower(monkeypatch, "SESSION_FRAMES", 2)
     for child in ("a", "b", "b"):
         edit(panel, "frames/add", [*LASER[:-1], child])
     with pytest.raises(UsageError, match="2 added frames; remove one first"):

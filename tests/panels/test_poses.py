@@ -11,14 +11,13 @@ import pytest
 from inside import node_of, session_of
 from panel_rows import data_of, edit, panel_of
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, limits
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.panels.joints.poses import MOVE_TIME, GhostPanel, PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.limits import MOST_POSES
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
 
@@ -106,7 +105,7 @@ def test_a_pose_needs_a_name_that_is_not_too_long(panel: PosesPanel) -> None:
 
 
 def test_there_is_room_for_a_hundred_poses(panel: PosesPanel, path: Path) -> None:
-    for number in range(MOST_POSES):
+    for number in range(limits.SESSION_POSES.value):
         send(panel, "poses/save", f"p{number}")
     with pytest.raises(UsageError, match="100 named poses; remove one first"):
         edit(panel, "poses/save", ["one more"])

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 from panel_rows import data_of, edit, rows_of
 
-from sambot_viz import Problem
+from sambot_viz import Problem, limits
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems.problems import MOST_SHOWN, ProblemsPanel
+from sambot_viz.panels.problems.problems import ProblemsPanel
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 
@@ -139,12 +139,15 @@ def test_of_very_many_problems_the_rest_is_counted(
     panel: ProblemsPanel, session: Session
 ) -> None:
     session.problems.set_model(
-        [Problem("warning", "w", f"number {i}") for i in range(MOST_SHOWN + 50)]
+        [
+            Problem("warning", "w", f"number {i}")
+            for i in range(limits.PROBLEM_ROWS.value + 50)
+        ]
     )
     rows = listed(panel)
-    assert len(rows) == MOST_SHOWN + 1
+    assert len(rows) == limits.PROBLEM_ROWS.value + 1
     assert rows[-1].value == "and 50 more"
-    assert count(panel)["warning"] == MOST_SHOWN + 50
+    assert count(panel)["warning"] == limits.PROBLEM_ROWS.value + 50
 
 
 def test_a_mistake_in_a_save_is_added_to_what_is_known(

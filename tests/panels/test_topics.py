@@ -15,9 +15,9 @@ from patience import until
 from protocol_client import wait_for_workers
 from robot_peer import BusyPeer, square_peer
 
-from sambot_viz import Visualizer, bundled
+from sambot_viz import Visualizer, bundled, limits
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.sources.topics import MOST_SHOWN, TopicsPanel
+from sambot_viz.panels.sources.topics import TopicsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.data import source_topics
 from sambot_viz.session.signals import connect
@@ -154,8 +154,14 @@ def test_of_thousands_of_topics_some_are_shown_and_the_search_finds_all(
 ) -> None:
     many.look()
     shown = many.values()
-    assert sum(1 for row_id in shown if row_id.endswith("/count")) == MOST_SHOWN
-    assert shown["topics/more"] == f"{4006 - MOST_SHOWN:,} more: use the search"
+    assert (
+        sum(1 for row_id in shown if row_id.endswith("/count"))
+        == limits.TOPIC_ROWS.value
+    )
+    assert (
+        shown["topics/more"]
+        == f"{4006 - limits.TOPIC_ROWS.value:,} more: use the search"
+    )
     many.run("topics/find", "cell_39 door_99")
     found = many.values()
     assert next(iter(found)) == "topic:/cell_39/door_99"

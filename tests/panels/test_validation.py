@@ -11,7 +11,7 @@ from typing import Any, get_args
 
 import pytest
 
-from sambot_viz import SambotVizError
+from sambot_viz import SambotVizError, limits
 from sambot_viz.panels import validation
 from sambot_viz.panels.command import (
     FLAG,
@@ -26,7 +26,7 @@ from sambot_viz.panels.rows.row import Data, Kind, Row
 
 SIGNS = string.printable + "äß→\ud800\udfff\u202e\x00\x7f\u2028\ufeff\U0001f600"
 NUMBERS = (0, 1, -1, 3, 2**31, 2**53 + 1, -(2**63), 10**400, 1e-300, 0.5, 1e13, -1e300)
-LONGEST = validation.LONGEST_TEXT
+LONGEST = limits.PAGE_TEXT.value
 ODD: tuple[Any, ...] = (None, True, False, math.nan, math.inf, -math.inf, *NUMBERS)
 
 
@@ -97,7 +97,7 @@ def assert_plain(value: object) -> None:
     """Only what can be kept and drawn comes through."""
     if isinstance(value, str):
         value.encode()
-        assert len(value) <= validation.LONGEST_TEXT
+        assert len(value) <= limits.PAGE_TEXT.value
     elif isinstance(value, int | float):
         assert math.isfinite(float(value))
     elif isinstance(value, list | tuple):

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from lower_limit import lower
 from protocol_client import ProtocolClient
 from troublemakers import garbage, garbage_edit
 
@@ -100,7 +101,7 @@ def test_no_garbage_raises_or_is_noticed_by_the_others(
     capfd: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 1e6)
+    lower(monkeypatch, "PAGE_MESSAGES", 1_000_000)
     monkeypatch.setattr(connection, "BURST", 1e6)
     chance = random.Random(1)
     bad = protocol(viz.viser.get_port())

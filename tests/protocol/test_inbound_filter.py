@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 import viser
 from camera_reports import move
+from lower_limit import lower
 from patience import patience
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, limits
 from sambot_viz.server.connections import client_writer, connection
-from sambot_viz.server.protection import inbound_filter
 from sambot_viz.session.clients.camera import ClientCamera
 
 Connect = Callable[..., ProtocolClient]
@@ -286,7 +286,7 @@ def test_a_message_that_is_too_long_ends_its_connection_only(
     viz: Visualizer, witness: ProtocolClient, protocol: Connect
 ) -> None:
     client = protocol(viz.viser.get_port())
-    client.edit(client.id_of(*FRAME), "x" * inbound_filter.LARGEST_MESSAGE)
+    client.edit(client.id_of(*FRAME), "x" * limits.PAGE_MESSAGE.value)
     with pytest.raises(AssertionError, match="the connection ended"):
         client.wait_until(lambda: False)
     assert still_works(viz, witness, protocol)
@@ -366,7 +366,7 @@ def test_a_flood_is_slowed_down_and_its_rest_keeps_nobody_waiting(
     protocol: Connect, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connection, "BURST", 1.0)
-    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 0.5)
+    lower(monkeypatch, "PAGE_MESSAGES", 1)
     gone = threading.Event()
     with Visualizer(port=0) as viz:
         client = protocol(viz.viser.get_port())

@@ -14,6 +14,7 @@ import msgspec.msgpack
 import pytest
 import viser
 from inside import all_have_rows
+from lower_limit import lower
 from page_rows import decode
 from patience import patience, until
 from protocol_client import CAMERA, ROW_PATCH, ProtocolClient
@@ -22,13 +23,12 @@ from websockets.protocol import State
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin, Subprotocol
 
-from sambot_viz import Visualizer, viser_private
+from sambot_viz import Visualizer, limits, viser_private
 from sambot_viz.panels.rows.row_store import ClientRows, RowStore
 from sambot_viz.server import tickets
 from sambot_viz.server.channel import PING, PONG, SUBPROTOCOL, Channel
 from sambot_viz.server.connections import connection, rate_limit
 from sambot_viz.server.connections.connection import ClientContext, Connection
-from sambot_viz.server.protection import inbound_filter
 from sambot_viz.server.protection.inbound_filter import NoSessions
 from sambot_viz.server.tickets import CLIENT_LEFT, PAGE_LEFT, Channels
 
@@ -220,7 +220,7 @@ def test_both_connections_of_a_page_have_one_limit(
     viz: Visualizer, pages: Pages, ticket: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connection, "BURST", 20.0)
-    monkeypatch.setattr(connection, "MESSAGES_PER_SECOND", 10.0)
+    lower(monkeypatch, "PAGE_MESSAGES", 10)
     # However long this takes, the limit takes none of it for a pause.
     monkeypatch.setattr(rate_limit, "time", SimpleNamespace(monotonic=lambda: 0.0))
     client = pages.viser(viz, ticket)
@@ -422,7 +422,7 @@ def test_a_message_that_is_too_long_ends_the_channel(
 ) -> None:
     pages.viser(viz, ticket)
     rows(channel := pages.channel(viz, ticket))
-    channel.send("x" * (inbound_filter.LARGEST_MESSAGE + 1))
+    channel.send("x" * (limits.PAGE_MESSAGE.value + 1))
     assert closed_with(channel) == 1009
 
 

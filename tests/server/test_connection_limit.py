@@ -10,12 +10,12 @@ from urllib.request import urlopen
 
 import pytest
 import viser
+from lower_limit import lower
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz.options import Options
-from sambot_viz.server.connections import connection_limit
 from sambot_viz.server.listener import listen
 
 MOST = 3
@@ -24,8 +24,8 @@ PRESENTER = "teach-the-class"
 
 @pytest.fixture
 def port(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    monkeypatch.setattr(connection_limit, "MOST_PAGES", MOST)
-    monkeypatch.setattr(connection_limit, "MOST_CONNECTIONS", 10)
+    lower(monkeypatch, "PAGES", MOST)
+    lower(monkeypatch, "CONNECTIONS", 10)
     with listen(Options(presenter=PRESENTER)) as listener:
         yield listener.viser.get_port()
 

@@ -12,6 +12,7 @@ import pytest
 from hand_clock import HandClock
 from inside import session_of
 from live_peers import WAIT, FoxglovePeer, eventually
+from lower_limit import lower
 from panel_rows import data_of, edit, panel_of
 from protocol_client import CAMERA, ProtocolClient, wait_for_workers
 from robot_peer import RobotPeer
@@ -424,7 +425,7 @@ def test_a_page_does_not_wait_for_all_that_a_robot_has_sent(
 def test_what_waits_for_a_session_is_limited_in_bytes(
     viz: Visualizer, peer: RobotPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(inbox, "MOST_BYTES", 10_000)
+    lower(monkeypatch, "WAITING_BYTES", 10_000)
     data, worker = session_of(viz).data, session_of(viz).worker
     assert isinstance(data, RobotData)
     came: list[str] = []

@@ -20,6 +20,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from sambot_viz import limits
 from sambot_viz.options import Options
 from sambot_viz.server import listener
 from sambot_viz.server.connections.client_writer import ClientWriter
@@ -127,7 +128,7 @@ def test_a_message_that_is_too_long_is_refused_also_while_the_program_starts(
 
     def early(server: viser.ViserServer) -> None:
         client = early_client(server)
-        client.send(b"x" * (inbound_filter.LARGEST_MESSAGE + 1))
+        client.send(b"x" * (limits.PAGE_MESSAGE.value + 1))
         with pytest.raises(ConnectionClosed) as closed:
             client.recv(timeout=patience(10.0))
         assert closed.value.rcvd is not None

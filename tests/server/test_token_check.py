@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import pytest
 import viser
+from lower_limit import lower
 from patience import patience, until
 from websockets.datastructures import Headers
 from websockets.exceptions import InvalidStatus
@@ -193,7 +194,7 @@ def test_a_program_may_send_it_in_three_ways(port: int) -> None:
 def test_guesses_are_slowed_down_and_who_is_in_stays(
     port: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(token_check, "MOST_WAITING", 2)
+    lower(monkeypatch, "WRONG_TOKENS", 2)
     waiting: list[float] = []
     end = threading.Event()
 

@@ -8,8 +8,9 @@ from typing import Any, cast
 
 import pytest
 
+from sambot_viz import limits
 from sambot_viz.errors import UsageError
-from sambot_viz.session.people.roles import LONGEST_NAME, Roles
+from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.signals import Change
 from sambot_viz.session.worker import Worker
 
@@ -64,7 +65,7 @@ def test_asking_gives_nothing_by_itself(roles: Roles) -> None:
 
 def test_a_name_that_is_too_long_is_refused(roles: Roles) -> None:
     with pytest.raises(UsageError, match="at most 40 characters"):
-        roles.request(ANN, "A" * (LONGEST_NAME + 1))
+        roles.request(ANN, "A" * (limits.PERSON_NAME.value + 1))
     assert not roles.people[ANN].requests
 
 

@@ -10,16 +10,14 @@ from typing import Any
 import pytest
 import yaml
 
-from sambot_viz import UsageError, Visualizer, bundled, load_config
+from sambot_viz import UsageError, Visualizer, bundled, limits, load_config
 from sambot_viz.displays.display import Display
 from sambot_viz.frames import Transform
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.session import Session
 from sambot_viz.session.document.saved_views import SavedViews
-from sambot_viz.session.limits import MOST_DISPLAYS, MOST_VIEWS
 from sambot_viz.session.scene.scene import walk
 from sambot_viz.session.signals import connect
-from sambot_viz.session.undo_steps import LIMIT, MOST_LEFT
 
 A, B = 1, 2
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -108,7 +106,10 @@ def test_a_new_edit_ends_what_could_be_done_again(session: Session) -> None:
 
 def test_there_is_room_for_a_hundred_displays_and_views(session: Session) -> None:
     group = session.display_edits.add_display("rviz_common/Group")
-    while len(list(walk(session.document.config.displays))) < MOST_DISPLAYS:
+    while (
+        len(list(walk(session.document.config.displays)))
+        < limits.SESSION_DISPLAYS.value
+    ):
         session.display_edits.add_display("rviz_default_plugins/Grid", after=None)
     for add in (
         lambda: session.display_edits.add_display("rviz_default_plugins/Grid"),
@@ -119,7 +120,9 @@ def test_there_is_room_for_a_hundred_displays_and_views(session: Session) -> Non
     session.display_edits.remove_display(named(session, "Grid"))
     session.display_edits.duplicate_display(group)
     views = SavedViews(session.document, session.history, session.change)
-    for _ in range(MOST_VIEWS - len(session.document.config.saved_views)):
+    for _ in range(
+        limits.SESSION_VIEWS.value - len(session.document.config.saved_views)
+    ):
         views.add(session.document.config.view)
     with pytest.raises(UsageError, match="100 saved views"):
         views.add(session.document.config.view)
@@ -177,12 +180,12 @@ def test_what_one_action_changes_is_undone_together(session: Session) -> None:
 
 
 def test_the_oldest_edits_are_forgotten(session: Session) -> None:
-    for step in range(LIMIT + 5):
+    for step in range(limits.UNDO.value + 5):
         act(session, A, set_alpha(session, 0.001 * (step + 1)))
     count = 0
     while session.history.undo(A) is not None:
         count += 1
-    assert count == LIMIT
+    assert count == limits.UNDO.value
     assert alpha(session) == pytest.approx(0.005)
     assert session.history.modified.value
 
@@ -611,7 +614,7 @@ def test_another_document_and_many_who_leave_end_what_could_be_taken_up(
 ) -> None:
     history = session.history
     keys: list[str] = []
-    for client in range(MOST_LEFT + 1):
+    for client in range(limits.UNDO_PAGES.value + 1):
         keys.append(history.key(client))
         act(session, client, set_alpha(session, 0.3 + 0.01 * client))
         history.leave(client)

@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import pytest
 from live_peers import STRING, WAIT, Inbox, LivePeer
+from lower_limit import lower
 from patience import until
 
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Source
-from sambot_viz.sources.websocket import delivery
 
 Open = Callable[[str], Source]
 
@@ -210,7 +210,7 @@ def test_all_callbacks_run_in_one_thread(
 def test_a_slow_callback_loses_the_oldest_messages_and_they_are_counted(
     peer: LivePeer, opened: Open, inbox: Inbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(delivery, "MOST_MESSAGES", 10)
+    lower(monkeypatch, "WAITING", 10)
     free, begun = threading.Event(), threading.Event()
 
     def slow(message: Recorded) -> None:

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import pytest
 from live_peers import WAIT, Inbox, cdr_string
+from lower_limit import lower
 from patience import until
 
 from sambot_viz.messages import Schema
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.sources.websocket import delivery
 from sambot_viz.sources.websocket.delivery import Delivery
 
 SCHEMA = Schema("std_msgs/msg/String")
@@ -43,7 +43,7 @@ def test_topics_keep_their_order_among_each_other(line: Delivery, inbox: Inbox) 
 def test_large_messages_wait_up_to_a_size_of_all(
     line: Delivery, inbox: Inbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(delivery, "MOST_BYTES", 10_000)
+    lower(monkeypatch, "WAITING_BYTES", 10_000)
     for topic in ("/cloud", "/tf"):
         line.subscribe(topic, inbox)
     line.put(message("/tf", "before"))

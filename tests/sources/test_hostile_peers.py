@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from live_peers import WAIT, Inbox, free_port
+from lower_limit import lower
 from mcap.reader import make_reader
 from patience import until
 from rosbridge_peer import RosbridgePeer, cbor
@@ -309,7 +310,7 @@ def test_a_new_session_begins_a_new_connection(
 def test_more_topics_than_are_listed_are_said(
     play: Callable[[Play], str], opened: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("sambot_viz.sources.foxglove.MOST_TOPICS", 10)
+    lower(monkeypatch, "TOPICS", 10)
 
     def crowd(client: ServerConnection) -> None:
         client.send(SERVER_INFO)

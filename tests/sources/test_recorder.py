@@ -18,20 +18,19 @@ from typing import Any
 
 import pytest
 from live_peers import WAIT, FoxglovePeer, LivePeer
+from lower_limit import lower
 from mcap.reader import make_reader
 from patience import until
 from rosbridge_peer import RosbridgePeer
 
 from sambot_viz.errors import UsageError
 from sambot_viz.messages import MessageTypes
-from sambot_viz.sources import mcap_file, recording_thread
 from sambot_viz.sources import recorder as recorder_module
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.recording_thread import RecordingStatus
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Source
-from sambot_viz.sources.websocket import delivery
 from sambot_viz.topics.source_robot import SourceRobot
 
 
@@ -357,7 +356,7 @@ def test_a_disk_that_is_too_slow_costs_messages_which_are_counted(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(recording_thread, "MOST_MESSAGES", 0)
+    lower(monkeypatch, "RECORDING_MESSAGES", 0)
     path = tmp_path / "slow.mcap"
     with recorded(foxglove_peer, source, path) as recorder:
         foxglove_peer.publish("/a", "lost")
@@ -377,7 +376,7 @@ def test_messages_for_which_the_format_has_no_place_are_said_as_such(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(mcap_file, "MOST_CHANNELS", 1)
+    lower(monkeypatch, "RECORDING_CHANNELS", 1)
     path = tmp_path / "many.mcap"
     with recorded(foxglove_peer, source, path) as recorder:
         foxglove_peer.advertise("/b")
@@ -403,7 +402,7 @@ def test_messages_that_were_lost_on_the_way_to_the_recorder_are_said(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(delivery, "MOST_MESSAGES", 3)
+    lower(monkeypatch, "WAITING", 3)
     path, gate, entered = tmp_path / "lost.mcap", Event(), Event()
 
     def slow(message: object) -> None:

@@ -5,35 +5,54 @@ tests/.venv/test/bin/python tests/support/limits_page.py
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from sambot_viz import limits
+from sambot_viz.limits import data, drawn, files, meshes, pages
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "limits.md"
 
 _HEAD = """\
 # Limits
 
-This page is generated from `src/sambot_viz/limits.py`. Everything that comes from
+This page is generated from `src/sambot_viz/limits/`. Everything that comes from
 outside is counted against this table. What is above a limit costs its own topic, file
-or page; the rest goes on, and a sentence with the figures says it.
-
-| of | at most | above it |
-| --- | ---: | --- |
+or page; the rest goes on. Where something is lost that a user has asked for, a sentence
+with the limit says so.
 """
+_PARTS = {
+    "Recordings and live robots": data,
+    "What is drawn": drawn,
+    "Files of robots and configs": files,
+    "Meshes": meshes,
+    "Pages": pages,
+}
 
 
-def table() -> list[limits.LimitRow]:
-    """The rows, in the order of the module."""
-    return [one for one in vars(limits).values() if isinstance(one, limits.LimitRow)]
+def rows() -> dict[str, limits.LimitRow]:
+    """The rows by their names, in the order of the page."""
+    return {
+        name: row
+        for module in _PARTS.values()
+        for name, row in vars(module).items()
+        if isinstance(row, limits.LimitRow)
+    }
+
+
+def _lines() -> Iterator[str]:
+    yield _HEAD
+    for heading, module in _PARTS.items():
+        yield f"\n## {heading}\n\n| of | at most | above it |\n| --- | ---: | --- |\n"
+        for row in vars(module).values():
+            if isinstance(row, limits.LimitRow):
+                most = f"{row.value:,} {row.unit}".rstrip()
+                yield f"| {row.what} | {most} | {row.above} |\n"
 
 
 def page() -> str:
     """The whole page."""
-    return _HEAD + "".join(
-        f"| {one.what} | {one.value:,} {one.unit}".rstrip() + f" | {one.above} |\n"
-        for one in table()
-    )
+    return "".join(_lines())
 
 
 if __name__ == "__main__":

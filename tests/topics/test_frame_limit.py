@@ -10,11 +10,10 @@ import numpy as np
 from inside import session_of
 from made_messages import Make, write_messages
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, limits
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.messages import Schema
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.topics.frame_limit import MOST_FRAMES
 from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
 
 CHANNEL = TopicChannel("/tf", Schema("tf2_msgs/msg/TFMessage"), "cdr")
@@ -46,17 +45,17 @@ def star(count: int, first: int = 0) -> Edges:
 
 def test_as_many_as_any_robot_has_are_all_taken() -> None:
     listener = Listener()
-    listener.take(star(MOST_FRAMES - 1))
-    assert len(listener.history.frames) == MOST_FRAMES
+    listener.take(star(limits.FRAMES.value - 1))
+    assert len(listener.history.frames) == limits.FRAMES.value
     assert listener.codes() == []
 
 
 def test_more_are_left_out_and_one_sentence_says_so() -> None:
     listener = Listener()
-    edges = star(MOST_FRAMES + 500)
+    edges = star(limits.FRAMES.value + 500)
     for at in (1, 2, 3):
         listener.take(edges, float(at), at)
-    assert len(listener.history.frames) == MOST_FRAMES
+    assert len(listener.history.frames) == limits.FRAMES.value
     (problem,) = problems_of_transforms(listener.topics, "the robot")
     assert problem.severity == "warning"
     assert problem.message == (
@@ -65,26 +64,28 @@ def test_more_are_left_out_and_one_sentence_says_so() -> None:
     )
     # Those that are taken go on to move.
     assert listener.history.lookup("map", "f0").translation[0] == 3.0
-    assert set(listener.topics.changed()) == {f"f{n}" for n in range(MOST_FRAMES - 1)}
+    assert set(listener.topics.changed()) == {
+        f"f{n}" for n in range(limits.FRAMES.value - 1)
+    }
 
 
 def test_a_new_name_for_each_message_fills_no_memory() -> None:
     listener = Listener()
-    listener.take(star(MOST_FRAMES - 1))
+    listener.take(star(limits.FRAMES.value - 1))
     for number in range(5000):
         edges = (("map", "f0"), (f"p{number}", "f1"), ("map", f"new{number}"))
         listener.take(edges, 1.0, 2 + number)
-    assert len(listener.history.frames) == MOST_FRAMES
-    assert len(listener.topics.parents) == MOST_FRAMES - 1
+    assert len(listener.history.frames) == limits.FRAMES.value
+    assert len(listener.topics.parents) == limits.FRAMES.value - 1
     groups = listener.topics._groups  # pyright: ignore[reportPrivateUsage]
     assert len(groups) < 100
 
 
 def test_one_that_follows_another_takes_the_same_frames() -> None:
     first, second = Listener(), Listener()
-    first.take(star(MOST_FRAMES + 1))
+    first.take(star(limits.FRAMES.value + 1))
     second.topics.expect_as(first.topics)
-    second.take(star(10, MOST_FRAMES) + star(2))
+    second.take(star(10, limits.FRAMES.value) + star(2))
     assert second.history.frames == ("map", "f0", "f1")
 
 
@@ -109,6 +110,6 @@ def test_a_page_gets_no_more_and_says_so(tmp_path: Path) -> None:
     with Visualizer(source=f"bag:{path}", port=0) as viz:
         viz.player.jump(viz.player.duration)
         session = session_of(viz)
-        assert len(viz.frames.frames) == MOST_FRAMES
+        assert len(viz.frames.frames) == limits.FRAMES.value
         found = [one for one in session.problems.shown.value.listed]
         assert [one.code for one in found].count("many-frames") == 1

@@ -10,12 +10,13 @@ from typing import Any
 import pytest
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.topics import reasons
 from sambot_viz.topics.report import TopicReport, TopicStatus
-from sambot_viz.topics.survey import MOST_DECODED, Survey
+from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
 
 
@@ -107,7 +108,7 @@ def test_topics_that_are_drawn_have_no_reason(repository: Path) -> None:
 def test_of_a_topic_only_the_first_messages_are_decoded(repository: Path) -> None:
     with surveyed(repository / "assets" / "square.mcap") as survey:
         assert survey.of("/scan").seen == 100
-        assert survey.of("/scan").decoded == MOST_DECODED
+        assert survey.of("/scan").decoded == limits.SURVEYED_DECODED.value
 
 
 def test_a_topic_that_fell_silent_is_stale_on_the_recordings_clock(

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from any_recording import FORMATS, STRING, TEXT, Given, write_any
+from lower_limit import lower
 from made_recording import store_of_all
 from work import steps
 
@@ -53,8 +54,8 @@ def test_the_work_for_a_topic_does_not_grow_with_their_number(
     monkeypatch: Any,
 ) -> None:
     # As in a long recording, which does not come to all topics at its beginning.
-    monkeypatch.setattr("sambot_viz.topics.survey.MOST_MESSAGES", FEW // 2)
-    monkeypatch.setattr("sambot_viz.topics.survey.MOST_LATE", 10**9)
+    lower(monkeypatch, "SURVEYED", FEW // 2)
+    lower(monkeypatch, "SURVEYED_LATE", 10**9)
     store, empty = store_of_all(), b"\0\1\0\0\0\0\0\0"
     text = TEXT if type_name == STRING else store.generate_msgdef(TRANSFORMS)[0]
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Place, Problem, Severity
 from sambot_viz.geometry import Vector3
@@ -17,8 +18,6 @@ from sambot_viz.robot.parts import Language, Link, MeshFile, Shape
 if TYPE_CHECKING:
     from sambot_viz.meshes.mesh import Mesh, MeshPart
 
-_LONGEST = 10.0
-_LARGEST_FILE = 60_000_000
 _AT_ONCE = 1000
 """The first thousand triangles nearly always have one that can be seen."""
 _WITHOUT_UNIT = (".stl", ".stlb", ".obj", ".ply")
@@ -34,7 +33,9 @@ class MeshFiles:
     """Reads mesh files, each once, for at most ten seconds altogether."""
 
     def __init__(
-        self, roots: Sequence[Path] | None = None, longest: float = _LONGEST
+        self,
+        roots: Sequence[Path] | None = None,
+        longest: float = limits.CHECKED_TIME.value,
     ) -> None:
         """Prepare.
 
@@ -60,7 +61,7 @@ class MeshFiles:
         from sambot_viz.meshes.mesh import MeshError
         from sambot_viz.meshes.read_mesh import read_mesh
 
-        if self._spent > self._longest or _size(path) > _LARGEST_FILE:
+        if self._spent > self._longest or _size(path) > limits.CHECKED_MESH.value:
             return None
         try:
             return read_mesh(path, roots=self._roots)

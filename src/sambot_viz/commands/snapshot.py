@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sambot_viz import limits
 from sambot_viz.commands.command_line import (
     Parser,
     output_path,
@@ -19,7 +20,6 @@ from sambot_viz.commands.command_line import (
     warn,
 )
 from sambot_viz.errors import UsageError
-from sambot_viz.export import LARGEST_SIDE
 from sambot_viz.files import write_atomically
 from sambot_viz.inputs import Inputs
 from sambot_viz.problems import write_problems
@@ -124,8 +124,13 @@ def _size(text: str) -> tuple[int, int]:
     if match is None:
         raise UsageError(f"--size {text} is not a size in pixels, such as 800x600")
     width, height = int(match[1]), int(match[2])
-    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
-        raise UsageError(f"--size {text}: each side must be 1 to {LARGEST_SIDE} pixels")
+    if not (
+        1 <= width <= limits.PICTURE_SIDE.value
+        and 1 <= height <= limits.PICTURE_SIDE.value
+    ):
+        raise UsageError(
+            f"--size {text}: each side must be 1 to {limits.PICTURE_SIDE.value} pixels"
+        )
     return width, height
 
 

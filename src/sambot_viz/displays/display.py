@@ -17,6 +17,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import viser
 
+from sambot_viz import limits
 from sambot_viz.displays.picking.meshes import Part
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.selectable import Selectable
@@ -43,7 +44,6 @@ HIGHLIGHT: Rgb = (255, 224, 0)
 Level = Literal["Ok", "Warn", "Error"]
 AHEAD = "No transform at this time yet: shown where the recording has it first"
 _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
-LONGEST_KEY, LONGEST_TEXT = 400, 20_000
 """Of a longer key or sentence only the begin is kept: messages may name anything."""
 
 
@@ -81,14 +81,17 @@ class StatusList:
 
     def set(self, key: str, level: Level, text: str) -> None:
         """Set one row."""
-        key, status = key[:LONGEST_KEY], Status(level, text[:LONGEST_TEXT])
+        key, status = (
+            key[: limits.KEY.value],
+            Status(level, text[: limits.STATUS_TEXT.value]),
+        )
         if self._rows.get(key) != status:
             self._rows[key] = status
             self.version += 1
 
     def remove(self, key: str) -> None:
         """Remove one row, if it is there."""
-        if self._rows.pop(key[:LONGEST_KEY], None) is not None:
+        if self._rows.pop(key[: limits.KEY.value], None) is not None:
             self.version += 1
 
     def replace(self, rows: dict[str, Status]) -> None:

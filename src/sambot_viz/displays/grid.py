@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array
@@ -40,8 +41,6 @@ CELLS = 2.0
 """Cells that are as long as the robot, about: ten show five of it."""
 NEAR_LINE = 3.0
 """A line of a grid is met from so far [pixels]."""
-MOST_LINES = 100_000
-"""A grid with more lines (2.4 MB) is drawn with fewer cells."""
 
 
 def line_count(cells: int, layers: int) -> int:
@@ -51,8 +50,8 @@ def line_count(cells: int, layers: int) -> int:
 
 
 def drawn_cells(cells: int, layers: int) -> tuple[int, int]:
-    """The counts to draw: halved until the grid has at most `MOST_LINES` lines."""
-    while line_count(cells, layers) > MOST_LINES:
+    """The counts to draw: halved until the lines are no more than may be."""
+    while line_count(cells, layers) > limits.GRID_LINES.value:
         if layers > cells:
             layers //= 2
         else:

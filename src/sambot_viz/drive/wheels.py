@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.drive.differential import PlanarPose, WheelPair
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.geometry import Matrix
@@ -20,8 +21,6 @@ _Vector = npt.NDArray[np.float64]
 _PARALLEL = 1e-3
 """Two directions count as one below this sine: URDFs write 1.5708 for a right angle."""
 
-MOST_WHEELS = 40
-"""With more level continuous joints than this, the driven pair is not guessed."""
 
 _SAME_LINE = 1e-3
 """Two axes count as one line below this distance [m]."""
@@ -121,7 +120,7 @@ def _best_pair(wheels: list[_Wheel]) -> tuple[_Wheel, _Wheel]:
             f"{len(wheels)}"
         )
     level = [wheel for wheel in wheels if abs(wheel.axis[2]) <= _PARALLEL]
-    if len(level) > MOST_WHEELS:
+    if len(level) > limits.WHEELS.value:
         raise JointError(
             f"{len(level)} continuous joints turn about level axes, too many to guess "
             "which are the driven wheels; name the left and the right one"

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Literal
 
-from sambot_viz import page
+from sambot_viz import limits, page
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.export.recorded_scene import PERIOD, recorded
 from sambot_viz.joints import JointState
@@ -40,10 +40,6 @@ LONGEST_NAME = 200
 """Longest name of a robot as the title of a page [characters]."""
 LONGEST_PAST = 60.0
 """Of a recording that is played, the last minute is taken [s]."""
-LONGEST_RECORDING = 300.0
-"""A longer one makes a page that browsers open slowly [s]."""
-LARGEST = 100_000_000
-"""A page of more bytes is not sent to a browser."""
 
 _ONE = ThreadPoolExecutor(1, "sambot-viz-export")
 """One page is made at a time, so that many browsers take the memory of one."""
@@ -141,7 +137,9 @@ def _played(scene: SessionCopy, motion: Motion) -> tuple[int, int] | None:
     now = scene.time_ns
     if motion == "past":
         return max(recording.start_ns or 0, now - round(LONGEST_PAST * 1e9)), now
-    return now, min(recording.end_ns or 0, now + round(LONGEST_RECORDING * 1e9))
+    return now, min(
+        recording.end_ns or 0, now + round(limits.EXPORTED_RECORDING.value * 1e9)
+    )
 
 
 def _sweep(joints: JointState) -> Iterable[MotionSample]:
@@ -197,7 +195,7 @@ def ask_page(
 
 async def _made(make: Callable[[], bytes]) -> bytes:
     page = await asyncio.get_running_loop().run_in_executor(_ONE, make)
-    if len(page) > LARGEST:
+    if len(page) > limits.EXPORTED_PAGE.value:
         raise PageError(
             f"the page would have {len(page) / 1e6:.0f} MB: `sambot-viz export` "
             "writes it on the computer of the program"

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from sambot_viz import limits
 from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
 from sambot_viz.displays.picking.rasterise import covered, nearness
 from sambot_viz.displays.picking.rays import Array, Indices, RayGrid
@@ -28,8 +29,6 @@ SIZE = (800, 500)
 """Of the picture [pixels]; with the shapes of a robot that is 10 to 50 kB."""
 FINER = 2
 """Each side is drawn so many times as large, for smooth edges."""
-MOST_TRIANGLES = 2_000_000
-"""More would take seconds: then there is no picture."""
 FACING, ASIDE = 1.0, 0.35
 """How bright a surface is that faces the camera, and one seen from its side."""
 
@@ -59,7 +58,7 @@ def still_picture(
         if isinstance(placed, PlacedMesh) and placed.color is not None
     ]
     count = sum(len(placed.mesh.faces) for placed in shapes)
-    if not 0 < count <= MOST_TRIANGLES:
+    if not 0 < count <= limits.NOTEBOOK_TRIANGLES.value:
         return None
     width, height = (side * FINER for side in SIZE)
     drawn = _draw(shapes, _pixels(camera, width, height), background)

@@ -28,8 +28,6 @@ Pose = tuple[Vector3, Xyzw]
 Poses = npt.NDArray[np.float64]
 """(N, 7): x, y, z [m] and the quaternion x, y, z, w of each frame."""
 
-MOST_POSES = limits.POSES.value
-"""Of all frames together, 240 MB: enough for ten seconds of 300 frames at 1 kHz."""
 MOST_GROUPS = 256
 """Messages with further sets of frames are kept frame by frame."""
 _LENGTH_TOLERANCE = 0.01
@@ -195,7 +193,7 @@ class Samples:
     def _insert(self, group: _FrameGroup, stamp: int, poses: Poses) -> None:
         self._order += 1
         group.insert(stamp, poses, self._order)
-        most = max(2, MOST_POSES // self._columns)
+        most = max(2, limits.POSES.value // self._columns)
         group.trim(group.stamps[-1] - self._duration, most)
 
     def forget(self, child: str) -> None:

@@ -13,6 +13,7 @@ from typing import cast
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.files import write_atomically
 from sambot_viz.geometry import finite
@@ -20,8 +21,6 @@ from sambot_viz.joints.state import JointState
 from sambot_viz.joints.values import first_document
 from sambot_viz.robot.model import Robot
 
-LARGEST = 1_000_000
-"""A larger file of poses is not read [bytes]."""
 Pose = dict[str, float]
 """Joint → position [rad or m]."""
 
@@ -94,7 +93,7 @@ class Presets:
 
 
 def _load(path: Path) -> dict[str, Pose]:
-    document = first_document(path, "the poses in ", LARGEST)
+    document = first_document(path, "the poses in ", limits.POSES_FILE.value)
     if document is None:
         return {}
     if not isinstance(document, dict):

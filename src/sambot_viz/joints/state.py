@@ -10,6 +10,7 @@ import random
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
+from sambot_viz import limits
 from sambot_viz.errors import JointError, Problem, did_you_mean
 from sambot_viz.geometry import Matrix, finite
 from sambot_viz.joints.mimic import Follower, find_followers
@@ -19,8 +20,6 @@ from sambot_viz.robot.parts import Joint
 
 AGREES = 1e-3
 """Positions that differ less are the same: messages are rounded [rad or m]."""
-_LARGEST = 1e18
-"""A pose farther away than this cannot be drawn, nor composed with others."""
 
 
 class JointState:
@@ -287,8 +286,9 @@ def _number(name: str, value: float) -> float:
         raise JointError(
             f"joint '{name}' cannot be set to {value!r}: it is not a finite number"
         )
-    if abs(number) > _LARGEST:
+    if abs(number) > limits.NUMBER.value:
         raise JointError(
-            f"joint '{name}' cannot be set to {value!r}: more than {_LARGEST:g}"
+            f"joint '{name}' cannot be set to {value!r}: more than "
+            f"{limits.NUMBER.value:g}"
         )
     return number

@@ -10,12 +10,10 @@ from typing import cast
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.files import read_limited
 from sambot_viz.geometry import finite
-
-LARGEST = 50_000_000
-"""A larger recording is not read, of which only the first message counts [bytes]."""
 
 
 def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
@@ -66,7 +64,7 @@ def load_joint_state(path: Path) -> dict[str, float]:
         JointError: the file cannot be read or is neither of the two.
     """
     # ros2 topic echo ends each message with a document mark.
-    document = first_document(path, "", LARGEST, pipe=True)
+    document = first_document(path, "", limits.JOINTS_FILE.value, pipe=True)
     if not isinstance(document, dict):
         raise JointError(
             f"{path} is not a joint state: expected the lists 'name' and 'position', "

@@ -18,14 +18,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.flags import new_token
 
 STARTS_WITHIN = 60.0
 """A viewer that does not answer for so long is ended [s]; 5 s are not enough where the
 packages are read from a slow network."""
-LARGEST_MESSAGE = 50 * 2**20
-"""What a browser may be sent at once [bytes], as in viser; for a robot with meshes
-tornado's 10 MiB are not enough, and a longer message would end the connection."""
 
 
 def robot_viewer() -> dict[str, Any]:
@@ -73,5 +71,8 @@ def _allow_large_messages() -> None:
     """Let the proxy take large messages; it has no setting for that."""
     websocket: Any = sys.modules.get("tornado.websocket")
     name = "_default_max_message_size"
-    if websocket is not None and getattr(websocket, name, 0) < LARGEST_MESSAGE:
-        setattr(websocket, name, LARGEST_MESSAGE)
+    if (
+        websocket is not None
+        and getattr(websocket, name, 0) < limits.NOTEBOOK_MESSAGE.value
+    ):
+        setattr(websocket, name, limits.NOTEBOOK_MESSAGE.value)

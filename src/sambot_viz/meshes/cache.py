@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.files import Stamp, is_below, stamp
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh, MeshError, Texture
-from sambot_viz.meshes.read_mesh import LARGEST, read_mesh
-from sambot_viz.meshes.textures import LONGEST_SIDE, TextureError, TextureStore
+from sambot_viz.meshes.read_mesh import read_mesh
+from sambot_viz.meshes.textures import TextureError, TextureStore
 
 Content = Mesh | Texture | Problem
 """The content of a file, or the reason why it cannot be drawn."""
@@ -41,7 +42,10 @@ class MeshCache:
     """
 
     def __init__(
-        self, *, longest_side: int = LONGEST_SIDE, largest: int = LARGEST
+        self,
+        *,
+        longest_side: int = limits.TEXTURE_SIDE.value,
+        largest: int = limits.MESH.value,
     ) -> None:
         """Set the limits for everything read through this cache.
 

@@ -23,9 +23,6 @@ from sambot_viz.meshes.mesh import Mesh, MeshError, mesh_error
 from sambot_viz.meshes.source import MeshSource
 from sambot_viz.meshes.textures import TextureStore
 
-LARGEST = limits.MESH.value
-"""Files above this size [bytes] are refused unless the caller allows more."""
-
 _Reader = Callable[[MeshSource], list[Submesh]]
 _FORMATS = {
     ".stl": "stl",
@@ -45,7 +42,7 @@ def read_mesh(
     path: Path,
     *,
     images: TextureStore | None = None,
-    largest: int = LARGEST,
+    largest: int = limits.MESH.value,
     roots: Sequence[Path] | None = None,
 ) -> Mesh:
     """Read a mesh file: STL, COLLADA, OBJ, glTF, GLB or PLY.
@@ -105,8 +102,8 @@ def _read_bytes(path: Path, largest: int) -> bytes:
         raise mesh_error(
             path,
             "mesh-too-large",
-            f"the mesh has more than the {largest / 2**20:.0f} MB that a browser can "
-            "be expected to show",
+            f"the mesh has more than the {largest:,} bytes that a browser can be "
+            "expected to show",
             "reduce its triangles",
         ) from error
     except (OSError, ValueError) as error:

@@ -13,14 +13,6 @@ from sambot_viz.meshes.mesh import MeshError, Texture, mesh_error
 from sambot_viz.meshes.named_files import NamedFileError, NamedFiles
 from sambot_viz.meshes.textures import TextureError, TextureStore
 
-MOST_NODES = 100_000
-MOST_TRIANGLES = limits.TRIANGLES.value
-MOST_VERTICES = 30_000_000
-MOST_WITHOUT_DATA = 2**20
-"""Meshes that unfold to more than this are refused."""
-MOST_CUTTING = 200_000_000
-"""Work spent on cutting polygons; a polygon of n corners takes n² + 1000."""
-
 
 class MeshBudget:
     """Counts what a file unfolds to: a few lines can name a shape a million times.
@@ -33,16 +25,16 @@ class MeshBudget:
         self.cut_short = False
         self._path = path
         self._left = {
-            "nodes": MOST_NODES,
-            "triangles": MOST_TRIANGLES,
-            "vertices": MOST_VERTICES,
-            "entries without data": MOST_WITHOUT_DATA,
+            "nodes": limits.MESH_NODES.value,
+            "triangles": limits.TRIANGLES.value,
+            "vertices": limits.MESH_VERTICES.value,
+            "entries without data": limits.MESH_EMPTY.value,
         }
-        self._cutting = MOST_CUTTING
+        self._cutting = limits.MESH_CUTTING.value
 
     def spend_nodes(self, count: int = 1) -> None:
         """Count nodes of the scene; raises MeshError when there are too many."""
-        self._spend("nodes", count, MOST_NODES)
+        self._spend("nodes", count, limits.MESH_NODES.value)
 
     def spend_triangles(self, triangles: int, vertices: int) -> None:
         """Count what one primitive takes, before memory is taken for it.
@@ -50,8 +42,8 @@ class MeshBudget:
         Raises:
             MeshError: more than a browser can be expected to show.
         """
-        self._spend("triangles", triangles, MOST_TRIANGLES)
-        self._spend("vertices", vertices, MOST_VERTICES)
+        self._spend("triangles", triangles, limits.TRIANGLES.value)
+        self._spend("vertices", vertices, limits.MESH_VERTICES.value)
 
     def spend_without_data(self, count: int) -> None:
         """Count rows that the file announces but does not contain.
@@ -59,7 +51,7 @@ class MeshBudget:
         Raises:
             MeshError: more than any honest file has.
         """
-        self._spend("entries without data", count, MOST_WITHOUT_DATA)
+        self._spend("entries without data", count, limits.MESH_EMPTY.value)
 
     def may_cut(self, corners: int) -> bool:
         """Take the time to cut a polygon with that many corners, if any is left."""

@@ -22,18 +22,12 @@ from sambot_viz.meshes.mesh import Texture
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-LONGEST_SIDE = 1024
-"""Textures are made this small [pixels] unless the caller asks for more."""
 _MIME: dict[str, Literal["image/png", "image/jpeg"]] = {
     "PNG": "image/png",
     "JPEG": "image/jpeg",
 }
 _FORMATS = (*_MIME, "TGA", "BMP", "TIFF", "WEBP", "GIF")
 """Others are not opened: Pillow starts Ghostscript for an EPS."""
-LARGEST_IMAGE = limits.TEXTURE.value
-"""Image files above this size [bytes] are refused."""
-MOST_PIXELS = limits.TEXTURE_PIXELS.value
-"""Images that decode to more are refused: this many take half a gigabyte."""
 
 
 class TextureError(SambotVizError):
@@ -46,7 +40,7 @@ class TextureStore:
     An image is kept as long as a mesh or a shape uses it.
     """
 
-    def __init__(self, longest_side: int = LONGEST_SIDE) -> None:
+    def __init__(self, longest_side: int = limits.TEXTURE_SIDE.value) -> None:
         """Set the cap `longest_side` [pixels]; larger images are made smaller."""
         self.longest_side = longest_side
         self._lock = threading.Lock()
@@ -64,7 +58,7 @@ class TextureStore:
         known = self._by_file.get(key)
         if known is None:
             try:
-                data = read_limited(path, LARGEST_IMAGE)
+                data = read_limited(path, limits.TEXTURE.value)
             except (OSError, ValueError) as error:
                 raise TextureError(reason_of(error)) from error
             known = self._by_file[key] = self.from_bytes(data)
@@ -85,7 +79,9 @@ class TextureStore:
         return known
 
 
-def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
+def encode_texture(
+    data: bytes, longest_side: int = limits.TEXTURE_SIDE.value
+) -> Texture:
     """Make an image fit for a browser.
 
     Args:
@@ -102,7 +98,7 @@ def encode_texture(data: bytes, longest_side: int = LONGEST_SIDE) -> Texture:
 
     try:
         image = Image.open(io.BytesIO(data), formats=_FORMATS)
-        if image.width * image.height > MOST_PIXELS:
+        if image.width * image.height > limits.TEXTURE_PIXELS.value:
             raise TextureError(
                 f"it has {image.width} × {image.height} pixels, too many"
             )

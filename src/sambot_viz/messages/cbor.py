@@ -12,8 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-DEEPEST = 16
-"""Values are nested so deeply at most; rosbridge's have a depth of three."""
+from sambot_viz import limits
 
 _FLOATS = {25: struct.Struct(">e"), 26: struct.Struct(">f"), 27: struct.Struct(">d")}
 _SIMPLE = {20: False, 21: True, 22: None, 23: None}
@@ -75,7 +74,7 @@ class _CborReader:
         return taken
 
     def value(self, depth: int) -> Value:
-        if depth > DEEPEST:
+        if depth > limits.FIELDS_DEPTH.value:
             raise CborError("values are nested too deeply")
         first = self.take(1)[0]
         major, short = first >> 5, first & 31

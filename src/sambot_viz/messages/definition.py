@@ -25,13 +25,6 @@ Lookup = Callable[[str], "Types | None"]
 
 BASE, NAME, ARRAY, SEQUENCE = 1, 2, 3, 4
 """rosbags' kinds of fields."""
-_MOST_TYPES = limits.DEFINITION_TYPES.value
-_MOST_FIELDS = limits.DEFINITION_FIELDS.value
-_MOST_PARTS = 1000
-"""Parts of the fixed arrays of a type that become lines of code."""
-_MOST_EMPTY = 64
-"""Values that no byte of a message stands for."""
-_DEEPEST = 50
 _UNREADABLE = {"wstring", "wchar", "float128", "fixed"}
 DUMMY = "structure_needs_at_least_one_member"
 """The field of types without fields, of which ROS 1 writes nothing."""
@@ -86,8 +79,10 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
         if one not in known:
             of_field = "" if one == name else ", the type of a field"
             raise DecodeError(f"no definition of {one}{of_field}")
-        if len(needed) == _MOST_TYPES:
-            raise DecodeError(f"the definition has more than {_MOST_TYPES} types")
+        if len(needed) == limits.DEFINITION_TYPES.value:
+            raise DecodeError(
+                f"the definition has more than {limits.DEFINITION_TYPES.value} types"
+            )
         needed[one] = known[one]
         for part in _parts(known[one]):
             # rosbags' parser of .msg takes a word that it does not know for a type of
@@ -97,8 +92,10 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
                 raise UnreadFieldError(f"{one} has a {word}, which is not read yet")
             if part.kind == NAME:
                 pending.append(part.what)
-    if sum(map(len, needed.values())) > _MOST_FIELDS:
-        raise DecodeError(f"the definition has more than {_MOST_FIELDS} fields")
+    if sum(map(len, needed.values())) > limits.DEFINITION_FIELDS.value:
+        raise DecodeError(
+            f"the definition has more than {limits.DEFINITION_FIELDS.value} fields"
+        )
     for one, fields in needed.items():
         _check(one, fields)
     _Size(needed).of(name)
@@ -157,7 +154,7 @@ class _Size:
             return self._done[name]
         if name in self._open:
             raise DecodeError(f"{name} contains itself")
-        if len(self._open) == _DEEPEST:
+        if len(self._open) == limits.DEFINITION_DEPTH.value:
             raise DecodeError("the definition has types in types in types")
         self._open.append(name)
         values, size, lines = 1, 0, 0
@@ -169,7 +166,9 @@ class _Size:
             if part.kind == NAME or part.what == "string":
                 lines += part.times
             values, size = values + part.times * inner[0], size + part.times * inner[1]
-        if lines > _MOST_PARTS or (size == 0 and values > _MOST_EMPTY):
+        if lines > limits.DEFINITION_ARRAYS.value or (
+            size == 0 and values > limits.DEFINITION_EMPTY.value
+        ):
             raise DecodeError(f"the definition of {name} has too large an array")
         self._open.pop()
         self._done[name] = values, size

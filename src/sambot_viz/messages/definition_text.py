@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 LANGUAGES = ("ros2msg", "ros2idl", "omgidl", "ros1msg")
 """The encodings of definitions that can be parsed."""
 _IDLS = ("ros2idl", "omgidl")
-_LONGEST = limits.DEFINITION.value
-"""A longer text is none of a message: MoveIt's largest has 60 kB."""
 _LONGEST_WITHOUT_COMMENTS = 1 << 17
 _WORD = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _DDS = re.compile(r"(\w+)::(\w+)::(?:dds_::)?(\w+?)_?", re.ASCII)
@@ -77,8 +75,10 @@ def parsed_types(name: str, language: str, text: str | bytes) -> Types:
     """
     if isinstance(text, bytes):
         text = text.decode("utf-8", "replace")
-    if len(text) > _LONGEST:
-        raise DecodeError(f"its definition is longer than {_LONGEST:,} characters")
+    if len(text) > limits.DEFINITION.value:
+        raise DecodeError(
+            f"its definition is longer than {limits.DEFINITION.value:,} characters"
+        )
     text = text.replace("\r\n", "\n")
     if language not in _IDLS:
         # Most of a text; rosbags takes 20 µs for each line.

@@ -24,9 +24,6 @@ _NUMBERS = ("?", "b", "B", "h", "H", "i", "I", "q", "Q", "f", "d")
 _BOOL, _DOUBLE, _STRING, _VECTOR, _TABLE, _ARRAY = 2, 12, 13, 14, 15, 17
 """Base types; those of numbers lie between the first two."""
 _REALS = (11, 12)
-_DEEPEST = 32
-_MOST_SHARED = 16
-"""Parts may be shared; what is read is no more than so many times the message."""
 
 Read = Callable[["FlatBufferReading", int], Any]
 
@@ -76,7 +73,7 @@ class FlatBufferReading:
     def __init__(self, data: bytes | memoryview) -> None:
         self.data = data
         self.depth = 0
-        self._left = _MOST_SHARED * len(data)
+        self._left = limits.FLAT_SHARED.value * len(data)
 
     def number(self, letter: str, at: int) -> Any:
         """Return a number; `struct` would count a negative place from the end."""
@@ -137,7 +134,7 @@ class _Type:
         """Return the fields of one that begins somewhere."""
         reading.take(len(self.fields))
         reading.depth += 1
-        if reading.depth > _DEEPEST:
+        if reading.depth > limits.FIELDS_DEPTH.value:
             raise DecodeError("its fields are nested too deeply")
         found: dict[str, Any] = {}
         for name, place, read, default in self.fields:

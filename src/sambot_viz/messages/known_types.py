@@ -40,7 +40,6 @@ _DRAWN = {
     "nav2_msgs/msg/ParticleCloud": "std_msgs/Header header\nParticle[] particles\n",
 }
 """Types that displays draw and rosbags does not have."""
-_LARGEST = limits.DEFINITION.value
 _TYPE = re.compile(r"([A-Za-z]\w*)/msg/([A-Za-z]\w*)", re.ASCII)
 
 
@@ -129,7 +128,7 @@ def standard_types(distro: str) -> Types:
 
 def _text(path: Path) -> str | None:
     try:
-        if path.stat().st_size > _LARGEST:
+        if path.stat().st_size > limits.DEFINITION.value:
             return None
         return path.read_text("utf-8", "replace")
     except (OSError, ValueError):

@@ -13,15 +13,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+from sambot_viz import limits
 from sambot_viz.panels.rows.row import Json
 
 P = ParamSpec("P")
 Owner = TypeVar("Owner")
 Result = TypeVar("Result")
 _DECLARED = "__command__"
-
-LARGEST = 1e12
-"""No number of a user is larger: viser's messages have 32 bits for a number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +35,8 @@ class Argument:
 
     type: type[bool | int | float | str | list[Any]]
     optional: bool = False
-    least: float = -LARGEST
-    most: float = LARGEST
+    least: float = -limits.PAGE_NUMBER.value
+    most: float = limits.PAGE_NUMBER.value
 
 
 TEXT, NUMBER, INTEGER = Argument(str), Argument(float), Argument(int)

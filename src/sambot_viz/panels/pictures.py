@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 
+from sambot_viz import limits
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Level
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.picture import (
-    LONGEST_SIDE,
     SHORTEST_SIDE,
     PictureError,
     picture_of,
@@ -72,9 +72,10 @@ class PicturesPanel(Panel):
     @command("file/picture", INTEGER, INTEGER, name="picture", client_local=True)
     def _picture(self, width: int, height: int) -> None:
         for length in (width, height):
-            if not SHORTEST_SIDE <= length <= LONGEST_SIDE:
+            most = limits.PAGE_PICTURE.value
+            if not SHORTEST_SIDE <= length <= most:
                 raise UsageError(
-                    f"a picture has {SHORTEST_SIDE} to {LONGEST_SIDE} pixels on a side"
+                    f"a picture has {SHORTEST_SIDE} to {most} pixels on a side"
                 )
         if self._drawing:
             raise UsageError("a picture is being drawn already")

@@ -18,15 +18,11 @@ from typing import Any, cast
 from sambot_viz import limits
 from sambot_viz.errors import UsageError
 from sambot_viz.geometry import finite
-from sambot_viz.panels.command import LARGEST, Argument, Command
+from sambot_viz.panels.command import Argument, Command
 from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.text import text
 
-LONGEST_TEXT = limits.PAGE_TEXT.value
-"""Of a value that is a text [characters]."""
-LONGEST_ID = 400
-_MOST_PARTS = 4000
 _REPR = reprlib.Repr()
 """Of lists in lists only the outermost are written."""
 _REPR.maxlevel = 3
@@ -54,7 +50,7 @@ def read(message: object) -> Sent | None:
         return None
     parts = cast("list[Any]", message)
     gesture = parts[2] if len(parts) == 3 else None
-    if not isinstance(parts[0], str) or len(parts[0]) > LONGEST_ID:
+    if not isinstance(parts[0], str) or len(parts[0]) > limits.PAGE_ID.value:
         return None
     if isinstance(gesture, bool) or not isinstance(gesture, int | None):
         return None
@@ -111,13 +107,13 @@ def validate(row: Row, value: Json) -> Any:
 
 def _number(row: Row, value: Json) -> float:
     number = None if isinstance(value, bool) else finite(value)
-    if number is None or abs(number) > LARGEST:
+    if number is None or abs(number) > limits.PAGE_NUMBER.value:
         raise UsageError(f"'{text(row.name)}' needs a number, not {_shown(value)}")
     low = -math.inf if row.least is None else row.least
     high = math.inf if row.most is None else row.most
     if not low <= number <= high:
-        limits = f"{low:.6g} … {high:.6g} {row.unit}".strip()
-        numbers = f"{number:.6g}: its limits are {limits}".replace("inf", "∞")
+        span = f"{low:.6g} … {high:.6g} {row.unit}".strip()
+        numbers = f"{number:.6g}: its limits are {span}".replace("inf", "∞")
         # The sign that the page writes in its own sentences too.
         signed = numbers.replace("-", "−")
         raise UsageError(f"'{text(row.name)}' cannot be {signed}")
@@ -135,11 +131,11 @@ def _option(row: Row, value: Json) -> str:
 
 
 def _short(name: str, value: str) -> str:
-    if len(value) > LONGEST_TEXT:
-        raise UsageError(f"'{name}' takes at most {LONGEST_TEXT} characters")
+    if len(value) > limits.PAGE_TEXT.value:
+        raise UsageError(f"'{name}' takes at most {limits.PAGE_TEXT.value} characters")
     # What cannot be encoded must never reach viser's buffer.
     shown = re.sub(r"[\t\r\n]", " ", value)
-    if text(shown, LONGEST_TEXT) != shown:
+    if text(shown, limits.PAGE_TEXT.value) != shown:
         raise UsageError(f"'{name}' contains an invisible character")
     return value
 
@@ -147,7 +143,8 @@ def _short(name: str, value: str) -> str:
 def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
     parts = cast("Sequence[object]", value) if isinstance(value, list) else ()
     numbers = [None if isinstance(part, bool) else finite(part) for part in parts]
-    known = tuple(n for n in numbers if n is not None and abs(n) <= LARGEST)
+    most = limits.PAGE_NUMBER.value
+    known = tuple(n for n in numbers if n is not None and abs(n) <= most)
     if len(known) != count or len(numbers) != count:
         raise UsageError(f"'{text(row.name)}' needs {count} numbers")
     return known
@@ -201,7 +198,7 @@ def _argument(name: str, argument: Argument, part: Json) -> Any:
     if not isinstance(part, list):
         return _scalar(name, part, argument.least, argument.most)
     listed = cast("list[Any]", part)
-    if len(listed) > _MOST_PARTS or any(
+    if len(listed) > limits.PAGE_LIST.value or any(
         not isinstance(p, str | int | float | None) for p in listed
     ):
         raise UsageError(f"'{name}' does not take such a list")

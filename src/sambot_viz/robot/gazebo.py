@@ -5,9 +5,9 @@ Rules compare the names in them with the links and joints of the robot.
 
 from __future__ import annotations
 
+from sambot_viz import limits
 from sambot_viz.robot.xml.element import Element
 
-_DEEPEST = 40
 _OUTER = frozenset({"robot", "model", "world"})
 
 
@@ -30,7 +30,7 @@ def gazebo_parts(document: Element, depth: int = 0) -> tuple[Element, ...]:
             found.append(_copy(child))
         elif child.tag == "plugin":
             found.append(_wrapped(child))
-        elif child.tag in _OUTER and depth < _DEEPEST:
+        elif child.tag in _OUTER and depth < limits.NESTED_MODELS.value:
             found += gazebo_parts(child, depth + 1)
         elif child.tag == "link":
             found += (_wrapped(s, child) for s in child.find_all("sensor"))
@@ -44,7 +44,7 @@ def _wrapped(element: Element, link: Element | None = None) -> Element:
 
 
 def _copy(element: Element, depth: int = 0) -> Element:
-    children = element.children if depth < _DEEPEST else []
+    children = element.children if depth < limits.NESTED_MODELS.value else []
     copied = [_copy(child, depth + 1) for child in children]
     return Element(
         element.tag,

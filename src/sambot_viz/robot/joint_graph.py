@@ -5,12 +5,10 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping, Sequence
 
+from sambot_viz import limits
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint
 from sambot_viz.robot.xml.element import Element
-
-DEEPEST = 350
-"""Longest chain drawn: Chromium draws 350 joints in a row, but not 500."""
 
 
 def children_of(joints: Iterable[Joint]) -> dict[str, list[str]]:
@@ -105,15 +103,15 @@ def report_depth(
     """
     children = children_of(joints)
     level, depth = [root], 0
-    while level and depth <= DEEPEST:
+    while level and depth <= limits.CHAIN.value:
         depth += 1
         level = [child for link in level for child in children.get(link, ())]
     if level:
         findings.warn(
             "chain-too-long",
-            f"a chain of joints has more than {DEEPEST} links (the first one beyond is "
-            f"{level[0]}): a browser cannot draw so long a chain, and the view stays "
-            "empty",
+            f"a chain of joints has more than {limits.CHAIN.value} links (the first "
+            f"one beyond is {level[0]}): a browser cannot draw so long a chain, and "
+            "the view stays empty",
             "connect links to one that is nearer to the root",
             elements.get(level[0], document),
         )

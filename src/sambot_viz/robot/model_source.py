@@ -17,8 +17,6 @@ PathLike = str | os.PathLike[str]
 TEXT_LABEL = "<text>"
 """The file name in problems of a model that was given as text."""
 
-_LARGEST = limits.MODEL.value
-
 
 @dataclass(frozen=True, slots=True)
 class ModelSource:
@@ -166,7 +164,7 @@ def _read(path: Path, label: str) -> bytes:
             )
         # A pipe, such as the shell's <(…), can be read only once and has no size.
         with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
+            data = file.read(limits.MODEL.value + 1)
     except FileNotFoundError:
         raise _refusal(
             "model-not-found", "there is no such file", _nearest(path), label
@@ -179,10 +177,11 @@ def _read(path: Path, label: str) -> bytes:
             "check its permissions",
             label,
         ) from None
-    if len(data) > _LARGEST:
+    if len(data) > limits.MODEL.value:
         raise _refusal(
             "model-too-large",
-            "the file is larger than 64 MB, too large for a robot description",
+            f"the file has more than {limits.MODEL.value:,} bytes, too many for a "
+            "robot description",
             "open the model file itself",
             label,
         )

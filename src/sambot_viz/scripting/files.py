@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.errors import JointError, UsageError
-from sambot_viz.export import LARGEST_SIDE
 from sambot_viz.export.chromium import Chromium
 from sambot_viz.export.page_file import PERIOD, ViewState, page_file
 from sambot_viz.export.view_picture import LONGEST_WAIT, png, snapshot
@@ -25,8 +25,6 @@ Numbers = Sequence[Any] | npt.NDArray[Any]
 Motion = tuple[Numbers, Numbers | Mapping[str, Numbers]]
 """Times (T,) [s], and positions (T, N) in the order of `Robot.joint_names` or joint →
 (T,) [rad or m]."""
-LONGEST_MOTION = 1200.0
-"""A longer one makes a page that browsers cannot open [s]."""
 
 
 def picture_of(server: Server, size: Size) -> bytes:
@@ -50,8 +48,13 @@ def _checked(size: Size) -> Size:
         width, height = map(int, size)
     except (TypeError, ValueError):
         raise UsageError(f"{size!r} is not a width and a height [pixels]") from None
-    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
-        raise UsageError(f"{size}: each side must be 1 to {LARGEST_SIDE} pixels")
+    if not (
+        1 <= width <= limits.PICTURE_SIDE.value
+        and 1 <= height <= limits.PICTURE_SIDE.value
+    ):
+        raise UsageError(
+            f"{size}: each side must be 1 to {limits.PICTURE_SIDE.value} pixels"
+        )
     return width, height
 
 
@@ -94,8 +97,8 @@ def _motion_of(robot: Robot, joints: JointState, motion: Motion) -> Past:
     if t.ndim != 1 or t.size == 0 or not np.isfinite(t).all() or (np.diff(t) < 0).any():
         raise UsageError("the times of a motion are numbers [s] that grow")
     t = t - t[0]
-    if t[-1] > LONGEST_MOTION:
-        raise UsageError(f"a motion lasts {LONGEST_MOTION:g} s at most")
+    if t[-1] > limits.MOTION.value:
+        raise UsageError(f"a motion lasts {limits.MOTION.value:g} s at most")
     if not isinstance(given, Mapping):
         given = _columns(robot, given, t.size)
     for name in given:

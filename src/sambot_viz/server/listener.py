@@ -16,7 +16,7 @@ from typing import cast
 import viser
 from websockets.asyncio.server import ServerConnection
 
-from sambot_viz import viser_private
+from sambot_viz import limits, viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import handshake
@@ -24,7 +24,6 @@ from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.protection.inbound_filter import (
     CLOSE_TIME,
-    LARGEST_MESSAGE,
     ClientHandler,
     InboundFilter,
 )
@@ -186,7 +185,9 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
     viser_private.remember_prop_types()
     viser_private.tell_poses_of_remade_nodes()
     channels = Channels()
-    checked = handshake.checked(options, listening, LARGEST_MESSAGE, channels, knows)
+    checked = handshake.checked(
+        options, listening, limits.PAGE_MESSAGE.value, channels, knows
+    )
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
     listener = Listener(server, options, channels)

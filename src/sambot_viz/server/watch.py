@@ -20,6 +20,7 @@ from pathlib import Path
 
 from watchfiles import Change, watch
 
+from sambot_viz import limits
 from sambot_viz.files import Stamp, stamp
 from sambot_viz.outlet import logger
 
@@ -34,8 +35,6 @@ SETTLE = 0.3
 or remove the old file before they write the new one."""
 _RETRY = 0.02
 _LONGEST_CLOSE = 5.0
-MOST_FOLDERS = 200
-"""Upper bound of the watched folders of a package in which a file is missing."""
 _CLOCK_STEP = 10_000_000
 """Times of files may be this much [ns] behind the clock."""
 _TOLD_LATE = 2_000_000_000
@@ -248,7 +247,7 @@ def _folders_of_package(file: Path) -> list[Path]:
 def _folders_in(folder: Path) -> Iterator[Path]:
     """Yield a folder and those below it without hidden ones, the nearest first."""
     pending, count = [folder], 0
-    while pending and count < MOST_FOLDERS:
+    while pending and count < limits.WATCHED_FOLDERS.value:
         folder = pending.pop(0)
         yield folder
         count += 1

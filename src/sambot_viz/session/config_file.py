@@ -11,20 +11,16 @@ import os
 import re
 from pathlib import Path
 
-from sambot_viz import bundled
+from sambot_viz import bundled, limits
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.files import is_below
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.limits import require_room
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.text import text
 
 ENDING = ".rviz"
-LONGEST_NAME = 200
-"""Most file systems take 255 bytes; a temporary name beside the file is longer."""
-MOST_NAMES = 1000
-"""So many files of a folder are listed, and with so many no further one is written."""
 UNNAMED = f"sambot_viz{ENDING}"
 """What a config without a file is called when it is downloaded."""
 _FORBIDDEN = '<>:"|?*'
@@ -123,7 +119,10 @@ class ConfigFile:
             raise UsageError(
                 f"the folder {folder} cannot be read: {error.strerror}"
             ) from error
-        return [*sorted(found, key=str.casefold)[:MOST_NAMES], *_of_the_program()]
+        return [
+            *sorted(found, key=str.casefold)[: limits.CONFIG_NAMES.value],
+            *_of_the_program(),
+        ]
 
     def listed(self, name: str) -> Path:
         """The file that is shown under a name.
@@ -185,7 +184,7 @@ class ConfigFile:
             )
         if not os.path.lexists(target):
             what = f"configs in {target.absolute().parent}"
-            require_room(len(self.names()), MOST_NAMES, what)
+            require_room(len(self.names()), limits.CONFIG_NAMES.value, what)
         try:
             self._document.save(target)
         except ConfigError as error:
@@ -221,8 +220,8 @@ def _refusal(name: str) -> str | None:
         return "a name cannot end with a dot"
     if _RESERVED.match(name):
         return f"Windows keeps the name {name} for a device"
-    if len(f"{name}{ENDING}".encode(errors="replace")) > LONGEST_NAME:
-        return f"the name is too long ({LONGEST_NAME} bytes at most)"
+    if len(f"{name}{ENDING}".encode(errors="replace")) > limits.CONFIG_NAME.value:
+        return f"the name is too long ({limits.CONFIG_NAME.value} bytes at most)"
     return None
 
 

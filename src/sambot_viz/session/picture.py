@@ -20,7 +20,7 @@ from sambot_viz.session.clients.client import Client
 from sambot_viz.views.camera import components
 from sambot_viz.viser_private import drawn_by
 
-SHORTEST_SIDE, LONGEST_SIDE = 16, 4096
+SHORTEST_SIDE = 16
 """A browser cannot draw a larger picture [pixels]."""
 RENDER_TIME = 20.0
 """A browser that has not drawn a picture by then does not get it [s]."""

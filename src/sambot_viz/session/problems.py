@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from sambot_viz import limits
 from sambot_viz.displays.display import robot_displays
 from sambot_viz.errors import Problem, SambotVizError
 from sambot_viz.meshes.asset import Asset
@@ -25,10 +26,6 @@ from sambot_viz.session.worker import log_error
 
 Reloaded = Literal["model", "config", "watch", "fault"]
 """What a save failed to change (model, config), or why saves fail at all."""
-
-
-MOST_LOGGED = 100
-"""So many different internal errors are logged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +122,7 @@ class Problems:
             problem = Problem("error", "internal-error", text, hint)
         with self._change.lock:
             # A client may cause as many as it likes.
-            known = problem in self._logged or len(self._logged) >= MOST_LOGGED
+            known = problem in self._logged or len(self._logged) >= limits.LOGGED.value
             if problem.code == "internal-error" and not known:
                 log_error(error)
                 self._logged.add(problem)

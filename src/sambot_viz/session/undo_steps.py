@@ -7,12 +7,8 @@ from collections import deque
 from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from sambot_viz import limits
 from sambot_viz.session.signals import Change, Signal
-
-LIMIT = 200
-"""Number of edits of a client that can be undone."""
-MOST_LEFT = 50
-"""So many clients that have left could come back to their edits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +86,7 @@ class ClientSteps:
     """
 
     def __init__(self, change: Change) -> None:
-        self.done: deque[Step] = deque(maxlen=LIMIT)
+        self.done: deque[Step] = deque(maxlen=limits.UNDO.value)
         self.undone: list[Step] = []
         self.state = Signal(change, UndoState())
         self.key = secrets.token_hex(16)
@@ -160,7 +156,7 @@ class LeftSteps:
         """Keep what a client has done; that of the one that left first goes."""
         if steps.done or steps.undone:
             self._steps[steps.key] = steps
-        if len(self._steps) > MOST_LEFT:
+        if len(self._steps) > limits.UNDO_PAGES.value:
             del self._steps[next(iter(self._steps))]
 
     def take(self, key: str) -> ClientSteps | None:

@@ -19,7 +19,7 @@ from sambot_viz.sources.message import (
     TopicChannel,
     is_latched_name,
 )
-from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
+from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
 from sambot_viz.text import text
 
@@ -31,7 +31,7 @@ _UNKNOWN_CHANNEL = re.compile(r"[Uu]nknown channel\D{0,9}(\d{1,18})")
 _DESCRIPTION = "robot_description"
 _TICKS_FOR_TOPICS = 2
 _LINE_LASTS = 30.0
-_MOST_LINES, _MOST_NOTES = 100, 3
+_MOST_NOTES = 3
 
 
 class FoxgloveConversation(Conversation):
@@ -121,8 +121,10 @@ class FoxgloveConversation(Conversation):
         """Return the server's warnings, and what is left out."""
         lines = [*self._lines.values(), *([self._line] if self._line else [])]
         notes = [f"it says: {text(line, 200)}" for line in lines[-_MOST_NOTES:]]
-        if len(self._channels) >= MOST_TOPICS:
-            notes.append(f"only the first {MOST_TOPICS} of its topics are listed")
+        if len(self._channels) >= limits.TOPICS.value:
+            notes.append(
+                f"only the first {limits.TOPICS.value} of its topics are listed"
+            )
         return notes
 
     def topics(self) -> dict[str, SourceTopic]:
@@ -213,7 +215,7 @@ class FoxgloveConversation(Conversation):
         self._ask_for_assets()
 
     def _add(self, server_channel: wire.ServerChannel) -> None:
-        if len(self._channels) >= MOST_TOPICS:
+        if len(self._channels) >= limits.TOPICS.value:
             return
         self._remove(server_channel.id)
         topic = server_channel.topic
@@ -269,7 +271,10 @@ class FoxgloveConversation(Conversation):
 
     def _graph(self, update: wire.GraphUpdate) -> None:
         for topic in update.published_topics:
-            if topic.name in self._publishers or len(self._publishers) < MOST_TOPICS:
+            if (
+                topic.name in self._publishers
+                or len(self._publishers) < limits.TOPICS.value
+            ):
                 self._publishers[topic.name] = topic.publisher_ids
         for name in update.removed_topics:
             self._publishers.pop(name, None)
@@ -316,7 +321,7 @@ class FoxgloveConversation(Conversation):
         if status.id is None:
             self._line = status.message
             self._line_end = time.monotonic() + _LINE_LASTS
-        elif status.id in self._lines or len(self._lines) < _MOST_LINES:
+        elif status.id in self._lines or len(self._lines) < limits.PEER_LINES.value:
             self._lines[status.id] = status.message
 
     def _ask_for_assets(self) -> None:

@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from typing import TYPE_CHECKING, BinaryIO
 
+from sambot_viz import limits
 from sambot_viz._version import __version__
 from sambot_viz.messages import Schema
 from sambot_viz.sources.message import Recorded, TopicChannel
@@ -14,8 +15,6 @@ from sambot_viz.sources.qos import Qos, profile_text
 if TYPE_CHECKING:
     from mcap.records import McapRecord
 
-MOST_CHANNELS = 65_535
-"""MCAP numbers channels and schemas with 16 bits."""
 _LAST_TIME = 2**64
 _LATCHED = Qos("reliable", "transient_local", "keep_last", 1, True)
 
@@ -104,7 +103,7 @@ class McapFile:
         number = self._by_content.get(content)
         if number is None:
             number = 0
-            if len(self._by_content) < MOST_CHANNELS:
+            if len(self._by_content) < limits.RECORDING_CHANNELS.value:
                 number = self._register(
                     _plain(channel.topic),
                     _plain(encoding),
@@ -112,7 +111,7 @@ class McapFile:
                     {"offered_qos_profiles": profile_text(qos) if qos else ""},
                 )
             self._by_content[content] = number
-        if len(self._channels) >= 2 * MOST_CHANNELS:
+        if len(self._channels) >= 2 * limits.RECORDING_CHANNELS.value:
             self._channels.clear()
         self._channels[channel] = number
         return number

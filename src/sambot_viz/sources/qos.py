@@ -11,8 +11,9 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 
+from sambot_viz import limits
+
 _FIELD = re.compile(r"\b(history|depth|reliability|durability):\s*\"?(\w+)")
-_LONGEST = 20_000
 
 _WORDS = {
     "history": {"1": "keep_last", "2": "keep_all"},
@@ -50,7 +51,7 @@ def parse_qos(text: str) -> Qos | None:
         text: of ``offered_qos_profiles``, one profile for each publisher.
     """
     found: dict[str, list[str]] = {}
-    for field, value in _FIELD.findall(text[:_LONGEST]):
+    for field, value in _FIELD.findall(text[: limits.QOS.value]):
         word = str(_WORDS.get(field, {}).get(value, value))
         if word not in _UNKNOWN:
             found.setdefault(field, []).append(word)

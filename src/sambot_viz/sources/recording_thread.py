@@ -26,10 +26,6 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
-MOST_BYTES = limits.RECORDING_WAITS.value
-"""All messages that wait for the disk together have at most this size."""
-MOST_MESSAGES = 100_000
-"""So many messages wait for the disk at most."""
 PERIOD, LONGEST_PERIOD = 1.0, 10.0
 """Between reports, and between flushes at first and at most: a program that is killed
 loses what came after the last one [s]."""
@@ -184,8 +180,10 @@ class RecordingThread:
         with self._changed:
             if self._is_stopped:
                 return
-            too_many = len(self._queue) >= MOST_MESSAGES
-            if too_many or (self._queue and self._waiting + size > MOST_BYTES):
+            too_many = len(self._queue) >= limits.RECORDING_MESSAGES.value
+            if too_many or (
+                self._queue and self._waiting + size > limits.RECORDING_WAITS.value
+            ):
                 self._dropped += 1
                 return
             self._queue.append((message, is_kept))

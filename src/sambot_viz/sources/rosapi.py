@@ -11,8 +11,8 @@ from collections.abc import Callable
 from itertools import count
 from typing import TypeVar
 
+from sambot_viz import limits
 from sambot_viz.sources import rosbridge_wire as wire
-from sambot_viz.sources.websocket.conversation import MOST_TOPICS
 
 POLL = 2.0
 """Between two looks at the topics [s]."""
@@ -20,7 +20,6 @@ POLL_ABSENT = 5.0
 """The same while rosapi does not run [s]: each look is an error in the server's log."""
 LONGEST_ANSWER = 8.0
 """A service that has not answered after so long will not [s]."""
-_MOST_CALLS = 50
 
 _Answer = Callable[[wire.ServiceResponse | None], None]
 _T = TypeVar("_T")
@@ -117,7 +116,7 @@ class Rosapi:
                 self.has_changed = True
             then(None if found is None else bool(found.publishers))
 
-        if len(self._calls) < _MOST_CALLS:
+        if len(self._calls) < limits.CALLS.value:
             self._call("/rosapi/publishers", take, topic=topic)
 
     def _take_raw_topics(self, response: wire.ServiceResponse | None) -> None:
@@ -126,7 +125,7 @@ class Rosapi:
             self._has_raw_types = False
             self._call("/rosapi/topics", self._take_topics)
             return
-        types = found.types[:MOST_TOPICS]
+        types = found.types[: limits.TOPICS.value]
         texts = zip(types, found.typedefs_full_text, strict=False)
         self.definitions = dict.fromkeys(types, "") | dict(texts)
         self._take_list(found)
@@ -137,7 +136,7 @@ class Rosapi:
             self.is_there = bool(self.types)
             self._finish_poll()
             return
-        new = set(found.types[:MOST_TOPICS]) - self.definitions.keys()
+        new = set(found.types[: limits.TOPICS.value]) - self.definitions.keys()
         if new and self._has_raw_types:
             self._call("/rosapi/topics_and_raw_types", self._take_raw_topics)
         else:
@@ -145,7 +144,7 @@ class Rosapi:
 
     def _take_list(self, found: wire.TopicList) -> None:
         self.is_there = True
-        topics = found.topics[:MOST_TOPICS]
+        topics = found.topics[: limits.TOPICS.value]
         types = dict(zip(topics, found.types, strict=False))
         self.has_changed = self.has_changed or types != self.types
         self.types = types

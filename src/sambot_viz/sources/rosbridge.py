@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import count
 
+from sambot_viz import limits
 from sambot_viz.sources import rosbridge_wire as wire
 from sambot_viz.sources.message import (
     Recorded,
@@ -21,7 +22,7 @@ from sambot_viz.sources.message import (
     is_latched_name,
 )
 from sambot_viz.sources.rosapi import Rosapi
-from sambot_viz.sources.websocket.conversation import MOST_TOPICS, Conversation, Ends
+from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text
 
@@ -123,8 +124,10 @@ class RosbridgeConversation(Conversation):
         notes = [] if self._rosapi.is_there else [_NO_ROSAPI]
         if self._line:
             notes.append(f"it says: {text(self._line, 200)}")
-        if len(self._rosapi.types) >= MOST_TOPICS:
-            notes.append(f"only the first {MOST_TOPICS} of its topics are listed")
+        if len(self._rosapi.types) >= limits.TOPICS.value:
+            notes.append(
+                f"only the first {limits.TOPICS.value} of its topics are listed"
+            )
         return notes
 
     def topics(self) -> dict[str, SourceTopic]:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from sambot_viz import limits
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.topics.reasons import display_of
 
-MOST = 24
-"""So many topics are shown; the panel Topics adds the others."""
-_MOST_PICTURES = 4
 IMAGE = "rviz_default_plugins/Image"
 _NEEDED = (
     "rviz_default_plugins/Map",
@@ -41,7 +39,7 @@ def shown_at_first(types: Mapping[str, str]) -> list[tuple[str, str]]:
     Args:
         types: topic → type of its messages.
     """
-    return list(_needed(types))[:MOST]
+    return list(_needed(types))[: limits.FIRST_SIGHT.value]
 
 
 def is_costmap(topic: str) -> bool:
@@ -60,5 +58,5 @@ def _needed(types: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     pictures = 0
     for _, _, name, kind in found:
         pictures += kind == IMAGE
-        if kind != IMAGE or pictures <= _MOST_PICTURES:
+        if kind != IMAGE or pictures <= limits.FIRST_PICTURES.value:
             yield name, kind

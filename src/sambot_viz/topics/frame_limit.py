@@ -10,8 +10,6 @@ from sambot_viz.errors import Problem
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.samples import FramePair, Poses
 
-MOST_FRAMES = limits.FRAMES.value
-"""No robot has so many; twenty robots with a hundred frames each have."""
 _MOST_KEPT = 1000
 Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]
 """By stamp [ns]: (parent, child) of each row, and the rows (see `FrameHistory.add`)."""
@@ -79,7 +77,7 @@ class FrameLimit:
 
     def _has_room(self, edge: FramePair) -> bool:
         names = {plain_name(name) for name in edge} - self._known
-        if len(names) + len(self._known) > MOST_FRAMES:
+        if len(names) + len(self._known) > limits.FRAMES.value:
             self.left_out = self.left_out or plain_name(edge[1])
             return False
         self._known |= names
@@ -96,8 +94,8 @@ def too_many_frames(left_out: str, name: str) -> Problem:
     return Problem(
         "warning",
         "many-frames",
-        f"{name} has more than {MOST_FRAMES:,} frames: the first ones are shown, "
-        f"{left_out} and all later ones are left out",
+        f"{name} has more than {limits.FRAMES.value:,} frames: the first ones are "
+        f"shown, {left_out} and all later ones are left out",
         "find out which program publishes a transform for each thing it sees, and "
         "have it use the same names again",
     )

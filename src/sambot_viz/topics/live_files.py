@@ -7,12 +7,12 @@ from concurrent.futures import Future, wait
 from dataclasses import replace
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.sources.source import Source
 
 FILES_WITHIN = 60.0
 """All files of a robot are to be there after this time [s]."""
-MOST_FILES = 500
 _FILE = re.compile(r"""filename\s*=\s*["'](package://([^"'/]+)/([^"']+))["']""")
 
 
@@ -30,7 +30,7 @@ def fetch_files(source: Source, text: str, folder: Path) -> tuple[Problem, ...]:
     for uri, package, rest in _FILE.findall(text):
         path = folder / package / rest
         inside = ".." not in Path(rest).parts and package not in (".", "..")
-        if inside and uri not in asked and len(asked) < MOST_FILES:
+        if inside and uri not in asked and len(asked) < limits.ASSETS.value:
             asked[uri] = (path, source.fetch_asset(uri))
     wait([future for _, future in asked.values()], FILES_WITHIN)
     missing: list[Problem] = []

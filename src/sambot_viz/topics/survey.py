@@ -25,14 +25,6 @@ from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import Transforms, TransformTopics
 
-MOST_MESSAGES = limits.SURVEYED.value
-MOST_BYTES = limits.SURVEYED_BYTES.value
-"""So much is looked at from the begin of a recording."""
-MOST_DECODED = 30
-"""So many messages of a topic are decoded."""
-MOST_LATE = 200
-"""Of so many topics that begin later the first message is looked for."""
-
 
 @dataclass(slots=True)
 class Looked:
@@ -165,7 +157,7 @@ class Survey:
             self._look(message)
             number, size = number + 1, size + len(message.payload)
             yield True
-            if number >= MOST_MESSAGES or size >= MOST_BYTES:
+            if number >= limits.SURVEYED.value or size >= limits.SURVEYED_BYTES.value:
                 break
         else:
             self.is_all = True
@@ -179,7 +171,7 @@ class Survey:
         start = recording.start_ns or 0
         waiting = [n for n, t in recording.topics.items() if t.count != 0]
         late = [name for name in waiting if name not in self.topics]
-        for name in late[:MOST_LATE]:
+        for name in late[: limits.SURVEYED_LATE.value]:
             message = recording.next(name, start - 1)
             if message is not None:
                 self._look(message)
@@ -204,7 +196,7 @@ class Survey:
             failed = self.transforms.undecoded[message.topic] - before
             looked.decoded += 1
             looked.undecoded += failed
-        elif looked.decoded < MOST_DECODED:
+        elif looked.decoded < limits.SURVEYED_DECODED.value:
             self._decode(message, looked)
 
     def _decode(self, message: Recorded, looked: Looked) -> None:

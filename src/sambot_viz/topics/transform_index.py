@@ -44,8 +44,6 @@ DEPTH = round(DURATION * 1e9)
 """How long a transform is kept after the newest of its frame [ns]."""
 FEW = 5_000
 """So many messages are looked at in any case, before the time that is asked for."""
-MOST = 20_000
-"""So many are looked at while a frame that must be there was not found."""
 
 Span = tuple[int, int]
 """The first and the last log time [ns]."""
@@ -177,7 +175,9 @@ class TransformIndex:
         for number in range(last, -1, -1):
             block = self._blocks.get(number)
             if block is None:
-                if number < nearest and looked >= (MOST if missing else FEW):
+                if number < nearest and looked >= (
+                    limits.SEARCHED.value if missing else FEW
+                ):
                     break
                 block = self._blocks[number] = self._look(start + number * BLOCK)
                 looked += len(block.logs)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError, Problem
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import FrameHistory
@@ -29,7 +30,6 @@ from sambot_viz.frames.samples import (
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import latched_until
 from sambot_viz.topics.frame_limit import (
-    MOST_FRAMES,
     FrameLimit,
     Transforms,
     too_many_frames,
@@ -239,7 +239,7 @@ class TransformTopics:
 
     def _keep(self, message: Recorded, edges: tuple[FramePair, ...]) -> None:
         key = message.topic, edges
-        if key in self._fixed or len(self._fixed) < MOST_FRAMES:
+        if key in self._fixed or len(self._fixed) < limits.FRAMES.value:
             self._fixed[key] = message
 
     def _take_again(self) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from inside import session_of
+from lower_limit import lower
 from patience import until
 
 from sambot_viz.displays.data.effort.joints import JointEffort, placed_ring
@@ -202,7 +203,7 @@ def test_older_efforts_stay_up_to_the_history_length(messages: Open) -> None:
 def test_a_long_history_has_a_limit_of_its_circles(
     messages: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("sambot_viz.displays.data.effort.effort.MOST_CIRCLES", 7)
+    lower(monkeypatch, "EFFORT_CIRCLES", 7)
     made = [efforts(shoulder=n, elbow=n) for n in range(5)]
     history = {"History Length": 100}
     shown = messages("Effort", described(), *made, frame="base", **history)

@@ -11,8 +11,8 @@ from inside import session_of, viser_server
 from sent_numbers import bad_numbers
 from visible_steps import steps_to
 
-from sambot_viz import Visualizer
-from sambot_viz.displays.display import LONGEST_KEY, LONGEST_TEXT, Display
+from sambot_viz import Visualizer, limits
+from sambot_viz.displays.display import Display
 from sambot_viz.panels import row_sync
 
 MOST_ROWS = 110
@@ -82,8 +82,8 @@ def test_a_good_message_is_drawn_after_hostile_ones(
     fine = Tried(tried.kind, tried.type_name, tried.number, is_attacked=False)
     rows, others = (display_of(viz, one).status.rows for one in (tried, fine))
     assert len(rows) <= MOST_ROWS
-    assert all(len(key) <= LONGEST_KEY for key in rows)
-    assert all(len(row.text) <= LONGEST_TEXT for row in rows.values())
+    assert all(len(key) <= limits.KEY.value for key in rows)
+    assert all(len(row.text) <= limits.STATUS_TEXT.value for row in rows.values())
     levels = ("Ok", "Warn", "Error")
     worse = [
         key

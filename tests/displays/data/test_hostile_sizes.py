@@ -8,14 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from lower_limit import lower
 from patience import until
 from situations import TYPES, good_message
 
-from sambot_viz.displays.data.markers import markers
-from sambot_viz.displays.data.markers.markers import MOST_MARKERS, MOST_ROWS
-from sambot_viz.displays.data.markers.namespaces import MOST_NAMESPACES
+from sambot_viz import limits
 from sambot_viz.displays.data.refusals import MessageRefused
-from sambot_viz.displays.display import LONGEST_KEY, LONGEST_TEXT
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]
@@ -64,7 +62,7 @@ def points(number: int) -> Change:
 
 def test_a_marker_with_too_many_points_is_not_drawn(messages: Open) -> None:
     shown = messages("Marker", changed("Marker", points(500_001)))
-    text = "500001 points are more than the 500000 that are drawn"
+    text = "500,001 points are more than the 500,000 that are drawn"
     assert shown.statuses["t/0"] == ("Error", text)
     assert shown.node_names() == []
 
@@ -72,7 +70,7 @@ def test_a_marker_with_too_many_points_is_not_drawn(messages: Open) -> None:
 def test_all_markers_together_have_so_many_points(
     messages: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(markers, "MOST_POINTS", 5)
+    lower(monkeypatch, "MARKERS_POINTS", 5)
 
     def three_points(number: int) -> Make:
         def change(marker: Any) -> None:
@@ -94,14 +92,14 @@ def test_markers_and_namespaces_are_as_many_as_can_be_drawn(messages: Open) -> N
         values = {k: v for k, v in vars(first).items() if not k.startswith("__")}
         array.markers = [
             made(**{**values, "ns": f"n{number}", "type": number % 100})
-            for number in range(MOST_MARKERS + 5000)
+            for number in range(limits.MARKERS.value + 5000)
         ]
 
     shown = messages("MarkerArray", changed("MarkerArray", many))
-    assert len(shown.display._markers.shown) <= MOST_MARKERS  # pyright: ignore[reportPrivateUsage]
+    assert len(shown.display._markers.shown) <= limits.MARKERS.value  # pyright: ignore[reportPrivateUsage]
     (namespaces,) = shown.display.entries()
-    assert len(namespaces.names) == MOST_NAMESPACES
-    assert len(shown.statuses) <= MOST_ROWS + 5
+    assert len(namespaces.names) == limits.NAMESPACES.value
+    assert len(shown.statuses) <= limits.MARKER_ROWS.value + 5
     assert shown.statuses["Markers"][0] in ("Warn", "Error")
 
 
@@ -120,8 +118,10 @@ def test_a_long_text_is_cut(messages: Open, field: str) -> None:
 
     shown = messages("Marker", changed("Marker", is_text), changed("Marker", nothing))
     assert count(shown) >= 1
-    assert all(len(key) <= LONGEST_KEY for key in shown.statuses)
-    assert all(len(text) <= LONGEST_TEXT for _, text in shown.statuses.values())
+    assert all(len(key) <= limits.KEY.value for key in shown.statuses)
+    assert all(
+        len(text) <= limits.STATUS_TEXT.value for _, text in shown.statuses.values()
+    )
 
 
 @pytest.mark.parametrize(

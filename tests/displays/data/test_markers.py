@@ -13,7 +13,7 @@ import pytest
 from inside import session_of
 from PIL import Image
 
-from sambot_viz.displays.data.markers.marker_displays import MOST_AT_ONCE, MOST_MESSAGES
+from sambot_viz import limits
 from sambot_viz.displays.data.markers.textures import has_texture
 from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL
@@ -291,7 +291,7 @@ def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
     subscription = shown.display.subscription
     (last,) = subscription._last.values()  # pyright: ignore[reportPrivateUsage]
     with session_of(shown.viz).lock:
-        for number in range(MOST_MESSAGES + 1):
+        for number in range(limits.MARKER_MESSAGES.value + 1):
             subscription.take(replace(last, log_ns=last.log_ns + 1 + number))
         shown.display.messages_came()
     level, text = shown.statuses["Messages"]
@@ -308,7 +308,7 @@ def test_of_large_messages_between_two_pictures_the_newest_are_drawn(
     taken: list[bytes] = []
     with session_of(shown.viz).lock:
         for number in range(9):
-            payload = bytes(last.payload) + bytes([number]) * MOST_AT_ONCE
+            payload = bytes(last.payload) + bytes([number]) * limits.MARKER_BURST.value
             later = last.log_ns + 1 + number
             subscription.take(replace(last, log_ns=later, payload=payload))
         taken += [

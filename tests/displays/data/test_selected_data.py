@@ -13,10 +13,10 @@ from inside import session_of, viser_server
 from panel_rows import data_of, panel_of
 from protocol_client import ProtocolClient
 
+from sambot_viz import limits
 from sambot_viz.panels.selection.selection import SHOWN, SelectionPanel
 from sambot_viz.panels.tools import ToolsPanel
 from sambot_viz.session.scene.picker import Picker
-from sambot_viz.tools.picking.pick_scene import MOST_CUBES
 
 Open = Callable[..., Any]
 SQUARE = [(x, y, 0.0) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
@@ -143,8 +143,8 @@ def test_of_many_points_the_first_are_listed(page: Callable[..., Page]) -> None:
     one = page("PointCloud2", cloud2(points), Style="Points")
     one.rectangle((0.0, 0.0), (1.0, 1.0))
     count = len(one.numbers)
-    assert count > MOST_CUBES
-    assert one.boxes() == MOST_CUBES
+    assert count > limits.SELECTED_BOXES.value
+    assert one.boxes() == limits.SELECTED_BOXES.value
     rows = one.panel().rows()
     assert sum(row.kind == "group" for row in rows) == SHOWN
     assert rows[-1].value == f"and {count - SHOWN} more"

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from sambot_viz.displays.scene.texts import LONGEST, SPACE, TextNode
+from sambot_viz import limits
+from sambot_viz.displays.scene.texts import SPACE, TextNode
 
 if TYPE_CHECKING:
     from conftest import Drawn
@@ -72,7 +73,7 @@ def test_no_text_can_harm_the_page(drawn: Drawn, document: Document) -> None:
     TextNode(drawn.scene, "/t").draw("\ud800\u202e\x00" + 9999 * "a\n", 1.0)
     sent = said(drawn, document)
     assert sent["lines"][0] == "\ufffd\ufffd\ufffda"
-    assert sum(len(line) + 1 for line in sent["lines"]) <= LONGEST + 1
+    assert sum(len(line) + 1 for line in sent["lines"]) <= limits.MARKER_TEXT.value + 1
 
 
 def test_a_space_may_have_a_width_of_its_own(drawn: Drawn, document: Document) -> None:

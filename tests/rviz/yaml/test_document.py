@@ -373,7 +373,7 @@ def test_a_file_that_is_far_too_large_is_not_read(tmp_path: Path):
     path = tmp_path / "large.rviz"
     with path.open("wb") as file:
         file.truncate(2**30)
-    with pytest.raises(ConfigError, match="more than 4 MB"):
+    with pytest.raises(ConfigError, match="more than 4,000,000 bytes"):
         Document.load(path)
 
 

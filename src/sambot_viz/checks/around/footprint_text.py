@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.navigation import is_open
 from sambot_viz.checks.around.parameter_types import type_of
@@ -21,7 +22,6 @@ _WORD = re.compile(r"[^\s,\[\]]+")
 _NONE = frozenset({"", "[]"})
 _SIZES = ("footprint", "robot_radius")
 _LIKENESS = 0.7
-_LONGEST = 20_000
 
 
 def unreadable_footprints(around: Surroundings) -> Iterator[Problem]:
@@ -41,7 +41,7 @@ def is_readable(footprint: Parameter) -> bool:
     if type_of(footprint.written) == "list":
         return not footprint.written.value
     text = footprint.fact.value
-    if text.strip() in _NONE or is_open(text) or len(text) > _LONGEST:
+    if text.strip() in _NONE or is_open(text) or len(text) > limits.BUILD_FILE.value:
         return True
     return _CORNERS.fullmatch(text) is not None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from sambot_viz import limits
 from sambot_viz.checks.around.files.yaml_repair import Fault
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -24,14 +25,13 @@ _SMALLEST = (
     "</maintainer><license>MIT</license><buildtool_depend>ament_cmake"
     "</buildtool_depend><export><build_type>ament_cmake</build_type></export></package>"
 )
-_LONGEST = 30_000
 _BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
 
 def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
     """Report a package.xml that is empty, is no XML or names no package."""
     text, shown = around.files.text(_FILE), around.files.shown(_FILE)
-    if text is None or len(text) > _LONGEST:
+    if text is None or len(text) > limits.BUILD_FILE.value:
         return
     root = around.manifest
     fault = _fault(text, around) if root is None else None

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz.checks.around.files.cmake import LONGEST, CMakeFile
+from sambot_viz import limits
+from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -84,7 +85,7 @@ class Surroundings:
         """CMakeLists.txt; None when there is none, or a very long one."""
         name = "CMakeLists.txt"
         text = self.files.text(name)
-        if text is None or len(text) > LONGEST:
+        if text is None or len(text) > limits.BUILD_FILE.value:
             return None
         return CMakeFile(text, self.files.shown(name))
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.data.map_properties import (
     HEIGHT,
     MAP_PROPERTIES,
@@ -37,8 +38,6 @@ from sambot_viz.topics.decoding import frame_and_stamp
 MAP, UPDATE = "Map", "Update"
 """Keys of statuses."""
 _NONE_YET = "No map received"
-MOST_UPDATES = 2000
-"""So many updates since the last map are applied after a jump in a recording."""
 Cells = npt.NDArray[np.uint8]
 
 
@@ -107,7 +106,7 @@ class MapDisplay(TopicDisplay):
     @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures."""
-        return MOST_UPDATES
+        return limits.MAP_UPDATES.value
 
     def messages_came(self) -> None:
         """Take maps and updates in their order, and draw once."""

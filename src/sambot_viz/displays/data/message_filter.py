@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, ClassVar, Generic
 
+from sambot_viz import limits
 from sambot_viz.displays.data.kept import Held, HeldMessages, T, Taken
 from sambot_viz.displays.data.message_numbers import at_sensor
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
-    MOST_WAITING,
     TOPIC,
     TopicDisplay,
 )
@@ -55,7 +55,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        self.held = HeldMessages(MOST_WAITING)
+        self.held = HeldMessages(limits.DISPLAY_WAITING.value)
         self.kept: list[Taken[T]] = []
         self._drawn_in = context.fixed_frame
 

@@ -25,8 +25,6 @@ from sambot_viz.meanings.row import SENSOR_POSE
 from sambot_viz.topics.decoding import numbers_of
 
 Floats = npt.NDArray[np.float64]
-MOST_POSES = limits.MESSAGE_POSES.value
-"""So many poses of one message are drawn at most."""
 
 
 def require_finite(values: Iterable[float]) -> None:
@@ -155,6 +153,7 @@ def require_few(count: int) -> None:
     Raises:
         MessageRefused: there are too many.
     """
-    if count > MOST_POSES:
-        text = f"It has {count:,} points or poses: at most {MOST_POSES:,} are drawn"
+    most = limits.MESSAGE_POSES.value
+    if count > most:
+        text = f"It has {count:,} points or poses: at most {most:,} are drawn"
         raise MessageRefused(text)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import viser
 
+from sambot_viz import limits
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import Floats, poses_of
@@ -32,8 +33,6 @@ from sambot_viz.rviz import (
 
 LINES, RIBBONS = "Lines", "Billboards"
 NONE, AXES, ARROWS = "None", "Axes", "Arrows"
-MOST_PATHS = 100
-"""So many paths are drawn at most, whatever the Buffer Length."""
 _IF_AXES, _IF_ARROWS = ("Pose Style", AXES), ("Pose Style", ARROWS)
 Poses = tuple[Floats, Floats]
 """Rotations, (N, 4), and positions, (N, 3) [m]."""
@@ -93,8 +92,8 @@ class PathDisplay(MessageFilterDisplay[Poses]):
             "Buffer Length",
             default=1,
             minimum=1,
-            help=f"So many of the newest paths are shown, up to {MOST_PATHS}.",
-            acts_up_to=MOST_PATHS,
+            help=f"So many of the newest paths are shown, up to {limits.PATHS.value}.",
+            acts_up_to=limits.PATHS.value,
         ),
         VectorProperty(
             "Offset",

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
@@ -18,8 +19,6 @@ from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.geometry import IDENTITY, Matrix, Vector3
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import ColorProperty, IntProperty
-
-MOST_POINTS = 10_000
 
 
 class PointStampedDisplay(MessageFilterDisplay[Vector3]):
@@ -40,8 +39,8 @@ class PointStampedDisplay(MessageFilterDisplay[Vector3]):
             default=1,
             minimum=1,
             maximum=100_000,
-            acts_up_to=MOST_POINTS,
-            help=f"So many points stay; here up to {MOST_POINTS:,}.",
+            acts_up_to=limits.STAMPED_POINTS.value,
+            help=f"So many points stay; here up to {limits.STAMPED_POINTS.value:,}.",
         ),
     )
     _node = DisplayNode(SolidsNode, "")

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
@@ -21,7 +22,6 @@ from sambot_viz.meanings import Meaning
 from sambot_viz.meshes.primitives import CONE_TIP
 from sambot_viz.rviz import ColorProperty, IntProperty
 
-MOST_RANGES = 1_000
 _WIDEST = math.radians(179)
 _TO_SENSOR = np.array([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 """A cone with its tip along z, turned so that the tip points along −x."""
@@ -47,8 +47,9 @@ class RangeDisplay(MessageFilterDisplay[Reading]):
             "Buffer Length",
             default=1,
             minimum=1,
-            acts_up_to=MOST_RANGES,
-            help=f"So many of the newest readings are shown, up to {MOST_RANGES:,}.",
+            acts_up_to=limits.RANGE_CONES.value,
+            help="So many of the newest readings are shown, up to "
+            f"{limits.RANGE_CONES.value:,}.",
         ),
     )
     _node = DisplayNode(SolidsNode, "")

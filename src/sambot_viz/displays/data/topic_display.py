@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import ClassVar
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import nodes_of
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.meshes import Part
@@ -24,8 +25,6 @@ from sambot_viz.topics.subscription import Subscription
 TOPIC = "Topic"
 """The path of the property that names the topic, and the key of its status."""
 NO_SOURCE = "No messages: open a recording or a live robot (--source)"
-MOST_WAITING = 100
-"""So many messages wait between two pictures, of a display that draws each of them."""
 
 
 def topic_property(
@@ -136,7 +135,7 @@ class TopicDisplay(Display):
     @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures."""
-        return MOST_WAITING
+        return limits.DISPLAY_WAITING.value
 
     def other_topics(self) -> Sequence[str]:
         """Return what it listens to beside its topic."""

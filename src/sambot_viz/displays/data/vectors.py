@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
@@ -28,7 +29,6 @@ from sambot_viz.rviz import (
     Property,
 )
 
-MOST_VECTORS = 100
 LENGTH = "History Length"
 _POINTS = 29
 """Of each circle: from 45° to 360°."""
@@ -96,8 +96,9 @@ def vector_properties(along: str, about: str) -> tuple[Property, ...]:
             default=1,
             minimum=1,
             maximum=100_000,
-            acts_up_to=MOST_VECTORS,
-            help=f"So many of the newest messages are shown, up to {MOST_VECTORS}.",
+            acts_up_to=limits.VECTORS.value,
+            help="So many of the newest messages are shown, up to "
+            f"{limits.VECTORS.value}.",
         ),
     )
 

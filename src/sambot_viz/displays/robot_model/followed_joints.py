@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from sambot_viz import limits
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.subscription import Subscription
 
 _DEPTH_S = 1.0
-_MOST_WAITING = 100
 
 
 class FollowedJoints:
@@ -42,7 +42,7 @@ class FollowedJoints:
         self._topics, self._subscription, self._states = topics, None, None
         if topics:
             self._subscription = messages.subscribe(
-                topics, self._take, depth_s=_DEPTH_S, size=_MOST_WAITING
+                topics, self._take, depth_s=_DEPTH_S, size=limits.DISPLAY_WAITING.value
             )
             self._states = JointStateTopics(topics, self._subscription.decode)
             # Of a recording that stands still they wait already.

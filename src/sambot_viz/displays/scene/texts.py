@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.picking.placed_points import PlacedPoints, PointOutline
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
@@ -14,8 +15,6 @@ from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3
 from sambot_viz.text import text as printable
 
-LONGEST = 2000
-"""More characters than this are not drawn."""
 LETTER = 0.5
 """Width of a letter by the height of a line, about: only browsers know the letters."""
 SPACE = 0.593
@@ -47,7 +46,9 @@ class TextNode(GlbNode):
             space: width of a space [m]; None for that of an A.
             position: of the middle in the frame of the node above [m].
         """
-        lines = [printable(line) for line in text[:LONGEST].split("\n")]
+        lines = [
+            printable(line) for line in text[: limits.MARKER_TEXT.value].split("\n")
+        ]
         if not "".join(lines).strip() or not 0 < height < 1e6 or not alpha > 0:
             self.remove()
             return

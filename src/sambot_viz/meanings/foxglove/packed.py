@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.meanings.foxglove.parts import header_of, part, parts, pose_of
 from sambot_viz.meanings.row import SENSOR_POSE, Fields
@@ -28,8 +29,6 @@ _DATATYPES = {
 """The datatype of a sensor_msgs/PointField for each of them."""
 _FLOAT = "<f4"
 _COLORS = ("red", "green", "blue")
-_MOST_STRIDE = 1 << 16
-"""Bytes of a point or a cell; real ones have tens."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +74,7 @@ class _Packed:
 
 def _stride(fields: Fields, name: str) -> int:
     stride = whole_number(fields.get(name))
-    if not 0 < stride <= _MOST_STRIDE:
+    if not 0 < stride <= limits.POINT_BYTES.value:
         raise DecodeError(f"{name} is {stride}")
     return stride
 

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
@@ -24,7 +25,6 @@ from sambot_viz.meshes.formats.collada_material import Materials
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
 from sambot_viz.meshes.source import MeshSource
 
-_DEEPEST = 200
 FEW_CHILDREN = 20
 """A node with so many transforms and parts counts as two."""
 
@@ -84,11 +84,12 @@ class _Scene:
             yield from pieces
 
     def _node(self, node: ET.Element, T: Matrix, depth: int) -> Iterator[Submesh]:
-        if depth > _DEEPEST:
+        if depth > limits.MESH_DEPTH.value:
             self.source.warn(
                 "mesh-nodes-too-deep",
                 "the COLLADA nodes contain themselves or are "
-                f"nested more than {_DEEPEST} deep; the rest is left out",
+                f"nested more than {limits.MESH_DEPTH.value} deep; the rest is left "
+                "out",
             )
             return
         # A node has a few transforms, and may be named again and again.

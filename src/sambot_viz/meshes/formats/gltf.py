@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.gltf_file import GltfFile, GltfMaterials, Json
@@ -35,7 +36,6 @@ _COMPRESSED = {
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
-_MOST_STEPS = 5_000_000
 
 
 def read_gltf(source: MeshSource) -> list[Submesh]:
@@ -129,7 +129,10 @@ def _check_meshes(file: GltfFile) -> str | None:
     if uses:
         raise IndexError(f"meshes {sorted(uses)}")
     # trimesh tries numbers behind equal names until one is free.
-    if sum(n > 1 for n in Counter(names).values()) * len(names) > _MOST_STEPS:
+    if (
+        sum(n > 1 for n in Counter(names).values()) * len(names)
+        > limits.MESH_NAMES.value
+    ):
         raise ValueError("too many of its nodes and meshes have the same names")
     return None
 

@@ -15,16 +15,15 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import WHITE, Texture
 from sambot_viz.meshes.named_files import NamedFileError
-from sambot_viz.meshes.source import MOST_NODES, MeshMaterial, MeshSource
+from sambot_viz.meshes.source import MeshMaterial, MeshSource
 from sambot_viz.meshes.textures import TextureError
 
 Json = dict[str, Any]
 
-_LARGEST = 500 * 2**20
-"""Buffers and images above this size [bytes] are refused."""
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {
     "SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16,
@@ -98,7 +97,7 @@ class GltfFile:
             # Encoded bytes are found as trimesh finds them, but read strictly.
             if encoded:
                 return base64.b64decode(text, validate=True)
-            return self.source.files.read(uri, _LARGEST)
+            return self.source.files.read(uri, limits.MESH.value)
         except ValueError as error:
             raise ValueError("a data URI is not valid base64") from error
         except NamedFileError as error:
@@ -119,8 +118,8 @@ class GltfFile:
     def _compare_sizes(self) -> None:
         """Refuse a file that announces numbers which it has no bytes for."""
         for name in ("bufferViews", "accessors"):
-            if len(self.document.get(name, ())) > MOST_NODES:
-                raise ValueError(f"it has more than {MOST_NODES} {name}")
+            if len(self.document.get(name, ())) > limits.MESH_NODES.value:
+                raise ValueError(f"it has more than {limits.MESH_NODES.value} {name}")
         views = range(len(self.document.get("bufferViews", ())))
         announced = sum(len(self.view(number)) for number in views)
         for accessor in self.document.get("accessors", ()):

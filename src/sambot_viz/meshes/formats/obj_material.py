@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
+from sambot_viz import limits
 from sambot_viz.meshes.mesh import GREY, Texture
 from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
 from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
-
-_LARGEST_LIBRARY = 64 * 2**20
-"""Material files above this size [bytes] are refused."""
 
 
 def read_libraries(names: list[str], source: MeshSource) -> dict[str, MeshMaterial]:
@@ -18,7 +16,7 @@ def read_libraries(names: list[str], source: MeshSource) -> dict[str, MeshMateri
     looks: dict[str, MeshMaterial] = {}
     for name in dict.fromkeys(names):
         try:
-            data = source.files.read(name, _LARGEST_LIBRARY)
+            data = source.files.read(name, limits.MATERIALS.value)
         except NamedFileError as error:
             pointer = isinstance(error, LfsPointerError)
             source.warn(

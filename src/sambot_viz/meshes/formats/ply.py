@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.meshes.assembly.assemble import Submesh
 from sambot_viz.meshes.assembly.triangles import triangulate
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
@@ -24,7 +25,6 @@ from sambot_viz.meshes.source import MeshSource
 _Element = dict[str, bool]
 """The properties of a kind of entry, and which of them are lists."""
 _FORMATS = ("ascii", "binary_little_endian", "binary_big_endian")
-_LONGEST_HEADER = 2**16
 _NUMBERS = b"0123456789+-.eE \t\r\nnaifNAIF"
 
 
@@ -52,7 +52,7 @@ def read_ply(source: MeshSource) -> list[Submesh]:
 
 def _check(data: bytes) -> int:
     """Return how many faces a file announces, once its header and text are sound."""
-    head, end, _ = data[:_LONGEST_HEADER].partition(b"end_header")
+    head, end, _ = data[: limits.PLY_HEADER.value].partition(b"end_header")
     lines = [line.split() for line in head.decode("latin-1").splitlines()]
     if lines[:1] != [["ply"]] or not end:
         raise ValueError("it has no PLY header")

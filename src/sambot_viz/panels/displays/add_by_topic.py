@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
+from sambot_viz import limits
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.panel import Panel
@@ -11,8 +12,6 @@ from sambot_viz.panels.rows.row import Data, Row
 from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.scene.scene import Scene
 
-MOST_SHOWN = 200
-"""So many topics have rows; the search finds the others."""
 NO_SOURCE = (
     "There are no topics without a source: start again with a recording or a live "
     "robot, as in sambot-viz --source FILE.mcap"
@@ -59,9 +58,9 @@ class AddByTopicPanel(Panel):
         types = messages.types()
         found = shown_topics({n: types[n] for n in types if _has(n, words)})
         shown = [topic for topic in found if shows_all or topic.displays]
-        yield from topic_rows(shown[:MOST_SHOWN], f"{self.name}/")
-        if len(shown) > MOST_SHOWN:
-            more = f"{len(shown) - MOST_SHOWN:,} more: use the search"
+        yield from topic_rows(shown[: limits.ADDED_ROWS.value], f"{self.name}/")
+        if len(shown) > limits.ADDED_ROWS.value:
+            more = f"{len(shown) - limits.ADDED_ROWS.value:,} more: use the search"
             yield _note("more", more)
         elif not types:
             yield _note("none", self._topics.nothing)

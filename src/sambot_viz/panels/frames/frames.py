@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
@@ -17,10 +18,10 @@ from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
-from sambot_viz.session.limits import MOST_FRAMES, require_room
 from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.robot.user_frames import UserFrame
+from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
 
@@ -244,7 +245,7 @@ class FramesPanel(Panel):
             )
         self._check_parent(child)
         added = self._frames.added
-        require_room(len({*added, child}), MOST_FRAMES, "added frames")
+        require_room(len({*added, child}), limits.SESSION_FRAMES.value, "added frames")
         self._frames.add(parent, child, wanted.transform)
         said = "; ".join((f"Added {child} (parent {parent})", *wanted.warnings))
         self._say(said, "warn" if wanted.warnings else "ok")

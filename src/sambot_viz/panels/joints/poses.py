@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.hierarchy import plain_name
@@ -14,16 +15,14 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.panels.command import TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Data, Json
-from sambot_viz.session.limits import MOST_POSES, require_room
 from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
 
-LONGEST_POSE_NAME = 60
-"""Of a pose [characters]."""
 MOVE_TIME = 0.3
 """A motion to a pose takes so long [s]."""
 
@@ -100,12 +99,14 @@ class PosesPanel(Panel):
         name, joints = name.strip(), self._robot.joints
         if joints is None:
             raise UsageError("there is no robot to save a pose of")
-        if len(name) > LONGEST_POSE_NAME:
+        if len(name) > limits.POSE_NAME.value:
             raise UsageError(
-                f"a pose's name has at most {LONGEST_POSE_NAME} characters"
+                f"a pose's name has at most {limits.POSE_NAME.value} characters"
             )
         poses = self._poses
-        require_room(len({*poses.names, name}), MOST_POSES, "named poses")
+        require_room(
+            len({*poses.names, name}), limits.SESSION_POSES.value, "named poses"
+        )
         poses.save(name, joints.positions)
         self._remake(self)
         return Answer(f"Saved pose '{name}' {self._place()}")

@@ -21,8 +21,6 @@ from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, proble
 from sambot_viz.session.problems import Problems
 from sambot_viz.text import text
 
-MOST_SHOWN = limits.PROBLEM_ROWS.value
-"""So many groups of problems, and of the problems of one group, have rows."""
 LINES_AROUND = 2
 _LONGEST_FILE = 60
 _FOLDERS = re.compile(r"(?<![\w.)])/([^\s/'\"<>]+)/(?:[^\s/'\"<>]+/)*")
@@ -82,7 +80,7 @@ class ProblemsPanel(Panel):
         return [self._lazy.command()]
 
     def _group_rows(self, groups: Sequence[ProblemGroup]) -> Iterator[Row]:
-        for index, group in enumerate(groups[:MOST_SHOWN]):
+        for index, group in enumerate(groups[: limits.PROBLEM_ROWS.value]):
             first = index == 0 and group.severity == "error"
             if len(group.problems) == 1:
                 yield from self._problem_rows(group.first, "", unfolded=first)
@@ -92,8 +90,8 @@ class ProblemsPanel(Panel):
             yield Row("problems/none", "", "note", value="Checking…")
         elif not groups:
             yield Row("problems/none", "", "note", value="No problems.", level="ok")
-        elif len(groups) > MOST_SHOWN:
-            yield _rest("problems/rest", "", len(groups) - MOST_SHOWN)
+        elif len(groups) > limits.PROBLEM_ROWS.value:
+            yield _rest("problems/rest", "", len(groups) - limits.PROBLEM_ROWS.value)
 
     def _several_rows(self, group: ProblemGroup, *, unfolded: bool) -> Iterator[Row]:
         row_id = _group_id(group)
@@ -103,10 +101,14 @@ class ProblemsPanel(Panel):
             return
         if group.hint:
             yield _hint(row_id, group.hint)
-        for problem in group.problems[:MOST_SHOWN]:
+        for problem in group.problems[: limits.PROBLEM_ROWS.value]:
             yield from self._problem_rows(problem, row_id, hint=False)
-        if len(group.problems) > MOST_SHOWN:
-            yield _rest(f"{row_id}/rest", row_id, len(group.problems) - MOST_SHOWN)
+        if len(group.problems) > limits.PROBLEM_ROWS.value:
+            yield _rest(
+                f"{row_id}/rest",
+                row_id,
+                len(group.problems) - limits.PROBLEM_ROWS.value,
+            )
 
     def _problem_rows(
         self,
@@ -158,7 +160,7 @@ def rows_by_place(problems: Iterable[Problem]) -> dict[str, str]:
     """Return the ids of the rows that say what is wrong at a line, by `place_of`."""
     return {
         place_of(problem): _group_id(group)
-        for group in group_problems(problems)[:MOST_SHOWN]
+        for group in group_problems(problems)[: limits.PROBLEM_ROWS.value]
         for problem in group.problems
         if problem.line is not None
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.panels.command import FLAG, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Row
@@ -16,8 +17,6 @@ from sambot_viz.topics.live_reasons import lagging
 TIME, PLAYING, CLOCK = "player/time", "player/playing", "source/clock"
 ANY = "any"
 """Instead of a topic: messages of all topics that are shown."""
-MOST_TOPICS = 300
-"""So many topics are offered to step by."""
 
 
 class SourcePanel(Panel):
@@ -81,7 +80,7 @@ class SourcePanel(Panel):
 
     def _controls(self, player: Player) -> Sequence[Row]:
         playback = player.playback.value
-        topics = [ANY, *sorted(player.recording.topics)[:MOST_TOPICS]]
+        topics = [ANY, *sorted(player.recording.topics)[: limits.STEP_TOPICS.value]]
         return [
             Row(
                 TIME,

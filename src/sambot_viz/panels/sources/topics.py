@@ -18,8 +18,6 @@ from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicStatus
 
-MOST_SHOWN = limits.TOPIC_ROWS.value
-"""So many topics have rows; the search finds the others."""
 AGES = 50
 """Of so many topics the age is looked up at a time."""
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
@@ -107,16 +105,16 @@ class TopicsPanel(Panel):
             for name in self._topics.names
             if all(word in name.lower() for word in words)
         ]
-        if self._names != found[:MOST_SHOWN]:
-            self._names, self._next = found[:MOST_SHOWN], 0
+        if self._names != found[: limits.TOPIC_ROWS.value]:
+            self._names, self._next = found[: limits.TOPIC_ROWS.value], 0
             self._beside.clear()
             self._counts.clear()
             self._topics.follow(self, self._names, self._chosen)
             self._measure(self._names[:AGES])
         for name in self._names:
             yield from self._rows_of(name)
-        if len(found) > MOST_SHOWN:
-            more = f"{len(found) - MOST_SHOWN:,} more: use the search"
+        if len(found) > limits.TOPIC_ROWS.value:
+            more = f"{len(found) - limits.TOPIC_ROWS.value:,} more: use the search"
             yield Row("topics/more", "", "note", value=more)
         elif not found:
             none = "No name has this in it" if words else self._topics.nothing

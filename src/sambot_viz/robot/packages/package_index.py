@@ -13,14 +13,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz import limits
+
 MANIFESTS = ("package.xml", "manifest.xml", "model.config")
 IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 _SKIPPED = frozenset({"build", "log", "node_modules", "__pycache__", "site-packages"})
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _PLAUSIBLE = re.compile(r"\w[\w.-]*")
 """A possible name of a package. A model may ask for any text, such as "/"."""
-_MAX_FOLDERS = 3000
-_MAX_DEPTH = 6
 _MAX_UP = 6
 
 
@@ -146,8 +146,8 @@ class PackageIndex:
 
     def _sources(self) -> Iterator[tuple[str, _Scan]]:
         for folder in self._folders:
-            yield str(folder), self._scan(folder, _MAX_FOLDERS)
-        budget = _MAX_FOLDERS
+            yield str(folder), self._scan(folder, limits.SEARCHED_FOLDERS.value)
+        budget = limits.SEARCHED_FOLDERS.value
         for folder in self._neighbourhood():
             scan = self._scan(folder, budget)
             budget -= scan.size
@@ -155,7 +155,10 @@ class PackageIndex:
             if budget <= 0:
                 break
         for entry in self._path_variable("ROS_PACKAGE_PATH"):
-            yield f"{entry} (ROS_PACKAGE_PATH)", self._scan(entry, _MAX_FOLDERS)
+            yield (
+                f"{entry} (ROS_PACKAGE_PATH)",
+                self._scan(entry, limits.SEARCHED_FOLDERS.value),
+            )
 
     def _neighbourhood(self) -> Iterator[Path]:
         """The folders to search, from the model's own up to its workspace.
@@ -220,7 +223,7 @@ class _Scan:
                 continue
             self.size += 1
             children = self._enter(folder)
-            if depth < _MAX_DEPTH:
+            if depth < limits.SEARCHED_DEPTH.value:
                 queue.extend((child, depth + 1) for child in children)
 
     def _take_over(self, other: _Scan) -> None:

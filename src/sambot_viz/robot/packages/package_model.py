@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
 
 MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro", ".sdf.xacro", ".sdf")
@@ -30,9 +31,6 @@ _FOLDERS = (
 _SKIPPED = frozenset({"build", "install", "log", "node_modules"})
 _TESTS = frozenset({"test", "tests"})
 _SUFFIXES = ("", "_description", "_support", "_urdf", "_robot", "_model", "_pkg")
-_MAX_FOLDERS = 500
-_MAX_DEPTH = 7
-_LARGEST = 8_000_000
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _MACRO = re.compile(r"<xacro:macro\b[^>]*(?<!/)>.*?</xacro:macro\s*>", re.DOTALL)
@@ -138,7 +136,7 @@ def _walk(top: Path) -> Iterator[Path]:
             folders.clear()
             continue
         folders[:] = sorted(f for f in folders if _worth_entering(f))
-        if depth >= _MAX_DEPTH or count > _MAX_FOLDERS:
+        if depth >= limits.MODEL_DEPTH.value or count > limits.MODEL_FOLDERS.value:
             folders.clear()
         count += 1
         for name in sorted(names):
@@ -153,7 +151,7 @@ def _worth_entering(name: str) -> bool:
 def _text_of(path: Path) -> str:
     """Return the text of a file without comments; "" when it cannot be read."""
     try:
-        if path.stat().st_size > _LARGEST:
+        if path.stat().st_size > limits.XACRO_SOURCE.value:
             return ""
         return _COMMENT.sub("", path.read_text("utf-8", "replace"))
     except OSError:

@@ -15,6 +15,7 @@ from pathlib import Path, PurePosixPath
 from typing import Literal
 from urllib.parse import unquote
 
+from sambot_viz import limits
 from sambot_viz.robot.packages.name_form import NameForm, name_form
 from sambot_viz.robot.packages.package_index import PackageIndex
 
@@ -29,7 +30,6 @@ Doubt = Literal[
 ]
 """The reason why ROS would not find a file that was found here by this name."""
 
-_MAX_FOLDERS = 2000
 _HERE = ("localhost/", "127.0.0.1/")
 """Computers that file:// may name before a path, as RViz reads it."""
 _OF_WINDOWS = re.compile(r"[A-Za-z]:[\\/]|\\\\")
@@ -249,5 +249,5 @@ def _folders(root: Path) -> Iterator[Path]:
         children[:] = sorted(c for c in children if not c.startswith("."))
         yield Path(folder)
         count += 1
-        if count >= _MAX_FOLDERS:
+        if count >= limits.NEAR_FOLDERS.value:
             return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
+from sambot_viz import limits
 from sambot_viz.robot.sdf.elements import ElementType, model_type
 from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
 from sambot_viz.robot.sdf.habits import attributes_of_urdf
@@ -16,7 +17,7 @@ from sambot_viz.robot.sdf.misplaced import (
 )
 from sambot_viz.robot.sdf.old_versions import Version, version_of
 from sambot_viz.robot.sdf.sdf_words import REPEATED, sdf_vocabulary, types_by_tag
-from sambot_viz.robot.slips.misspelt import MOST_SLIPS, Slip
+from sambot_viz.robot.slips.misspelt import Slip
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
@@ -37,11 +38,11 @@ def sdf_slips(document: Element) -> list[Slip]:
         if child.tag == "model":
             slips = _below(child, model_type())
             known = (s for s in slips if not _is_old(s, version))
-            return [*beside_model(document, child), *islice(known, MOST_SLIPS)]
+            return [*beside_model(document, child), *islice(known, limits.SLIPS.value)]
     for child in document.children:
         if meant(child.tag, ["model"]) and child.tag not in ("world", "light", "actor"):
             slips = _below(child, model_type())
-            return [Slip(child, "model"), *islice(slips, MOST_SLIPS)]
+            return [Slip(child, "model"), *islice(slips, limits.SLIPS.value)]
     return []
 
 

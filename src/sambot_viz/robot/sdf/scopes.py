@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.errors import Place
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.findings import ModelFindings
@@ -23,7 +24,6 @@ from sambot_viz.robot.xml.element import Element
 OWN = "__model__"
 """The name of a model's own frame."""
 
-_MOST_NESTED = 100
 _KINDS = ("link", "joint", "frame")
 
 
@@ -127,7 +127,7 @@ def read_scopes(
         reader.read(scope)
         if scope is not top:
             reader.check_nested(scope)
-        if depth < _MOST_NESTED:
+        if depth < limits.NESTED_MODELS.value:
             stack.extend((inner, depth + 1) for inner in scope.nested.values())
     return top
 

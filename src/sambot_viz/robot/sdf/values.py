@@ -13,6 +13,7 @@ from typing import Literal
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.geometry import (
     SHORTEST,
     Matrix,
@@ -22,7 +23,7 @@ from sambot_viz.geometry import (
     rotation_from_xyzw,
 )
 
-LARGEST = 1e18
+LARGEST = float(limits.NUMBER.value)
 """Lengths beyond this leave the range in which pictures and poses can be computed."""
 
 _BLANKS = re.compile(r"[ \t\n\r\v\f]+")

@@ -11,11 +11,10 @@ from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
 
+from sambot_viz import limits
 from sambot_viz.robot.slips.vocabulary import Vocabulary, meant
 from sambot_viz.robot.xml.element import Element
 
-MOST_SLIPS = 1000
-"""So many are found in a document, which then has other troubles."""
 _FAR = 30
 """How many elements around, before and after a misplaced one are looked at."""
 CALL = "xacro:"
@@ -63,7 +62,7 @@ def find_slips(
         return []
     whole = () if document.tag == root else (Slip(document, root),)
     slips = _Search(vocabulary, macros).below(document, root)
-    return [*whole, *islice(slips, MOST_SLIPS)]
+    return [*whole, *islice(slips, limits.SLIPS.value)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +89,7 @@ class _Search:
     ) -> Iterator[tuple[Element, str, Slip | None]]:
         """Yield the children, which element each is meant to be, and its slip."""
         free: list[str] | None = None
-        left = MOST_SLIPS
+        left = limits.SLIPS.value
         known = self.vocabulary.words[tag].has
         for number, child in enumerate(element.children):
             slip = None

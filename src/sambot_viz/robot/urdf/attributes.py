@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sambot_viz import limits
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Origin
@@ -167,7 +168,7 @@ def _text_inside(element: Element, name: str) -> str:
 Report = Callable[[str, str, str, Element, "str | None"], None]
 """`ModelFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
-LARGEST = 1e18
+LARGEST = float(limits.NUMBER.value)
 """Numbers beyond this leave the range in which pictures and poses can be computed:
 browsers have 32 bits, and poses multiply. Real files have limits of 1e16."""
 

@@ -18,6 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from sambot_viz import limits as table
 from sambot_viz.robot.xacro.child.exchange import ChildAnswer, Job
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
@@ -38,9 +39,9 @@ _SECRET_VALUE = re.compile(r"://[^/@\s]*:[^/@\s]*@")
 class Limits:
     """Bounds of an expansion: wall clock [s], memory [MiB], output [characters]."""
 
-    seconds: float = 20.0
-    megabytes: int = 1024
-    characters: int = 64_000_000
+    seconds: float = table.XACRO_TIME.value
+    megabytes: int = table.XACRO_MEMORY.value
+    characters: int = table.XACRO_OUTPUT.value
 
 
 def expand_model(

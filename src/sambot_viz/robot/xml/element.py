@@ -11,21 +11,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+from sambot_viz import limits
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.decode import XmlFault
 
 _ATTRIBUTE = re.compile(rb"""\s([^\s=<>"'/]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _EXTERNAL = "external entities and external document types are not read"
 _AMPLIFIED = "limit on input amplification by entities"
-_DEEPEST = 10_000
-_MOST_ELEMENTS = 2_000_000
-"""About 1 GB of memory; 200,000 links with joints are 1.2 million elements."""
-_MOST_CHARACTERS = 64_000_000
-"""Limit for values and texts of a document that defines entities of its own."""
 _NOTHING = frozenset[str]()
 
 
-def parse_xml(text: str, file: str, *, most_elements: int = _MOST_ELEMENTS) -> Element:
+def parse_xml(
+    text: str, file: str, *, most_elements: int = limits.XML_ELEMENTS.value
+) -> Element:
     """Read a document strictly.
 
     Args:
@@ -50,7 +48,7 @@ class _TreeBuilder:
         self._root: Element | None = None
         self._elements_left = most_elements
         self._has_entities = False
-        self._characters_left = _MOST_CHARACTERS
+        self._characters_left = limits.MODEL.value
         parser = expat.ParserCreate("utf-8")
         parser.buffer_text = True
         parser.StartElementHandler = self._start
@@ -113,7 +111,7 @@ class _TreeBuilder:
         self._elements_left -= 1
         if self._elements_left < 0:
             raise self._fault("too many elements")
-        if len(self._stack) > _DEEPEST:
+        if len(self._stack) > limits.XML_DEPTH.value:
             raise self._fault("nested too deeply")
         if self._has_entities:
             self._spend(sum(len(value) for value in attributes.values()))

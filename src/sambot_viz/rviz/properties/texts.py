@@ -13,14 +13,13 @@ from typing import Any
 
 import re2 as _re2  # pyright: ignore[reportMissingTypeStubs]
 
+from sambot_viz import limits
 from sambot_viz.rviz.properties.numbers import IntProperty
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report
 from sambot_viz.rviz.yaml.nodes import Scalar
 
 FIXED_FRAME = "<Fixed Frame>"
 """What a frame property says when it means the fixed frame, whatever that is."""
-LONGEST_TEXT = 1000
-"""Longest text that can be set, in characters; files may hold longer ones."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +46,10 @@ def checked_text(name: str, value: object) -> str:
     """
     if not isinstance(value, str):
         raise PropertyError(name, value, "a text")
-    if len(value) > LONGEST_TEXT:
-        raise PropertyError(name, value, f"a text of at most {LONGEST_TEXT} characters")
+    if len(value) > limits.PAGE_TEXT.value:
+        raise PropertyError(
+            name, value, f"a text of at most {limits.PAGE_TEXT.value} characters"
+        )
     if any("\ud800" <= character <= "\udfff" for character in value):
         raise PropertyError(name, value, "a text without half characters")
     return str(value)
@@ -194,7 +195,6 @@ class TopicProperty(StringProperty):
     children: tuple[Property, ...] = QOS_PROPERTIES
 
 
-LONGEST_PATTERN = 1000
 _MEMORY = 1 << 17
 """Memory for one compiled expression [B]; larger ones are refused."""
 
@@ -225,7 +225,7 @@ def compile_pattern(expression: str) -> Pattern | None:
     Returns:
         None when it is not an expression, or one that RE2 cannot search.
     """
-    if len(expression) > LONGEST_PATTERN:
+    if len(expression) > limits.PATTERN.value:
         return None
     re2: Any = _re2
     options = re2.Options()

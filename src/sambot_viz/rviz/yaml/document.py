@@ -15,9 +15,6 @@ from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
 from sambot_viz.rviz.yaml.writer import Writer
 
-LARGEST = limits.CONFIG.value
-"""A larger file is not read [bytes]: the largest known one is 20 times smaller, and
-reading takes 3 s for 1 MB."""
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
 
 
@@ -75,7 +72,7 @@ class Document:
         """
         name = os.fspath(path)
         try:
-            data = read_limited(Path(path), LARGEST, pipe=True)
+            data = read_limited(Path(path), limits.CONFIG.value, pipe=True)
         except (OSError, ValueError) as error:
             _refuse_recording(name)
             why = getattr(error, "strerror", None) or str(error)

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.rviz.yaml.nodes import (
     Collection,
     Entry,
@@ -27,12 +28,6 @@ _TO_LINE_END = re.compile(r"[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n|\Z)")
 _GAP = re.compile(r"(?:[ \t\r\n]+|#[^\r\n]*)*")
 _ANCHORS = re.compile(r"(?:[ \t]*[&!][^\s]*)+[ \t]*(?:#[^\r\n]*)?(?:\r\n|\r|\n)")
 """The anchor and the tag of a whole map or list are on a line above it."""
-
-DEEPEST = 200
-"""Maps nested more deeply are refused: they cannot be a tree of displays."""
-MOST_NODES = 50_000
-"""Names and values of a file, with those that aliases repeat: the largest config of 488
-published ones has 8,700, and 100,000 would keep everybody waiting for ten seconds."""
 
 
 class ParseFault(Exception):
@@ -97,12 +92,15 @@ class _Reader:
 
     def _require_room(self, event: Any, size: int, depth: int) -> None:
         """Refuse what is nested too deeply, or is too much in all."""
-        if depth > DEEPEST:
+        if depth > limits.CONFIG_DEPTH.value:
             why = "lists and maps are nested too deeply"
-            raise _fault(event, why, f"nest them at most {DEEPEST} deep")
+            raise _fault(
+                event, why, f"nest them at most {limits.CONFIG_DEPTH.value} deep"
+            )
         self.nodes += size
-        if self.nodes > MOST_NODES:
-            why = f"the file has more than {MOST_NODES:,} names and values"
+        most = limits.CONFIG_VALUES.value
+        if self.nodes > most:
+            why = f"the file has more than {most:,} names and values"
             raise _fault(event, why, "remove what is not needed, or split the file")
 
     def _alias(self, event: Any, depth: int) -> Node:

@@ -13,12 +13,11 @@ from websockets.frames import CTRL_OPCODES, Frame, Opcode
 from websockets.protocol import State
 from websockets.typing import Data
 
+from sambot_viz import limits
 from sambot_viz.server.connections.client_writer import ClientWriter
 from sambot_viz.server.connections.connection_limit import ConnectionLimiter
 from sambot_viz.server.connections.rate_limit import TokenBucket
 
-MESSAGES_PER_SECOND = 300.0
-"""A user with a mouse sends about 110: 60 values and 50 cameras."""
 BURST = 600.0
 """How many messages may come at once."""
 SMALL_FRAME = 1000
@@ -71,7 +70,7 @@ class Connection(ServerConnection):
         super().__init__(*arguments, **settings)
         self.context = ClientContext()
         self.writer = ClientWriter(self)
-        self.rate = TokenBucket(MESSAGES_PER_SECOND, BURST)
+        self.rate = TokenBucket(limits.PAGE_MESSAGES.value, BURST)
         self.read: Callable[[], Awaitable[Data]] = self.receive
         self.client_id: int | None = None
         self.client: Connection | None = None

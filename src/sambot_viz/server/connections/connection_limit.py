@@ -18,11 +18,6 @@ from websockets.http11 import Response
 from sambot_viz import limits
 from sambot_viz.server.connections.page_files import plain_page
 
-MOST_PAGES = limits.PAGES.value
-"""So many pages may be open."""
-MOST_CONNECTIONS = limits.CONNECTIONS.value
-"""So many connections, two for each page; also of those that have not asked for
-anything yet."""
 _OWN_FILES = 400
 """Of the system's file numbers, so many are left: for files, and for connections that
 the event loop accepts, 100 at a time, before they are counted."""
@@ -35,7 +30,7 @@ class ConnectionLimiter:
 
     def __init__(self) -> None:
         least, free = _OWN_FILES // 4, _file_numbers() - _OWN_FILES
-        self._most = min(MOST_CONNECTIONS, max(least, free))
+        self._most = min(limits.CONNECTIONS.value, max(least, free))
         self._open: set[ServerConnection] = set()
 
     def admit(self, connection: ServerConnection) -> bool:
@@ -49,15 +44,15 @@ class ConnectionLimiter:
 
     def is_full(self, pages: int) -> bool:
         """Return whether so many pages are open that one more has no place."""
-        return pages >= MOST_PAGES
+        return pages >= limits.PAGES.value
 
     def refusal(self) -> Response:
         """Return the answer to a page too many."""
         return plain_page(
             http.HTTPStatus.SERVICE_UNAVAILABLE,
             "Too many pages are open",
-            f"This robot is shown in {MOST_PAGES} pages already. This page loads "
-            "again by itself, until one is closed.",
+            f"This robot is shown in {limits.PAGES.value} pages already. This page "
+            "loads again by itself, until one is closed.",
             {"Retry-After": str(_AGAIN), "Refresh": str(_AGAIN)},
         )
 
@@ -67,6 +62,6 @@ def _file_numbers() -> int:
     try:
         import resource
     except ImportError:
-        return 10 * MOST_CONNECTIONS
+        return 10 * limits.CONNECTIONS.value
     soft, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
-    return 10 * MOST_CONNECTIONS if soft == resource.RLIM_INFINITY else soft
+    return 10 * limits.CONNECTIONS.value if soft == resource.RLIM_INFINITY else soft

@@ -40,10 +40,6 @@ from sambot_viz.server.protection.client_messages import (
     decode,
 )
 
-LARGEST_MESSAGE = limits.PAGE_MESSAGE.value
-"""A connection that sends a longer message is closed [bytes]."""
-LONGEST_TEXT = 1000
-"""Of a value that is a text [characters]."""
 CLOSE_TIME = 1.0
 """How long the end of the program waits for a browser to close its connection [s]."""
 LOG_PERIOD = 10.0
@@ -202,7 +198,7 @@ def fits(held: object, value: object) -> bool:
         largest = _LARGEST_INT if isinstance(held, int) else math.inf
         return math.isfinite(value) and abs(value) <= largest
     if isinstance(held, str):
-        return isinstance(value, str) and len(value) <= LONGEST_TEXT
+        return isinstance(value, str) and len(value) <= limits.PAGE_TEXT.value
     if isinstance(held, tuple) and isinstance(value, list):
         pair = cast(tuple[object, ...], held), cast(list[object], value)
         return len(pair[0]) == len(pair[1]) and all(map(fits, *pair))

@@ -22,6 +22,7 @@ from urllib.parse import parse_qsl, quote, urlencode
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from sambot_viz import limits
 from sambot_viz.server.connections.page_files import (
     NO_VIEW,
     is_websocket,
@@ -30,8 +31,6 @@ from sambot_viz.server.connections.page_files import (
 
 WRONG_ANSWER = 1.0
 """The answer to a wrong token takes so long [s]."""
-MOST_WAITING = 20
-"""So many wrong tokens are answered at the same time; more are not looked at."""
 _KEPT = "%!$&'()*+,;=:@~"
 """In the last part of a path, what is sent back as it came."""
 SECRET_NAMES = ("token", "view", "present")
@@ -98,7 +97,7 @@ class TokenCheck:
                 "More than one token",
                 "Open the address as sambot-viz has printed it.",
             )
-        if self._waiting >= MOST_WAITING:
+        if self._waiting >= limits.WRONG_TOKENS.value:
             return plain_page(
                 http.HTTPStatus.TOO_MANY_REQUESTS,
                 "Too many wrong links at the moment",

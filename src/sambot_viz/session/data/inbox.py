@@ -10,9 +10,6 @@ from sambot_viz import limits
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 
-MOST_WAITING = limits.SESSION_WAITING.value
-"""So many messages of a live robot wait for a session; of more the oldest are lost."""
-MOST_BYTES = limits.WAITING_BYTES.value
 SLICE = 2**18
 """So much of what waits is taken before clients get their turn [bytes]."""
 
@@ -58,8 +55,8 @@ class Inbox:
         with self._lock:
             self._waiting.append(message)
             self._size += len(message.payload)
-            while len(self._waiting) > MOST_WAITING or (
-                self._size > MOST_BYTES and len(self._waiting) > 1
+            while len(self._waiting) > limits.SESSION_WAITING.value or (
+                self._size > limits.WAITING_BYTES.value and len(self._waiting) > 1
             ):
                 self._size -= len(self._waiting.popleft().payload)
                 self.lost += 1

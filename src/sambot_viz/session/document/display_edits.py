@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import (
@@ -26,7 +27,7 @@ from sambot_viz.rviz.declarations import short_name
 from sambot_viz.rviz.display_list import Removed
 from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.limits import MOST_DISPLAYS, require_room
+from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene, walk
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.undo import History
@@ -224,7 +225,7 @@ class DisplayEdits:
         count = 1 + sum(
             1 for one in (self._document.config.displays, members) for _ in walk(one)
         )
-        require_room(count, MOST_DISPLAYS, "displays")
+        require_room(count, limits.SESSION_DISPLAYS.value, "displays")
 
     def _added(self, label: str, config: DisplayConfig) -> None:
         self._document.show()

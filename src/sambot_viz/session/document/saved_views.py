@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from functools import partial
 
+from sambot_viz import limits
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.undo_log import Restore
 from sambot_viz.rviz.view_list import RemovedView
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.limits import MOST_VIEWS, require_room
+from sambot_viz.session.room import require_room
 from sambot_viz.session.signals import Change
 from sambot_viz.session.undo import History
 
@@ -31,7 +32,9 @@ class SavedViews:
             UsageError: there are too many.
         """
         config = self._document.config
-        require_room(len(config.saved_views) + 1, MOST_VIEWS, "saved views")
+        require_room(
+            len(config.saved_views) + 1, limits.SESSION_VIEWS.value, "saved views"
+        )
         with self._change(self._document.views):
             saved = config.save_view(view)
         undo, redo = self._removal(saved)

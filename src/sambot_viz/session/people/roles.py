@@ -12,12 +12,12 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
+from sambot_viz import limits
 from sambot_viz.errors import UsageError
 from sambot_viz.session.people.looks_alike import same_form
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.text import text
 
-LONGEST_NAME = 40
 _LONGEST_LOGIN = 36
 """A number may follow, when several pages have the same login."""
 VIEW_ONLY = "view only: request control, or open your own copy"
@@ -162,8 +162,10 @@ class Roles:
         person = self._people[client_id]
         if person.known and name:
             raise UsageError("this name is that of the login")
-        if len(name) > LONGEST_NAME:
-            raise UsageError(f"a name has at most {LONGEST_NAME} characters")
+        if len(name) > limits.PERSON_NAME.value:
+            raise UsageError(
+                f"a name has at most {limits.PERSON_NAME.value} characters"
+            )
         name = " ".join(name.split())
         if not person.presenter and _is_presenters(name):
             raise UsageError("names that begin with 'Presenter' are the presenter's")

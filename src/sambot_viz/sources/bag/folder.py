@@ -10,13 +10,12 @@ import shlex
 from collections.abc import Iterator
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.refusals import refused, unreadable
 
 METADATA = "metadata.yaml"
 
-_LARGEST_METADATA = 2**24
-_MOST_FILES = 10_000
 _BESIDE = ("-wal", "-shm", "-journal")
 _ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
 _NAMES = re.compile(
@@ -54,7 +53,7 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
 
 def _listed(folder: Path) -> Iterator[Path]:
     for number, path in enumerate(folder.iterdir()):
-        if number >= _MOST_FILES:
+        if number >= limits.RECORDING_FILES.value:
             return
         if not path.name.endswith(_BESIDE) and path.is_file():
             yield path
@@ -90,7 +89,7 @@ def _named(folder: Path) -> list[str]:
     """Return the names of the files in metadata.yaml, without the folder before."""
     try:
         with (folder / METADATA).open("rb") as stream:
-            text = stream.read(_LARGEST_METADATA).decode("utf-8", "replace")
+            text = stream.read(limits.METADATA.value).decode("utf-8", "replace")
     except (OSError, ValueError):
         return []
     found = _NAMES.search(text)

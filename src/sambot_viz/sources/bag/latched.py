@@ -16,12 +16,6 @@ from sambot_viz.sources.qos import Qos
 _LOGS = ("rosout",)
 _LOG_TYPES = ("rcl_interfaces/Log", "rosgraph_msgs/Log")
 
-MOST_KEPT_BY_NAME = limits.LATCHED.value
-"""Most memory for transforms and descriptions, which hold from start to end [bytes]."""
-
-MOST_OF_OTHERS = limits.LATCHED_OTHERS.value
-"""Most memory for all other latched messages [bytes]; `Bag.last` finds the others."""
-
 
 def is_latched(topic: str, type_name: str, qos: Qos | None, latching: str = "") -> bool:
     """Tell if a topic is latched.
@@ -49,7 +43,7 @@ class LatchedMessages:
 
     def __init__(self) -> None:
         self._messages: list[Recorded] = []
-        self._free = {True: MOST_KEPT_BY_NAME, False: MOST_OF_OTHERS}
+        self._free = {True: limits.LATCHED.value, False: limits.LATCHED_OTHERS.value}
         self._is_sorted = True
 
     def wants(self, topic: str) -> bool:

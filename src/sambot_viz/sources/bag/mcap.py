@@ -58,7 +58,6 @@ from sambot_viz.sources.message import Recorded, TopicChannel
 SMALL = 8 * 2**20
 """A file up to this size is read through at opening, so that all damage is known."""
 
-_LARGEST_DEFINITION = 2**26
 _LOOSE = 4096
 _MESSAGE_SIZE = HEAD.size + MESSAGE_HEAD.size
 
@@ -232,7 +231,7 @@ class McapBag(BlockBag):
         return MetChunk(at, HEAD.size + length, head.start, head.end)
 
     def _define_at(self, window: ReadAhead, at: int, opcode: int, length: int) -> bool:
-        if length > _LARGEST_DEFINITION:
+        if length > limits.DEFINITION_RECORD.value:
             return True
         try:
             self._define(opcode, window.get(at + HEAD.size, length))

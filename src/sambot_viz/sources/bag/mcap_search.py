@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from sambot_viz import limits
 from sambot_viz.sources.bag.compression import BrokenPieceError
 from sambot_viz.sources.bag.file_bytes import FileBytes, ReadAhead
 from sambot_viz.sources.bag.mcap_records import (
@@ -16,7 +17,6 @@ from sambot_viz.sources.bag.mcap_records import (
 )
 
 _STEP = 2**20
-_MOST_CANDIDATES = 200_000
 _LIKELY = re.compile(rb"(?=[\x03-\x07].{4}\x00{4})", re.DOTALL)
 """A schema, channel, message, chunk or message index of less than 4 GB."""
 
@@ -44,7 +44,7 @@ def find_record(file: FileBytes, at: int, end: int) -> Iterator[int | None]:
             if _is_record(window, begin + match.start(), end):
                 yield begin + match.start()
                 return
-            if candidates > _MOST_CANDIDATES:
+            if candidates > limits.REPAIRED.value:
                 return
         begin += _STEP
         yield None

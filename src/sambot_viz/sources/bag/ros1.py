@@ -38,8 +38,6 @@ _U32 = struct.Struct("<I")
 _U64 = struct.Struct("<Q")
 _TIME = struct.Struct("<II")
 _PAIR = struct.Struct("<II")
-_LARGEST_HEADER = 2**20
-_LARGEST_DEFINITION = 2**26
 _STEP = 2**20
 
 _Header = dict[bytes, bytes]
@@ -115,7 +113,7 @@ class Ros1Bag(BlockBag):
 
     def _block(self, ahead: ReadAhead, record: _Record) -> Ros1Block:
         header = record.header
-        data = ahead.get(record.at, min(record.size, _LARGEST_DEFINITION))
+        data = ahead.get(record.at, min(record.size, limits.DEFINITION_RECORD.value))
         counts = Counter[int]()
         for channel, count in _PAIR.iter_unpack(data[: len(data) // 8 * 8]):
             counts[channel] += count
@@ -183,7 +181,7 @@ class Ros1Bag(BlockBag):
 
     def _connect(self, ahead: ReadAhead, record: _Record) -> None:
         # Of one that is too large the topic is known, and that its type is not.
-        is_large = record.size > _LARGEST_DEFINITION
+        is_large = record.size > limits.DEFINITION_RECORD.value
         data = b"" if is_large else ahead.get(record.at, record.size)
         self._define(record.header, data)
 
@@ -212,7 +210,7 @@ class Ros1Bag(BlockBag):
         if len(length) < 4:
             raise BrokenPieceError("the file ends")
         (size,) = _U32.unpack(length)
-        if size > _LARGEST_HEADER:
+        if size > limits.BAG_HEADER.value:
             raise BrokenPieceError("a header is too long")
         data = ahead.get(at + 4, size + 4)
         if len(data) < size + 4:

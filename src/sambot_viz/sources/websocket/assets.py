@@ -16,13 +16,8 @@ from sambot_viz import limits
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.text import text
 
-MOST_BYTES = limits.ASSET.value
-"""About so much is kept; what was used longest ago goes first."""
-MOST_AT_ONCE = 4
-"""So many requests are on their way at once; the others wait."""
 LONGEST_FETCH = 120.0
 """A file that has not come after this time is given up [s]: a mesh may be large."""
-_LONGEST_URI = 4000
 
 
 @dataclass(slots=True)
@@ -50,7 +45,7 @@ class AssetStore:
         future: Future[bytes] = Future()
         # Nobody can cancel it: the answer is on its way.
         future.set_running_or_notify_cancel()
-        if len(uri) > _LONGEST_URI:
+        if len(uri) > limits.ASSET_NAME.value:
             future.set_exception(
                 SourceError(f"the address {text(uri, 60)} is too long")
             )
@@ -73,7 +68,7 @@ class AssetStore:
             open_ones = [one for one in self._assets.values() if one.content is None]
             sent = sum(one.request_id is not None for one in open_ones)
             chosen = [one for one in open_ones if one.request_id is None]
-            chosen = chosen[: max(0, MOST_AT_ONCE - sent)]
+            chosen = chosen[: max(0, limits.ASSETS_AT_ONCE.value - sent)]
             for asset in chosen:
                 self._last_id = self._last_id % (2**32 - 1) + 1
                 asset.request_id = self._last_id
@@ -143,7 +138,7 @@ class AssetStore:
     def _shrink(self) -> None:
         done = [one for one in self._assets.values() if one.content is not None]
         for asset in done:
-            if self._size <= MOST_BYTES:
+            if self._size <= limits.ASSET.value:
                 break
             self._size -= _size(asset.content)
             del self._assets[asset.uri]

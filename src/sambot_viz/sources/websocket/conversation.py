@@ -10,15 +10,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sambot_viz import limits
 from sambot_viz.sources.message import Recorded, SourceTopic, too_large
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
 from sambot_viz.text import text
 
-MOST_TOPICS = limits.TOPICS.value
-"""So many topics of a peer are listed; a broken one may advertise without end."""
 _LATE = 1.0
 """A lag is said from so much on [s]."""
 

@@ -17,12 +17,6 @@ from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage
 
-MOST_MESSAGES = limits.WAITING.value
-"""So many messages of one topic wait at most."""
-MOST_BYTES = limits.WAITING_BYTES.value
-"""All waiting messages together have about this size at most; one of each topic may."""
-MOST_KEPT = 1000
-"""So many messages of a latched topic are kept for late subscribers."""
 LONGEST_STOP = 5.0
 """`stop` waits this long for the callback that is running [s]."""
 
@@ -132,8 +126,8 @@ class Delivery:
             waiting = self._waiting.setdefault(message.topic, _Waiting())
             waiting.messages.append(message)
             self._size += len(message.payload)
-            while len(waiting.messages) > MOST_MESSAGES or (
-                self._size > MOST_BYTES and len(waiting.messages) > 1
+            while len(waiting.messages) > limits.WAITING.value or (
+                self._size > limits.WAITING_BYTES.value and len(waiting.messages) > 1
             ):
                 self._size -= len(waiting.messages.popleft().payload)
                 self.dropped += 1
@@ -184,7 +178,7 @@ class Delivery:
         self._size -= len(message.payload)
         kept = self._kept.get(topic)
         if kept is None or kept.connection != self._connection:
-            limit = MOST_KEPT if message.channel.is_latched else 1
+            limit = limits.LATCHED_KEPT.value if message.channel.is_latched else 1
             kept = _Kept(self._connection, deque(maxlen=limit))
             self._kept[topic] = kept
         kept.messages.append(message)

@@ -34,7 +34,7 @@ from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
 from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.delivery import MOST_MESSAGES, Delivery
+from sambot_viz.sources.websocket.delivery import Delivery
 from sambot_viz.sources.websocket.event_loop import SourceLoop
 from sambot_viz.sources.websocket.paced_connection import PacedConnection
 from sambot_viz.sources.websocket.runner import ConversationRunner
@@ -233,7 +233,7 @@ class WebsocketSource:
             max_size=limits.MESSAGE.value,
             # What comes is read at once: stopping the socket for every few messages
             # of a burst costs more than they do.
-            max_queue=MOST_MESSAGES,
+            max_queue=limits.WAITING.value,
             open_timeout=10,
             close_timeout=1,
             ping_interval=5,

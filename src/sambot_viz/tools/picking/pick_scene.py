@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.picking.meshes import Corners, Part, TurnedBox
 from sambot_viz.displays.picking.pick_buffer import Owner, PickBuffer, hides
@@ -21,8 +22,6 @@ LETTER_WIDTH, LINE_HEIGHT = 0.55, 1.5
 """Of a usual letter and of a line, by the size of letters."""
 BESIDE = 0.05
 """What is this near to a box, by its diagonal, counts as in it."""
-MOST_CUBES = 10_000
-"""So many of the selected points of one message have a box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +159,7 @@ class PickScene:
                 parts.setdefault(item, []).append(part)
         boxes = {i: TurnedBox.around(parts[i]).lines for i in wanted if i in parts}
         for item, cubes in self._cubes(selection):
-            boxes[item] = cubes.lines(MOST_CUBES)
+            boxes[item] = cubes.lines(limits.SELECTED_BOXES.value)
         return boxes
 
     def box_of(self, selection: Selection) -> Corners | None:

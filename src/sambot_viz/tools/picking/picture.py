@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
+from sambot_viz import limits
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.geometry import rotation_from_xyzw
 
-LARGEST_SIDE = 100_000
-"""A picture with a longer side is not taken from a browser [pixels]."""
 MOST_PIXELS = 4_000_000
 """Of a rectangle with more pixels, only every second, third … is looked at."""
 
@@ -48,7 +47,7 @@ class Picture:
             return None
         if not (wxyz.any() and 0.0 < fov[0] < math.pi):
             return None
-        if not ((size >= 1).all() and (size <= LARGEST_SIDE).all()):
+        if not ((size >= 1).all() and (size <= limits.VIEW_SIDE.value).all()):
             return None
         w, x, y, z = wxyz.tolist()
         axes = np.array(rotation_from_xyzw((x, y, z, w)))

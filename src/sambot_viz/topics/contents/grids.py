@@ -7,9 +7,6 @@ from typing import Any
 
 from sambot_viz import limits
 
-MOST_CELLS = limits.MAP_CELLS.value
-"""A map of more cells is not drawn."""
-
 
 def map_fault(message: Any) -> str:
     """Return why a nav_msgs/OccupancyGrid cannot be drawn; empty when it can.
@@ -33,8 +30,8 @@ def map_fault(message: Any) -> str:
             f"Data size doesn't match width*height: width = {width}, "
             f"height = {height}, data size = {cells}"
         )
-    if cells > MOST_CELLS:
-        return f"It has {cells:,} cells: at most {MOST_CELLS:,} are drawn"
+    if cells > limits.MAP_CELLS.value:
+        return f"It has {cells:,} cells: at most {limits.MAP_CELLS.value:,} are drawn"
     resolution = float(message.info.resolution)
     # Another sentence is about what is no number.
     if math.isfinite(resolution) and resolution <= 0.0:

@@ -8,8 +8,6 @@ from typing import Any
 from sambot_viz import limits
 from sambot_viz.errors import nearest
 
-MOST_PIXELS = limits.IMAGE.value
-"""A larger picture is not shown."""
 _LAYOUTS = ("rggb", "bggr", "gbrg", "grbg")
 PIXEL_BYTES: Mapping[str, int] = {
     **dict.fromkeys(("mono8", "8UC1", "8SC1"), 1),
@@ -57,10 +55,9 @@ def size_fault(width: int, height: int) -> str:
     size = f"{width:,} × {height:,} pixels"
     if width <= 0 or height <= 0:
         return f"The image has {size}: look at what publishes it"
-    if width * height > MOST_PIXELS:
-        return (
-            f"The image has {size}: at most {MOST_PIXELS / 1e6:.0f} million are shown"
-        )
+    most = limits.IMAGE.value
+    if width * height > most:
+        return f"The image has {size}: at most {most / 1e6:.0f} million are shown"
     return ""
 
 

@@ -30,9 +30,6 @@ _KEYWORDS = frozenset(
 _HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
 _NAME = "PROJECT_NAME"
 
-LONGEST = 20_000
-"""Longer files are not read [characters]."""
-
 
 class CMakeWord(NamedTuple):
     """An argument of a command, without quotation marks, and its line."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
+from sambot_viz import limits
 from sambot_viz.checks.launch_files import call_name
 
 SHARE = "package://"
@@ -23,8 +24,6 @@ _WRAPPERS = frozenset(
         "ParameterValue",
     }
 )
-_DEEPEST = 20
-_LONGEST = 4096
 
 
 def keyword(call: ast.Call, name: str, position: int | None = None) -> ast.expr | None:
@@ -86,12 +85,12 @@ class LaunchValues:
         A launch argument stands for its default value, and the share folder of a
         package for ``package://NAME``.
         """
-        if node is None or depth > _DEEPEST:
+        if node is None or depth > limits.YAML_DEPTH.value:
             return None
         # Each is worked out once: variables of variables could take for ever.
         if id(node) not in self._texts:
             found = self._text(node, depth + 1)
-            short = found is not None and len(found) <= _LONGEST
+            short = found is not None and len(found) <= limits.LAUNCH_VALUE.value
             self._texts[id(node)] = found if short else None
         return self._texts[id(node)]
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.checks.rule import Subject
 from sambot_viz.files import is_below, read_limited
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
@@ -15,10 +16,6 @@ from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 _SKIPPED = frozenset(
     {"build", "install", "log", "meshes", "node_modules", "test", "tests"}
 )
-_MOST_FOLDERS = 400
-_MOST_FILES = 5000
-_DEEPEST = 5
-_LARGEST = 400_000
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,11 @@ class PackageFiles:
             below = os.path.relpath(folder, self.folder).replace(os.sep, "/")
             folders += 1
             nested = below != "." and "package.xml" in names
-            if folders > _MOST_FOLDERS or nested or below.count("/") >= _DEEPEST:
+            if (
+                folders > limits.PACKAGE_FOLDERS.value
+                or nested
+                or below.count("/") >= limits.PACKAGE_DEPTH.value
+            ):
                 inner.clear()
             if nested:
                 continue
@@ -60,7 +61,7 @@ class PackageFiles:
             )
             for name in names:
                 files += 1
-                if files <= _MOST_FILES:
+                if files <= limits.PACKAGE_FILES.value:
                     yield name if below == "." else f"{below}/{name}"
 
     def ending(self, *endings: str) -> list[str]:
@@ -83,7 +84,7 @@ class PackageFiles:
         if not self.trusted and not is_below(file, [self.folder.resolve()]):
             return None
         try:
-            return read_limited(file, _LARGEST).decode("utf-8")
+            return read_limited(file, limits.PACKAGE_TEXT.value).decode("utf-8")
         except (OSError, ValueError):
             return None
 

@@ -9,12 +9,11 @@ from typing import Any
 
 import yaml
 
+from sambot_viz import limits
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_MOST_NODES = 20_000
-_DEEPEST = 20
 _MOST_NAMES = 3
 """Namespaces and the name of a node are so many keys at most."""
 
@@ -93,7 +92,7 @@ class YamlFile:
         """The lines of the names of nodes, as `nodes` has them."""
         found: dict[str, Place] = {}
         waiting: list[tuple[tuple[str, ...], yaml.Node]] = [((), self.root)]
-        while waiting and len(found) < _MOST_NODES:
+        while waiting and len(found) < limits.YAML_VALUES.value:
             above, node = waiting.pop()
             for key, value in pairs(node):
                 names = (*above, key.value)
@@ -110,7 +109,7 @@ class YamlFile:
         self, node: yaml.Node, keys: tuple[str, ...], budget: _Budget
     ) -> Iterator[Parameter]:
         for key, value in pairs(node):
-            if not budget.spend() or len(keys) > _DEEPEST:
+            if not budget.spend() or len(keys) > limits.YAML_DEPTH.value:
                 return
             if key.value == "ros__parameters":
                 yield from self._below(value, "/".join(keys), (), budget)
@@ -121,7 +120,7 @@ class YamlFile:
         self, node: yaml.Node, owner: str, keys: tuple[str, ...], budget: _Budget
     ) -> Iterator[Parameter]:
         for key, value in pairs(node):
-            if not budget.spend() or len(keys) > _DEEPEST:
+            if not budget.spend() or len(keys) > limits.YAML_DEPTH.value:
                 return
             names = (*keys, key.value)
             if isinstance(value, yaml.MappingNode):
@@ -155,7 +154,7 @@ class _Budget:
     """Limits how many nodes are visited: aliases can make a small file endless."""
 
     def __init__(self) -> None:
-        self._left = _MOST_NODES
+        self._left = limits.YAML_VALUES.value
 
     def spend(self) -> bool:
         self._left -= 1

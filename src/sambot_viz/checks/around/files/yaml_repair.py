@@ -10,13 +10,13 @@ import yaml
 from yaml.parser import ParserError
 from yaml.scanner import ScannerError
 
+from sambot_viz import limits
+
 _YAML: Any = yaml
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
 _NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
 _BEFORE = 3
-_LONGEST = 50_000
-"""Longer texts are not read again and again [characters]."""
 
 
 class Fault(NamedTuple):
@@ -40,7 +40,9 @@ def fault_in(text: str) -> Fault | None:
         return None
     lines = text.splitlines()
     at = min(_line(error), len(lines) - 1)
-    changes = _candidates(lines, at, error) if len(text) <= _LONGEST else ()
+    changes = (
+        _candidates(lines, at, error) if len(text) <= limits.YAML_REPAIRED.value else ()
+    )
     for line, better, cause, hint in changes:
         again = _error(
             "\n".join([*lines[:line], *better, *lines[line + len(better) :]])

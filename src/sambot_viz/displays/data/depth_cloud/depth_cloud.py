@@ -42,7 +42,6 @@ from sambot_viz.displays.data.image.encodings import Bytes
 from sambot_viz.displays.data.image.files import read_colors, read_depths
 from sambot_viz.displays.data.image.transports import info_topic, sent_topic
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
-from sambot_viz.displays.data.topic_display import MOST_WAITING
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.points import PointStyle
@@ -55,8 +54,6 @@ from sambot_viz.sources.message import Recorded
 
 COLOR_IMAGE = "Color Image"
 """Key of a status."""
-MOST_POINTS = limits.DEPTH_POINTS.value
-"""A depth image of more pixels is not drawn."""
 _NAMES = {DEPTH_TOPIC: ("depth",), COLOR_TOPIC: ("color", "rgb", "bgr", "gray", "mono")}
 """What a name in the list of topics has in it, where the list is filtered."""
 _WHITE: Bytes = np.full(3, 255, np.uint8)
@@ -114,7 +111,7 @@ class DepthCloudDisplay(CloudDisplay):
     @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures, of the three topics."""
-        return 3 * MOST_WAITING
+        return 3 * limits.DISPLAY_WAITING.value
 
     def options(self) -> Mapping[str, Sequence[str]]:
         """Return the topics, and what the points have fields for."""
@@ -203,8 +200,9 @@ class DepthCloudDisplay(CloudDisplay):
         assert self._came is not None
         with refusing(MESSAGE, "read", OSError, SyntaxError):
             depths = metres_of(read_depths(message))
-        if depths.size > MOST_POINTS:
-            text = f"It has {depths.size:,} pixels: at most {MOST_POINTS:,} are drawn"
+        most = limits.DEPTH_POINTS.value
+        if depths.size > most:
+            text = f"It has {depths.size:,} pixels: at most {most:,} are drawn"
             raise MessageRefused(text)
         camera = self._camera(self._came.info, depths.shape)
         colors = self._colors(self._came.color, depths.shape)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.effort.joints import (
     JOINTS,
@@ -37,7 +38,6 @@ from sambot_viz.rviz import (
 )
 from sambot_viz.topics.decoding import frame_and_stamp
 
-MOST_CIRCLES = 500
 ROBOT = "Robot Description"
 PREFIX = "TF Prefix"
 LOADING = "Process message"
@@ -84,9 +84,9 @@ class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
             default=1,
             minimum=1,
             maximum=100_000,
-            acts_up_to=MOST_CIRCLES,
+            acts_up_to=limits.EFFORT_CIRCLES.value,
             help="So many of the newest messages are shown, with up to "
-            f"{MOST_CIRCLES} circles in all.",
+            f"{limits.EFFORT_CIRCLES.value} circles in all.",
         ),
         StringProperty(
             ROBOT,
@@ -156,7 +156,7 @@ class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
     def most(self) -> int:
         """So many messages are shown: what is drawn is sent again with each one."""
         count = 0 if self._joints is None else len(self._joints.joints)
-        return min(super().most, max(1, MOST_CIRCLES // max(1, count)))
+        return min(super().most, max(1, limits.EFFORT_CIRCLES.value // max(1, count)))
 
     def place(self, message: Any) -> Transform:
         """Return nothing to place: efforts are at their joints, whatever the header."""

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.image.camera_info import (
     CAMERA_INFO,
     CameraNumbers,
@@ -35,7 +36,7 @@ from sambot_viz.displays.data.image.visibility import VISIBILITY, Visibility
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
-from sambot_viz.displays.data.topic_display import MOST_WAITING, topic_property
+from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
 from sambot_viz.displays.pictures import NO_PICTURE, CameraPicture
 from sambot_viz.displays.scene.nodes import placed
@@ -55,8 +56,6 @@ _BOTH = f"{_BACK} and {_OVER}"
 RENDERING = "Image Rendering"
 MEDIAN = 5
 """The range of 16-bit and float values is the median over so many pictures."""
-MOST_HELD = 10
-"""So many pictures wait for their transform."""
 
 
 class CameraDisplay(MessageFilterDisplay[Any]):
@@ -132,12 +131,12 @@ class CameraDisplay(MessageFilterDisplay[Any]):
     @property
     def most_held(self) -> int:
         """So many pictures are held at most."""
-        return MOST_HELD
+        return limits.IMAGES_WAITING.value
 
     @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures, of both topics."""
-        return 2 * MOST_WAITING
+        return 2 * limits.DISPLAY_WAITING.value
 
     def begin(self) -> None:
         """Wait for a camera info of another time or topic."""

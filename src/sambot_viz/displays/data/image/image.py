@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.image.encodings import (
     IMAGE,
     Bytes,
@@ -11,7 +12,7 @@ from sambot_viz.displays.data.image.encodings import (
     require_shown,
 )
 from sambot_viz.displays.data.image.files import picture_of
-from sambot_viz.displays.data.image.ranges import MOST_FRAMES, Ranges, scaled
+from sambot_viz.displays.data.image.ranges import Ranges, scaled
 from sambot_viz.displays.data.image.transports import (
     ROS1_HINT,
     ROS1_TOPIC,
@@ -72,7 +73,7 @@ class ImageDisplay(TopicDisplay):
             "Median window",
             default=5,
             minimum=1,
-            maximum=MOST_FRAMES,
+            maximum=limits.IMAGE_MEDIAN.value,
             help="The range is the median over so many pictures.",
             hidden_unless=(NORMALIZE, True),
         ),

@@ -7,16 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.image.encodings import Bytes, Values
-
-MOST_FRAMES = 1000
 
 
 class Ranges:
     """The medians of the least and the greatest values of the last pictures."""
 
     def __init__(self) -> None:
-        self._limits: deque[tuple[float, float]] = deque(maxlen=MOST_FRAMES)
+        self._limits: deque[tuple[float, float]] = deque(
+            maxlen=limits.IMAGE_MEDIAN.value
+        )
 
     def add(self, values: Values) -> None:
         """Take a picture; what is not finite has no part in it."""

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from sambot_viz import limits
 from sambot_viz.displays.data.interactive_markers.control_marker import (
     ControlMarker,
     control_marker,
@@ -23,8 +24,6 @@ INHERIT, FIXED, VIEW_FACING = range(3)
 """How a control is turned: with its marker, with the frame, or to the view."""
 LARGEST = 1e6
 """A marker with a larger scale is not drawn [m]."""
-MOST_CONTROLS, MOST_SHAPES = 1000, 2500
-"""A marker with more controls, or with more markers in them, is not drawn."""
 
 
 class Group(NamedTuple):
@@ -82,10 +81,10 @@ def require_valid(message: Any) -> None:
     """
     controls = message.controls
     shapes = sum(len(control.markers) for control in controls)
-    if len(controls) > MOST_CONTROLS or shapes > MOST_SHAPES:
+    if len(controls) > limits.CONTROLS.value or shapes > limits.CONTROL_MARKERS.value:
         raise MessageRefused(
             f"It has {len(controls):,} controls with {shapes:,} markers: at most "
-            f"{MOST_CONTROLS:,} with {MOST_SHAPES:,} are drawn"
+            f"{limits.CONTROLS.value:,} with {limits.CONTROL_MARKERS.value:,} are drawn"
         )
     if not all(map(math.isfinite, _numbers(message))) or not all(
         np.isfinite(coordinates_of(marker.points)).all()

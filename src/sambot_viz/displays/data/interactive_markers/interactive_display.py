@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.interactive_markers.controls import ShowOptions
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
@@ -35,8 +36,6 @@ CANNOT_MOVE = (
     "Shown only: to move them, the robot must be sent messages, which this version "
     "does not do"
 )
-MOST_UPDATES = 10_000
-"""So many updates since the last full set are applied after a jump in a recording."""
 WHOLE_S = 1e8
 """How far back updates count where there is no full set [s]: three years."""
 
@@ -129,7 +128,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
     @property
     def most_waiting(self) -> int:
         """So many messages wait at most between two pictures."""
-        return MOST_UPDATES
+        return limits.INTERACTIVE_UPDATES.value
 
     @property
     def depth_s(self) -> float:

@@ -9,7 +9,6 @@ from typing import Any
 
 from sambot_viz import limits
 from sambot_viz.displays.data.interactive_markers.controls import (
-    MOST_SHAPES,
     TITLES,
     ShowOptions,
 )
@@ -33,10 +32,6 @@ from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.nodes import short_id
 from sambot_viz.frames import LookupRefused
 
-MOST_MARKERS = limits.INTERACTIVE_MARKERS.value
-"""So many interactive markers are shown."""
-MOST_SHOWN = MOST_SHAPES
-"""So many markers of the controls of all of them are shown."""
 EMPTY = "Marker empty."
 
 
@@ -98,9 +93,9 @@ class InteractiveMarkers:
             self.erase([name])
             self._rows.say(name, "Ok", EMPTY)
             return
-        if before is None and len(self.known) >= MOST_MARKERS:
-            most = f"More than the {MOST_MARKERS} markers that are shown"
-            self._rows.say_of_all(most)
+        most = limits.INTERACTIVE_MARKERS.value
+        if before is None and len(self.known) >= most:
+            self._rows.say_of_all(f"More than the {most} markers that are shown")
             return
         try:
             with refusing():
@@ -120,7 +115,7 @@ class InteractiveMarkers:
         name = str(message.name)
         known = self.known.get(name)
         if known is None:
-            if len(self.unknown) < MOST_MARKERS:
+            if len(self.unknown) < limits.INTERACTIVE_MARKERS.value:
                 self.unknown[name] = None
             return
         try:
@@ -253,8 +248,9 @@ class InteractiveMarkers:
                 wrong = wrong or f"Control '{part.control}': {check.text}"
                 continue
             key = (name, number)
-            if key not in self._shown and len(self._shown) >= MOST_SHOWN:
-                wrong = f"More than the {MOST_SHOWN} markers of controls that are shown"
+            most = limits.CONTROL_MARKERS.value
+            if key not in self._shown and len(self._shown) >= most:
+                wrong = f"More than the {most:,} markers of controls that are shown"
                 break
             old = self._shown.get(key)
             slot = self._slot() if old is None else old.slot

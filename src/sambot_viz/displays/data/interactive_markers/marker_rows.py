@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from sambot_viz import limits
 from sambot_viz.displays.display import Level, StatusList
 
-MOST_ROWS = 100
-"""So many markers have a status of their own."""
 MARKERS = "Markers"
 
 
@@ -27,15 +26,17 @@ class MarkerRows:
     def say(self, name: str, level: Level, text: str) -> None:
         """Say something of a marker, in place of what was said before."""
         row = self._rows.get(name)
-        if row is None and len(self._rows) < MOST_ROWS:
+        if row is None and len(self._rows) < limits.MARKER_ROWS.value:
             # A marker may be called as another row is, or have no name.
             row = f"Marker '{name}'" if name in self._taken else name
             self._rows[name] = row
         if row is not None:
             self._status.set(row, level, text)
         elif level != "Ok":
-            more = f"More markers than the {MOST_ROWS} that have a row here are wrong"
-            self.say_of_all(more)
+            most = limits.MARKER_ROWS.value
+            self.say_of_all(
+                f"More markers than the {most} that have a row here are wrong"
+            )
 
     def say_of_all(self, text: str) -> None:
         """Warn of what concerns no single marker."""

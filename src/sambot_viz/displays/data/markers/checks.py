@@ -36,8 +36,6 @@ SOLIDS = (ARROW, CUBE, SPHERE, CYLINDER)
 LISTS = (CUBE_LIST, SPHERE_LIST, POINTS)
 LINES = (LINE_STRIP, LINE_LIST)
 
-MOST_POINTS = limits.MARKER_POINTS.value
-"""A marker with more points is not drawn."""
 INVALID = "contains invalid floating point values (nans or infs)"
 EMPTY = "Points should not be empty for specified marker type."
 _UNNORMALIZED = 0.01
@@ -72,9 +70,9 @@ def check_of(marker: Any) -> Check:
     kind = int(marker.type)
     if not ARROW <= kind <= TRIANGLES:
         return Check("Error", f"Unknown marker type: {kind}.", False)
-    count = len(marker.points)
-    if count > MOST_POINTS:
-        text = f"{count} points are more than the {MOST_POINTS} that are drawn"
+    count, most = len(marker.points), limits.MARKER_POINTS.value
+    if count > most:
+        text = f"{count:,} points are more than the {most:,} that are drawn"
         return Check("Error", text, False)
     errors, hidden = _errors(marker, kind)
     warnings = [*_warnings(marker, kind)]

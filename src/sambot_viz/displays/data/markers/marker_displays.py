@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
+from sambot_viz import limits
 from sambot_viz.displays.data.kept import HeldMessages
 from sambot_viz.displays.data.markers.markers import Markers
 from sambot_viz.displays.data.markers.namespaces import NAMESPACES, Namespaces
@@ -27,19 +28,18 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.decoding import frame_and_stamp
 
 DUPLICATES, MESSAGES = "Duplicate Marker Check", "Messages"
-MOST_MESSAGES, MOST_BYTES = 10_000, 8_000_000
-"""So much of the newest messages is looked at after a jump."""
-MOST_AT_ONCE, FEWEST = 1_000_000, 5
-"""So much of the newest ones between two pictures [bytes], but so many messages, which
-are as many as RViz keeps: a computer that is slow goes on to show the newest."""
+FEWEST = 5
+"""So many messages between two pictures are read whatever their size, as many as RViz
+keeps: a computer that is slow goes on to show the newest."""
 OLDER = (
     f"Of what was before a jump the last {KEPT_DEPTH_S:.0f} s are shown, up to "
-    f"{MOST_BYTES / 1e6:.0f} MB: markers that were sent before are missing; to see "
-    "them, play from an earlier time"
+    f"{limits.MARKER_JUMP.value / 1e6:.0f} MB: markers that were sent before are "
+    "missing; to see them, play from an earlier time"
 )
 TOO_MANY = (
-    f"More than {MOST_MESSAGES:,} messages or {MOST_AT_ONCE / 1e6:.0f} MB came between "
-    "two pictures: markers of the oldest ones may be missing"
+    f"More than {limits.MARKER_MESSAGES.value:,} messages or "
+    f"{limits.MARKER_BURST.value / 1e6:.0f} MB came between two pictures: markers of "
+    "the oldest ones may be missing"
 )
 ROS1_TOPIC = "Marker Topic"
 """What files of ROS 1 call the topic."""
@@ -92,7 +92,7 @@ class MarkerDisplay(MessageFilterDisplay[None]):
     @property
     def most_waiting(self) -> int:
         """How many messages wait between two pictures, or after a jump."""
-        return MOST_MESSAGES
+        return limits.MARKER_MESSAGES.value
 
     @property
     def minds_older(self) -> bool:
@@ -107,7 +107,8 @@ class MarkerDisplay(MessageFilterDisplay[None]):
         """Leave out what later messages make good for nothing."""
         kept: list[Recorded] = []
         seen: set[bytes] = set()
-        size, most = 0, MOST_BYTES if self._is_after_jump else MOST_AT_ONCE
+        row = limits.MARKER_JUMP if self._is_after_jump else limits.MARKER_BURST
+        size, most = 0, row.value
         for one in reversed(came):
             payload = bytes(one.payload)
             size += len(payload)

@@ -24,11 +24,6 @@ ADD, DELETE, DELETE_ALL = 0, 2, 3
 _NS = 1_000_000_000
 SHORTEST_LIFE_NS = 100_000
 """A lifetime that is not longer is none [ns]."""
-MOST_MARKERS = limits.MARKERS.value
-MOST_POINTS = limits.MARKERS_POINTS.value
-"""Of all markers of a display together."""
-MOST_ROWS = 100
-"""So many markers have a status of their own."""
 MARKERS = "Markers"
 
 
@@ -155,10 +150,10 @@ class Markers:
         before = self.shown.get(key) or self._apart.get(key)
         points = self._points + len(marker.points) - _points_of(before)
         count = len(self.shown) + len(self._apart)
-        if before is None and count >= MOST_MARKERS:
-            text = f"More than the {MOST_MARKERS:,} markers that are drawn"
-        elif points > MOST_POINTS:
-            text = f"More than the {MOST_POINTS:,} points of markers that are drawn"
+        if before is None and count >= limits.MARKERS.value:
+            text = f"More than the {limits.MARKERS.value:,} markers that are drawn"
+        elif points > (most := limits.MARKERS_POINTS.value):
+            text = f"More than the {most:,} points of markers that are drawn"
         else:
             return True
         self._status.set(MARKERS, "Error", text)
@@ -323,11 +318,12 @@ class Markers:
         row = f"{key[0]}/{key[1]}"
         if not text:
             self._unsay(key)
-        elif row in self._rows or len(self._rows) < MOST_ROWS:
+        elif row in self._rows or len(self._rows) < limits.MARKER_ROWS.value:
             self._rows.add(row)
             self._status.set(row, level, text)
         else:
-            more = f"More markers than the {MOST_ROWS} that have a row here are wrong"
+            most = limits.MARKER_ROWS.value
+            more = f"More markers than the {most} that have a row here are wrong"
             self._status.set(MARKERS, "Warn", more)
 
     def _unsay(self, key: Key) -> None:

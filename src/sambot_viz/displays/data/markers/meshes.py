@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
-from sambot_viz import viser_private
+from sambot_viz import limits, viser_private
 from sambot_viz.displays.data.markers.fields import alpha_of, rgb_of
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.meshes import TriangleMesh
@@ -35,7 +35,6 @@ from sambot_viz.robot.model import asset_of
 from sambot_viz.robot.packages.file_finder import why_not_found
 
 _STRONGEST_TINT = 0.5
-_LONGEST_NAME = 2000
 
 
 class MeshFinder:
@@ -65,7 +64,7 @@ class MeshFinder:
         self._apply = context.apply
         self._found = found
         self.resource = resource
-        if context.models is None or len(resource) > _LONGEST_NAME:
+        if context.models is None or len(resource) > limits.ASSET_NAME.value:
             self.is_done = True
             return
         text = (

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.box_item import BoxItem
 from sambot_viz.displays.display import EntryList
 from sambot_viz.rviz import DisplayConfig
 
 NAMESPACES = "Namespaces"
 _HELP = "Show the markers of it."
-MOST_NAMESPACES, LONGEST_NAME = 1000, 400
 """More namespaces have no box, nor do those with a longer name."""
 
 
@@ -38,7 +38,10 @@ class Namespaces:
         found = self._items.get(name)
         if found is None:
             found = BoxItem(self._config, (NAMESPACES, name), _HELP)
-            if len(self._items) < MOST_NAMESPACES and len(name) <= LONGEST_NAME:
+            if (
+                len(self._items) < limits.NAMESPACES.value
+                and len(name) <= limits.KEY.value
+            ):
                 self._items[name] = found
         return found
 

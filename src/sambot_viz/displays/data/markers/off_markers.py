@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from sambot_viz import limits
 from sambot_viz.displays.data.markers.fields import MarkerPose
 from sambot_viz.displays.data.markers.nodes import Key
 
-MOST_OFF, MOST_OFF_POINTS = 20_000, 2_000_000
 """So many markers, with so many points together, are kept."""
 
 
@@ -39,7 +39,8 @@ class OffMarkers:
         """Keep a marker in place of the one with the same key."""
         self.drop(key)
         points = self._points + len(one.marker.points)
-        if len(self._kept) < MOST_OFF and points <= MOST_OFF_POINTS:
+        most, most_points = limits.MARKERS.value, limits.MARKERS_POINTS.value
+        if len(self._kept) < most and points <= most_points:
             self._kept[key] = one
             self._points = points
 

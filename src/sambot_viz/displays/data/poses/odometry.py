@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
@@ -48,8 +49,6 @@ from sambot_viz.sources.message import Recorded
 
 _IF_ARROW, _IF_AXES = ("Shape", ARROW), ("Shape", AXES)
 _UNNORMALIZED = 0.01
-MOST_KEPT = 10_000
-"""In place of an unlimited number of poses."""
 
 
 class _PastPose:
@@ -112,7 +111,8 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
             "Keep",
             default=100,
             minimum=0,
-            help=f"So many poses stay; 0 for all, here up to {MOST_KEPT:,}.",
+            help="So many poses stay; 0 for all, here up to "
+            f"{limits.ODOMETRY_POSES.value:,}.",
         ),
         EnumProperty(
             "Shape",
@@ -134,7 +134,8 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
     @property
     def most(self) -> int:
         """So many poses are shown."""
-        return min(int(self.config.get("Keep")) or MOST_KEPT, MOST_KEPT)
+        most = limits.ODOMETRY_POSES.value
+        return min(int(self.config.get("Keep")) or most, most)
 
     @property
     def needs_last_only(self) -> bool:

@@ -15,6 +15,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
+from sambot_viz import limits
+
 _ALLOWED = (
     ast.Expression, ast.Constant, ast.Name, ast.Load, ast.Call, ast.keyword,
     ast.Attribute, ast.Subscript, ast.Slice, ast.Tuple, ast.List, ast.Dict, ast.Set,
@@ -24,8 +26,6 @@ _ALLOWED = (
     ast.Div, ast.FloorDiv, ast.Mod, ast.Pow, ast.Starred,
 )  # fmt: skip
 _FORBIDDEN_NAMES = frozenset({"vars", "type"})
-_LONGEST = 1_000_000
-_LARGEST_BITS = 4096
 
 
 class Refused(Exception):
@@ -165,7 +165,7 @@ def _call(name: str, *arguments: ast.expr) -> ast.Call:
 
 def _power(base: Any, exponent: Any) -> Any:
     if isinstance(base, int) and isinstance(exponent, int):
-        if abs(base).bit_length() * abs(exponent) > _LARGEST_BITS:
+        if abs(base).bit_length() * abs(exponent) > limits.XACRO_BITS.value:
             raise Refused("the power is too large for an untrusted model")
     return base**exponent
 
@@ -173,6 +173,6 @@ def _power(base: Any, exponent: Any) -> Any:
 def _times(left: Any, right: Any) -> Any:
     for many, count in ((left, right), (right, left)):
         if isinstance(count, int) and hasattr(many, "__len__"):
-            if len(many) * count > _LONGEST:
+            if len(many) * count > limits.XACRO_TEXT.value:
                 raise Refused("the repetition is too long for an untrusted model")
     return left * right

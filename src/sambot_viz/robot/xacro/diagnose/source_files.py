@@ -11,12 +11,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
-
-_LARGEST = 4_000_000
-_MOST_NEIGHBOURS = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +42,7 @@ def read_source(file: str | Path) -> SourceText | None:
     """Read the text of a file; None when it cannot be read or is huge."""
     try:
         path = Path(file)
-        if path.stat().st_size > _LARGEST:
+        if path.stat().st_size > limits.XACRO_SOURCE.value:
             return None
         text = path.read_bytes().decode("utf-8", "replace")
     except (OSError, ValueError):
@@ -182,7 +180,7 @@ def _xacro_files(folder: Path) -> list[Path]:
     for pattern in ("*.xacro", "*/*.xacro"):
         for path in sorted(folder.glob(pattern)):
             found.append(path)
-            if len(found) >= _MOST_NEIGHBOURS:
+            if len(found) >= limits.XACRO_NEIGHBOURS.value:
                 return found
     return found
 

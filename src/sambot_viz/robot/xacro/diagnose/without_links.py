@@ -12,12 +12,10 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.xml.element import Element
-
-_MOST_FILES = 400
-_LARGEST = 1_000_000
 
 
 def explain_without_links(
@@ -76,14 +74,14 @@ def _includers(path: Path) -> Iterator[str]:
     files = (
         file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf", ".sdf")
     )
-    for file in islice(files, _MOST_FILES):
+    for file in islice(files, limits.XACRO_NEIGHBOURS.value):
         if file.name != path.name and pattern.search(_text(file)):
             yield str(file.relative_to(root))
 
 
 def _text(file: Path) -> str:
     try:
-        if file.stat().st_size > _LARGEST:
+        if file.stat().st_size > limits.XML_EXPLAINED.value:
             return ""
         return file.read_text("utf-8", "replace")
     except OSError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.diagnose.lexer import (
@@ -19,8 +20,6 @@ from sambot_viz.robot.xml.diagnose.structure import structure_problems
 _MOST = 12
 """Most problems reported: further ones usually follow from the first."""
 
-_LARGEST = 1_000_000
-"""In a longer text [characters] only the place that expat names is reported."""
 
 _UTF16 = "saved as UTF-16"
 _LIKENESS = 0.75
@@ -51,7 +50,7 @@ def explain_xml(text: str, file: str, fault: XmlFault) -> list[Problem]:
     other = other_file_problem(text, file)
     if other is not None:
         return [other]
-    if len(text) > _LARGEST:
+    if len(text) > limits.XML_EXPLAINED.value:
         return [_plain(fault, file)]
     source = SourceText(text.replace("\r\n", "\n"))
     problems = prolog_problems(source, file)

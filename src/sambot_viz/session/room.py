@@ -4,11 +4,6 @@ from __future__ import annotations
 
 from sambot_viz.errors import UsageError
 
-MOST_DISPLAYS = 100
-MOST_FRAMES = 200
-MOST_VIEWS = 100
-MOST_POSES = 100
-
 
 def require_room(count: int, most: int, what: str) -> None:
     """Refuse one more when there are as many as there may be.
