@@ -91,6 +91,33 @@ def test_a_mistyped_file_is_answered_with_one_of_its_kind(
     assert capsys.readouterr().err.endswith(f"there is no such file; {offered}\n")
 
 
+@pytest.mark.parametrize(
+    ("words", "near"),
+    [
+        (["-d", "nope.rviz"], "known: 'rviz/arm.rviz'"),
+        (["config", "nope.rviz"], "known: 'rviz/arm.rviz'"),
+        (["nope.urdf"], "this folder has no *.urdf.xacro or *.urdf or *.xacro"),
+        (["nope.db3"], "this folder has no *.mcap or *.db3 or *.bag"),
+        (["-d", "rviz/none/a.rviz"], "the folder 'rviz/none' does not exist"),
+        (["-d", "empty/a.rviz"], "the folder 'empty' has no *.rviz"),
+    ],
+)
+def test_a_missing_file_is_answered_with_where_others_of_its_kind_are(
+    words: list[str],
+    near: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("rviz", "empty"):
+        Path(folder).mkdir()
+    Path("rviz", "arm.rviz").touch()
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert f"'{words[-1]}'" in said and near in said
+
+
 @pytest.mark.parametrize("name", ["notes.mcap", "notes.db3", "notes.bag", "none.mcap"])
 def test_what_is_wrong_with_a_recording_is_said_as_that_of_a_model(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture

@@ -149,7 +149,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints listened "
-        "moved_by options problems robot rviz server session topics visualizer",
+        "moved_by options problems robot rviz server session sources topics "
+        "visualizer",
         "PIL",
         "signal webbrowser",
     ),

@@ -11,7 +11,8 @@ launch/.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -209,11 +210,26 @@ def missing(what: str, path: Path) -> str:
     folder = path.parent
     if not folder.is_dir():
         return f"no {what} '{path}': the folder '{folder}' does not exist"
-    names = [p.name for p in _files(folder, endings)]
-    near = f"'{folder}' has no {what}"
-    if names:
-        near = did_you_mean(path.name, names, _before_ending)
-    return f"no {what} '{path}': there is no such file; {near}"
+    return f"no {what} '{path}': there is no such file; {_near(path, endings)}"
+
+
+def _near(path: Path, endings: Sequence[str]) -> str:
+    """Name the files of a kind that are where a missing one was looked for."""
+    folder = path.parent
+    if names := [p.name for p in _files(folder, endings)]:
+        return did_you_mean(path.name, names, _before_ending)
+    inner = [str(p) for f in _inner_folders(folder) for p in _files(f, endings)]
+    if inner:
+        return did_you_mean(str(path), inner)
+    kinds = " or ".join(f"*{ending}" for ending in endings)
+    where = "this folder" if folder == Path() else f"the folder '{folder}'"
+    return f"{where} has no {kinds}"
+
+
+def _inner_folders(folder: Path) -> list[Path]:
+    with suppress(OSError):
+        return sorted(p for p in folder.iterdir() if p.is_dir() and p.name[0] != ".")
+    return []
 
 
 def _before_ending(name: str) -> str:

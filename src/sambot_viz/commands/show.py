@@ -112,10 +112,12 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
                 port = listener.viser.get_port()
                 write_err(*(line.format(port) for line in _OPEN_TO_ALL))
         inputs.begin()
+        from sambot_viz.commands.first_notes import write_notes
         from sambot_viz.visualizer import Visualizer
 
-        with Visualizer.of_inputs(inputs, listener):
+        with Visualizer.of_inputs(inputs, listener) as visualizer:
             _report_start(inputs, report)
+            write_notes(stop, inputs, visualizer.server.sessions)
             stop.wait()
     except KeyboardInterrupt:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.

@@ -20,6 +20,15 @@ from sambot_viz.sources.source import (
 _MOST_NAMED = 3
 
 
+def each_of(source: Source) -> Iterator[Source]:
+    """Yield the sources that a user has named; one alone is its own."""
+    if isinstance(source, JoinedSources):
+        for part in source.parts:
+            yield from each_of(part)
+    else:
+        yield source
+
+
 class JoinedSources:
     """Hands on what several sources have; implements `Source`.
 

@@ -1,0 +1,76 @@
+"""Says in the terminal, once, that a source or a frame of the command is missing."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from sambot_viz.errors import did_you_mean
+from sambot_viz.inputs import Inputs
+from sambot_viz.outlet import write_err
+from sambot_viz.server.sessions import Sessions
+from sambot_viz.sources.joined import each_of
+from sambot_viz.sources.source import Source
+
+PERIOD = 0.5
+"""So often it is looked [s]; an attempt to connect takes longer."""
+SETTLED = 10
+"""A live robot has told of its frames after so many looks."""
+
+
+def write_notes(stop: threading.Event, inputs: Inputs, sessions: Sessions) -> None:
+    """Write a line about what is missing, as soon as that is certain.
+
+    Args:
+        stop: ends it.
+        inputs: the sources, and the fixed frame of the command line.
+        sessions: know the frames.
+    """
+    waiting: list[Callable[[], bool]] = []
+    if inputs.live is not None:
+        lives = [one for one in each_of(inputs.live.source) if one.live is not None]
+        waiting += [_SourceNote(one).look for one in lives]
+    if inputs.options.fixed_frame is not None:
+        waiting.append(_FrameNote(inputs, sessions).look)
+    while waiting and not stop.wait(PERIOD):
+        waiting = [look for look in waiting if not look()]
+
+
+class _SourceNote:
+    def __init__(self, source: Source) -> None:
+        self._source = source
+
+    def look(self) -> bool:
+        """Return whether the source answers, or has been said not to."""
+        status = self._source.status
+        if status.is_connected:
+            return True
+        # Only after an attempt it is known how long the next one is waited for.
+        if status.retry_s is not None:
+            write_err(f"sambot-viz: note: {status.sentence}; the page goes on trying")
+        return status.retry_s is not None
+
+
+class _FrameNote:
+    def __init__(self, inputs: Inputs, sessions: Sessions) -> None:
+        self._frame = str(inputs.options.fixed_frame)
+        self._looks = 1 if inputs.live is None else SETTLED
+        self._sessions = sessions
+
+    def look(self) -> bool:
+        """Return whether the frame exists, or has been said not to."""
+        for session in self._sessions.all()[:1]:
+            with session.lock:
+                status = session.scene.global_status()
+                frames = sorted(session.scene.context.tree.frames)
+                chosen = session.scene.context.fixed_frame == self._frame
+            if status.level == "Ok" or not chosen:
+                return True
+            self._looks -= bool(frames)
+            if self._looks <= 0:
+                offered = did_you_mean(self._frame, frames)
+                write_err(
+                    f"sambot-viz: note: no fixed frame '{self._frame}' (-f): {offered}"
+                )
+                return True
+        return False
