@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from any_recording import Given, write_any
 from live_peers import eventually
 from made_recording import write_recording
 from robot_peer import BusyPeer, square_peer
@@ -103,7 +104,8 @@ def test_a_live_robot_without_a_description_is_seen_in_the_frame_at_its_top(
         options = session.document.config.global_options
         eventually(lambda: options.get("Fixed Frame") == "map")
         eventually(lambda: session.scene.global_status().level == "Ok")
-        assert "RobotModel" not in kinds(session.document.config)
+        with session.lock:
+            assert "RobotModel" not in kinds(session.document.config)
 
 
 def test_a_config_is_shown_as_it_is(recordings: Path, shown: Show) -> None:
@@ -127,6 +129,22 @@ def test_the_frame_of_the_data_is_the_fixed_frame_without_transforms(
     assert session.document.config.global_options.get("Fixed Frame") == "base"
     assert session.scene.global_status().level != "Error"
     assert [d.status.level for d in session.scene.displays if d.is_data] == ["Ok"]
+
+
+def test_pictures_alone_need_no_frame(
+    golden: Path, shown: Show, tmp_path: Path
+) -> None:
+    with open_recording(golden / "image_rgb8" / "messages.mcap") as bag:
+        image = next(m for m in bag.messages() if m.channel.topic == "/image")
+    schema = image.channel.schema
+    given = Given("/image", [bytes(image.payload)], schema.name, schema.text)
+    path = write_any(tmp_path, "mcap", [given], 10**9)
+    session = shown(path)
+    assert session.scene.global_status().level == "Ok"
+    # Of a frame that a user names it is said.
+    session.document.set_option("Fixed Frame", "nowhere")
+    assert session.scene.global_status().level == "Warn"
+    assert shown(path, fixed_frame="base_link").scene.global_status().level == "Warn"
 
 
 def test_a_robot_that_nobody_asked_for_is_no_error(golden: Path, shown: Show) -> None:

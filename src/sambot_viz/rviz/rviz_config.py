@@ -42,6 +42,7 @@ class RvizConfig(DisplayList, ViewList):
         unasked: its displays of what a recording or a robot has, as no config says
             what of it is to be shown; that they are is not saved.
         offered: the topics that have got such a display, also if it was taken out.
+        assumed_frame: the fixed frame that no user has asked for; "" for none.
     """
 
     def __init__(self, document: Document, declarations: Declarations):
@@ -50,6 +51,7 @@ class RvizConfig(DisplayList, ViewList):
         self.fits_robot = False
         self.unasked: tuple[DisplayConfig, ...] = ()
         self.offered: set[str] = set()
+        self.assumed_frame = ""
         _report_duplicates(document.root, self._findings)
         self.global_options = GlobalOptions(
             ConfigItem(document.root, (), self._findings),
@@ -95,6 +97,7 @@ class RvizConfig(DisplayList, ViewList):
         """Return the same document once more, with the edits that are not saved."""
         made = RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
         made.fits_robot = self.fits_robot
+        made.assumed_frame = self.assumed_frame
         places = [n for n, one in enumerate(self.displays) if one in self.unasked]
         made.offered = set(self.offered)
         made.unasked = tuple(made.displays[place] for place in places)

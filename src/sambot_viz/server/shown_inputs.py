@@ -66,6 +66,7 @@ class ShownInputs:
         if self._stand_in is not None and inputs.moved_by is not None:
             self._show_data(document, inputs.moved_by)
         self._stand_in_frame = document.global_options.get("Fixed Frame")
+        self._assume_frame(document)
         # Of a live robot that had not said what it looks like.
         self._switched_off: list[DisplayConfig] = []
         # Root and top frame of the live robot that config and cameras were fitted to.
@@ -248,6 +249,12 @@ class ShownInputs:
                 root, top = moved_by.root_and_top(robot)
                 _show_motion(document, top, root)
             _set_fixed_frame(document, self._inputs.options.fixed_frame)
+            self._assume_frame(document)
+
+    def _assume_frame(self, document: RvizConfig) -> None:
+        """Note the frame of the config that comes with the program: no user's wish."""
+        if self._stand_in is not None and self._inputs.options.fixed_frame is None:
+            document.assumed_frame = str(document.global_options.get("Fixed Frame"))
 
     def _follow(self, refusal: RobotError | None) -> None:
         """Show the files again when they are saved."""

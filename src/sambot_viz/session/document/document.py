@@ -47,6 +47,7 @@ class ShownDocument:
         self._history = history
         self._change = change
         history.is_as_saved = lambda: not self.config.modified
+        scene.assumed_frame = lambda: self.config.assumed_frame
         self._take(config, trusted=True)
 
     def show(self) -> None:

@@ -40,6 +40,7 @@ class Scene:
             moves of joints are told by the robot.
         data: what displays draw of messages.
         progress: how many files of how many have been read; None when all have been.
+        assumed_frame: returns the fixed frame that no user has asked for; "" for none.
     """
 
     def __init__(
@@ -63,6 +64,7 @@ class Scene:
         )
         self.anchors = Anchors(self.context)
         self.displays: list[Display] = []
+        self.assumed_frame: Callable[[], str] = str
         self.statuses = Signal(change, None)
         self.frames = Signal(change, None)
         self.data = Signal(change, None)
@@ -195,6 +197,8 @@ class Scene:
         text = f"Frame [{fixed}] does not exist"
         if frames:
             return Status("Error", text)
+        if fixed == self.assumed_frame():
+            return Status("Ok", "No tf data")
         return Status("Warn", f"No tf data.  Actual error: {text}")
 
     def fault_of(self, frame: str) -> LookupRefused | None:
