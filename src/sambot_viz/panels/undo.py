@@ -49,13 +49,6 @@ class UndoPanel(Panel):
             Data("edit/key", self._history.key(self._id)),
         ]
 
-    def offers(self, command_id: str) -> bool:
-        """Tell whether there is something to undo, or to do again."""
-        if command_id == "edit/resume":
-            return True
-        state = self._history.state(self._id).value
-        return (state.undo if command_id == "edit/undo" else state.redo) is not None
-
     @command("edit/undo", name="Undo", client_local=True)
     def _undo(self) -> Answer | None:
         may_edit = self._roles.may_edit(self._id)

@@ -32,7 +32,7 @@ function edit(id, keys) {
   return {
     name: `${EDITS[id]}${label ? ` ${label}` : ""}`,
     keys,
-    off: !rows.can(`edit/${id}`),
+    off: !label,
     does: () => act(`edit/${id}`),
   };
 }

@@ -5,7 +5,7 @@ import { html, useEffect, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
 import { actAtOnce, newTool } from "../view/new_tool.js";
 import { Icon } from "./icons.js";
-import { useCommand, useData } from "../state.js";
+import { useData } from "../state.js";
 import { togglePanels } from "./splitters.js";
 
 /** The keys of the tools. @returns {{name: string, key: string}[]} */
@@ -82,10 +82,9 @@ function Button({ icon, name, keys, help, bare, onClick }) {
 
 /** @param {{id: "undo" | "redo", keys: string}} props */
 function EditButton({ id, keys }) {
-  const can = useCommand(`edit/${id}`),
-    label = useData("edit/labels")?.[id],
+  const label = useData("edit/labels")?.[id],
     name = EDITS[id];
-  return html`<button class="tool rare" disabled=${!can}
+  return html`<button class="tool rare" disabled=${!label}
     title=${label ? `${name}: ${label} (${keys})` : `${name} (${keys})`} aria-label=${name}
     aria-keyshortcuts=${keys.replace("Ctrl", "Control")} onClick=${() => act(`edit/${id}`)}>
       <${Icon} name=${id} /></button>`;
