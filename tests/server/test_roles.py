@@ -69,6 +69,11 @@ def in_control(client: ProtocolClient) -> list[str]:
     return [row["name"] for row in people(client) if row.get("control")]
 
 
+def notice(client: ProtocolClient) -> str:
+    """The last one; empty before the first."""
+    return client.rows.get("notice", {}).get("value", {}).get("text", "")
+
+
 def requests(client: ProtocolClient) -> list[tuple[int, str]]:
     return [(r["client"], r["name"]) for r in people(client) if r.get("requests")]
 
@@ -344,7 +349,7 @@ def test_a_presenter_gives_unasked_renames_and_declines_all(
     assert in_control(other) == ["Ms Weber", "Ann"]
     # A name that a page has kept is made another one when somebody has it.
     for name, kept in (("ann", "ann 2"), ("MS WEBER", "MS WEBER 2"), ("Ben", "Ben")):
-        other.act("role/greet", name)
+        other.act("role/greet", name, "")
         settle(other)
         assert me(other)["name"] == kept
     other.act("role/rename", first, "Mallory")
@@ -626,3 +631,46 @@ def test_viewers_see_the_names_of_files_and_a_presenter_their_folders(
     whole = teacher.row("displays/paths")["value"]
     assert whole[path] == str(file)
     assert str(file) in whole[status]
+
+
+def test_control_that_was_given_is_kept_over_a_private_copy(
+    teacher: ProtocolClient,
+    guest: ProtocolClient,
+    protocol: Protocol,
+    viz: Visualizer,
+    settle: Callable[..., None],
+) -> None:
+    teacher.act("role/give", me(guest)["client"])
+    settle(teacher, guest)
+    key, name = me(guest)["key"], me(guest)["name"]
+    guest.close()
+    teacher.wait_until(lambda: notice(teacher) == f"{name} has left, and had control")
+    assert in_control(teacher) == ["Presenter"]
+    assert key not in json.dumps([m.fields for m in teacher.messages], default=str)
+    back = protocol(viz.viser.get_port())
+    settle(back)
+    back.act("role/greet", "Ann", key)
+    settle(back, teacher)
+    assert in_control(teacher) == ["Presenter", "Ann"]
+
+
+def test_a_presenter_reads_who_has_left(
+    teacher: ProtocolClient, guest: ProtocolClient, settle: Callable[..., None]
+) -> None:
+    teacher.act("role/rename", me(guest)["client"], "Ann")
+    settle(teacher, guest)
+    guest.close()
+    teacher.wait_until(lambda: notice(teacher) == "Ann has left")
+    assert len(people(teacher)) == 1
+
+
+def test_undo_is_decided_by_the_server(
+    teacher: ProtocolClient, viz: Visualizer, settle: Callable[..., None]
+) -> None:
+    before = viz.joint_positions[JOINT]
+    # In one go, as hands are quicker than the answer.
+    teacher.edit(joint(teacher), 1.0)
+    teacher.act("edit/undo")
+    teacher.act("edit/undo")
+    settle(teacher)
+    assert viz.joint_positions[JOINT] == before

@@ -178,3 +178,24 @@ def test_a_login_names_its_viewer_who_keeps_that_name(roles: Roles) -> None:
     for by in (cat, TEACHER):
         with pytest.raises(UsageError, match="that of the login"):
             roles.rename(by, cat, "Ben")
+
+
+@pytest.mark.parametrize("meanwhile", ["nothing", "taken", "given", "removed"])
+def test_who_comes_again_has_control_again_unless_a_presenter_changed_it(
+    roles: Roles, meanwhile: str
+) -> None:
+    roles.give(TEACHER, ANN)
+    key = roles.people[ANN].key
+    if meanwhile == "removed":
+        roles.remove(TEACHER, ANN)
+    else:
+        roles.leave(ANN)
+    if meanwhile == "taken":
+        roles.take_back(TEACHER)
+    elif meanwhile == "given":
+        roles.give(TEACHER, BEN)
+    for client_id, kept in ((7, "another's"), (8, key), (9, key)):
+        roles.join(client_id, presenter=False)
+        roles.greet(client_id, "", kept)
+    has = [n for n in (7, 8, 9) if roles.people[n].has_control]
+    assert has == ([8] if meanwhile == "nothing" else [])

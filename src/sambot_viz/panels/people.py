@@ -126,6 +126,7 @@ class OwnRolePanel(Panel):
         self._say = say
         self._before: Participant | None = None
         self._helpers: dict[int, str] = {}
+        self._viewers: dict[int, str] = {}
         self._acted = False
 
     def data(self) -> Sequence[Data]:
@@ -140,6 +141,7 @@ class OwnRolePanel(Panel):
             "presenter": person.presenter,
             "control": person.has_control,
             "requests": person.requests,
+            "key": person.key,
         }
         return [Data("role/me", me)]
 
@@ -147,6 +149,7 @@ class OwnRolePanel(Panel):
         """Say what others have changed about control."""
         before, self._before = self._before, replace(person)
         helpers, self._helpers = self._helpers, self._viewers_in_control()
+        viewers, self._viewers = self._viewers, self._names_of_viewers()
         acted, self._acted = self._acted, False
         if before is None or not self._roles.presented:
             return
@@ -162,6 +165,13 @@ class OwnRolePanel(Panel):
             self._say(f"The presenter has renamed you: {person.name}", "ok")
         elif person.presenter and not acted:
             self._say_who_helps(helpers)
+            gone = viewers.keys() - self._viewers.keys() - helpers.keys()
+            if gone:
+                self._say(_left([viewers[id] for id in gone]), "ok")
+
+    def _names_of_viewers(self) -> dict[int, str]:
+        people = self._roles.people.items()
+        return {i: p.name for i, p in people if not p.presenter}
 
     def _say_who_helps(self, before: dict[int, str]) -> None:
         """Tell a presenter which viewers have control now, or no longer."""
@@ -171,8 +181,7 @@ class OwnRolePanel(Panel):
         if new:
             self._say(f"{_list(new)} now in control", "ok")
         elif left:
-            have = "has" if len(left) == 1 else "have"
-            self._say(f"{', '.join(left)} {have} left, and had control", "ok")
+            self._say(f"{_left(left)}, and had control", "ok")
         elif ended:
             self._say(f"{_list(ended)} no longer in control", "ok")
 
@@ -234,16 +243,26 @@ class OwnRolePanel(Panel):
         with self._acting():
             self._roles.rename(self._id, client_id, name)
 
-    @command("role/greet", TEXT, client_local=True)
-    def _greet(self, name: str) -> None:
+    @command("role/greet", TEXT, TEXT, client_local=True)
+    def _greet(self, name: str, key: str) -> None:
         with self._acting():
-            self._roles.greet(self._id, name)
+            self._roles.greet(self._id, name, key)
 
     @command("role/take-back", client_local=True)
     def _take(self) -> Answer:
         with self._acting():
             self._roles.take_back(self._id)
         return Answer("Only you are in control")
+
+
+_FEW = 3
+"""So many of those who have left are named; a whole class leaves at once."""
+
+
+def _left(names: Sequence[str]) -> str:
+    if len(names) > _FEW:
+        return f"{len(names)} viewers have left"
+    return f"{', '.join(sorted(names))} {'has' if len(names) == 1 else 'have'} left"
 
 
 def _list(names: Iterable[str]) -> str:

@@ -12,7 +12,7 @@ import { Cell, useData, useRow } from "../state.js";
 /**
  * @typedef {{presented: boolean, copy: boolean, copies: number}} State copies: how many have one
  * @typedef {{client: number, name: string, presenter: boolean, control: boolean,
- *   requests: boolean}} Me
+ *   requests: boolean, key: string}} Me key: who comes again with it is the same user
  * @typedef {{id: string, name: string, client: number, presenter?: boolean, control?: boolean,
  *   requests?: boolean}} Person
  * @typedef {{state: State, me: Me, people: Person[], viewers: number, requests: Person[]}} Now
@@ -24,6 +24,26 @@ export const ownName = new Cell("", "name");
 /** Whether the dialog of the status bar is open. @type {Cell<boolean>} */
 export const peopleOpen = new Cell(/** @type {boolean} */ (false));
 
+/** What the tab keeps of its user, also while it shows a private copy. */
+const KEY = "sambot-viz/user";
+
+function takeKey() {
+  try {
+    return sessionStorage.getItem(KEY) || "";
+  } catch {
+    return "";
+  }
+}
+
+/** @param {string} key */
+function keepKey(key) {
+  try {
+    sessionStorage.setItem(KEY, key);
+  } catch {
+    // Without storage, a page that comes again is another user.
+  }
+}
+
 /** Rows that this user may not set look and act like those that cannot be set. */
 export function followRole() {
   let client = -1;
@@ -32,8 +52,11 @@ export function followRole() {
     if (!me) return;
     rows.watch(!me.control);
     document.body.classList.toggle("view-only", !me.control);
-    // Each connection is a new client, with a name like "Viewer 4".
-    if (client !== me.client && ownName.value) act("role/greet", [ownName.value]);
+    // Each connection is a new client, with a name like "Viewer 4". A private copy has other users.
+    if (!location.pathname.endsWith("/copy/")) {
+      if (client !== me.client) act("role/greet", [ownName.value, takeKey()]);
+      keepKey(me.key);
+    }
     client = me.client;
   };
   rows.listen("role/me", look);
@@ -92,7 +115,7 @@ const withCopies = (copies, joint) =>
   copies ? `${joint}${copies} private ${copies === 1 ? "copy" : "copies"}` : "";
 
 /** @param {number} number @param {string} noun */
-const count = (number, noun) => `${number || "no"} ${noun}${number === 1 ? "" : "s"}`;
+const count = (number, noun) => `${number || "No"} ${noun}${number === 1 ? "" : "s"}`;
 
 /** @param {Now} now */
 function short(now) {

@@ -8,9 +8,10 @@ client, such as its camera and its selection, is not a matter of roles.
 from __future__ import annotations
 
 import itertools
+import secrets
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sambot_viz import limits
 from sambot_viz.errors import UsageError
@@ -34,6 +35,7 @@ class Participant:
         has_control: whether it may change the session.
         requests: whether it waits for control.
         known: whether the name is that of a login, which cannot be changed.
+        key: the page alone knows it; who comes again with it is the same user.
     """
 
     number: int
@@ -42,6 +44,7 @@ class Participant:
     has_control: bool
     requests: bool = False
     known: bool = False
+    key: str = field(default_factory=lambda: secrets.token_urlsafe(12), repr=False)
 
 
 class Roles:
@@ -67,6 +70,9 @@ class Roles:
         # One who loads the page again is the same presenter, and nobody takes the name
         # meanwhile.
         self._presenters: dict[int, str] = {1: "Presenter"}
+        # Of the viewer who had control when the page was left, for a private copy or
+        # to be loaded again; "" for none.
+        self._key_of_control = ""
 
     @property
     def people(self) -> dict[int, Participant]:
@@ -99,9 +105,16 @@ class Roles:
         self.changed.touch()
 
     def leave(self, client_id: int) -> None:
-        """Remove the user of a client; control that was given to it is free again."""
-        if self._people.pop(client_id, None) is not None:
-            self.changed.touch()
+        """Remove the user of a client; control that was given to it is free again.
+
+        Who comes again has it again, unless a presenter gave or took it meanwhile.
+        """
+        person = self._people.pop(client_id, None)
+        if person is None:
+            return
+        if person.has_control and not person.presenter:
+            self._key_of_control = person.key
+        self.changed.touch()
 
     def count_copies(self, number: int) -> None:
         """Take how many private copies are open now."""
@@ -148,11 +161,19 @@ class Roles:
         self._name(client_id, name)
         self.changed.touch()
 
-    def greet(self, client_id: int, name: str) -> None:
-        """Take the name that a page has kept, with a number when it is another's."""
+    def greet(self, client_id: int, name: str, key: str = "") -> None:
+        """Take what a page has kept of its user.
+
+        Args:
+            client_id: the new client of the page.
+            name: its name; it gets a number when it is another's now.
+            key: of the user; "" for none.
+        """
         person = self._people[client_id]
         if person.presenter:
             return
+        if key and secrets.compare_digest(key.encode(), self._key_of_control.encode()):
+            person.has_control, self._key_of_control = True, ""
         # The user has not asked for anything that could be refused.
         with suppress(UsageError):
             self._name(client_id, name.strip() and self._free_name(name, client_id))
@@ -201,6 +222,7 @@ class Roles:
             UsageError: only presenters may, and only to who is there.
         """
         person = self._viewer(presenter_id, client_id)
+        self._key_of_control = ""
         for other in self._people.values():
             other.has_control = other.presenter
         person.has_control, person.requests = True, False
@@ -237,6 +259,7 @@ class Roles:
         """
         person = self._viewer(presenter_id, client_id)
         self.end_connection(client_id)
+        person.has_control = False
         self.leave(client_id)
         return person
 
@@ -247,6 +270,7 @@ class Roles:
             UsageError: only presenters may.
         """
         self._check_presenter(presenter_id)
+        self._key_of_control = ""
         for person in self._people.values():
             person.has_control = person.presenter
         self.changed.touch()
