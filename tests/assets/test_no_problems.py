@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from patience import patience
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.checks import check
@@ -37,7 +38,7 @@ def test_the_page_starts_without_a_problem_and_without_a_changed_setting(
     model = None if config is None else bundled.model_path(MODELS[config])
     path = None if config is None else bundled.config_path(config)
     with Visualizer(model, path) as viz:
-        viz.server.sessions.wait_for_meshes(20)
+        viz.server.sessions.wait_for_meshes(patience(20))
         (session,) = viz.server.sessions.all()
         assert session.problems.shown.value.listed == ()
         assert session.problems.shown.value.note == ""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import viser
+from patience import patience
 
 from sambot_viz import load_robot
 from sambot_viz.inputs import declarations
@@ -86,7 +87,7 @@ def show(arm: Robot) -> Iterator[Show]:
         servers.append(server)
         if robot is not None:
             server.sessions.show_robot(robot)
-        server.sessions.wait_for_meshes(20)
+        server.sessions.wait_for_meshes(patience(20))
         assert server.sessions.shared is not None
         return server.sessions.shared
 

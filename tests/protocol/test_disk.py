@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
@@ -153,7 +154,7 @@ def test_a_browser_reaches_nothing_outside_the_opened_folders(
         with disk:
             send_everything(client, outside)
             client.settle(viz.viser)
-            viz.server.sessions.wait_for_meshes(20.0)
+            viz.server.sessions.wait_for_meshes(patience(20.0))
     assert opened / "second.urdf" in disk.read
     secret = {*outside.rglob("*"), outside, Path("/etc/passwd"), Path("/dev/zero")}
     secret |= {Path.cwd(), *Path.cwd().iterdir()}
@@ -192,10 +193,10 @@ def test_a_model_in_a_config_that_a_browser_has_saved_is_not_trusted(
             client.act(row_id, *values)
             client.settle(viz.viser)
         assert client.shown(*MODEL) == str(opened / "code.xacro")
-        viz.server.sessions.wait_for_meshes(20.0)
+        viz.server.sessions.wait_for_meshes(patience(20.0))
         assert "second/RUN" not in session_of(viz).frames.tree.frames
     with Visualizer(opened / "robot.urdf", opened / "saved.rviz", port=0) as viz:
-        viz.server.sessions.wait_for_meshes(20.0)
+        viz.server.sessions.wait_for_meshes(patience(20.0))
         assert "second/RUN" in session_of(viz).frames.tree.frames
 
 
@@ -209,7 +210,7 @@ def test_a_copy_trusts_no_model_that_a_browser_has_named(
         copy.wait_until(lambda: "file/state" in copy.rows)
         # A copy names no folder of the server.
         assert copy.shown(*MODEL) == "code.xacro"
-        viz.server.sessions.wait_for_meshes(20.0)
+        viz.server.sessions.wait_for_meshes(patience(20.0))
         assert "second/RUN" not in viz.server.sessions.all()[1].frames.tree.frames
 
 

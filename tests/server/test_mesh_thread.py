@@ -88,7 +88,8 @@ class Opened:
         return {d.status.level for d in self.session.scene.displays}
 
     def wait(self) -> None:
-        self.viz._server.sessions.wait_for_meshes(20)  # pyright: ignore[reportPrivateUsage]
+        sessions = self.viz._server.sessions  # pyright: ignore[reportPrivateUsage]
+        sessions.wait_for_meshes(patience(20))
         self.client.settle(self.viz.viser)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from inside import session_of
 from live_peers import FoxglovePeer, eventually
+from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
@@ -178,7 +179,7 @@ def test_the_size_is_that_of_the_meshes(tmp_path: Path) -> None:
     model = tmp_path / "r.urdf"
     model.write_text(BOX.format(name="r", geometry="<mesh filename='t.stl'/>"))
     with Visualizer(model, port=0) as viz:
-        viz.server.sessions.wait_for_meshes(20)
+        viz.server.sessions.wait_for_meshes(patience(20))
         assert shown(session_of(viz))["cell"] == 2.0
 
 

@@ -242,7 +242,7 @@ def test_the_robot_is_shown_whole_once_its_meshes_are_read_unless_the_camera_was
                 move(client, (4.0, 1.0, 2.0))
                 client.settle(viz.viser)
             cache.gate.set()
-            viz.server.sessions.wait_for_meshes(20)
+            viz.server.sessions.wait_for_meshes(patience(20))
             client.settle(viz.viser)
             if moved:
                 assert view_of(viz).camera.position == pytest.approx((4.0, 1.0, 2.0))

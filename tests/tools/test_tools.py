@@ -611,7 +611,7 @@ def test_a_click_reads_no_file(browser: Browser, tmp_path: Path) -> None:
         "utf-8",
     )
     browser.session.show_robot(load_robot(model))
-    browser.viz.server.sessions.wait_for_meshes(30.0)
+    browser.viz.server.sessions.wait_for_meshes(patience(30.0))
     browser.choose("Select")
     browser.click_down(0.0, 0.0)
     assert browser.selected == ["base_link"]
@@ -633,7 +633,7 @@ def large(browser: Browser, tmp_path: Path) -> Browser:
         "utf-8",
     )
     browser.session.show_robot(load_robot(model))
-    browser.viz.server.sessions.wait_for_meshes(30.0)
+    browser.viz.server.sessions.wait_for_meshes(patience(30.0))
     browser.choose("Select")
     return browser
 

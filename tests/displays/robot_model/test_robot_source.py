@@ -107,7 +107,7 @@ def open_case(package: Path, loader: Loader) -> Iterator[Callable[..., Case]]:
         server = Server(Options(port=0, panels=False), lambda: document, models)
         servers.append(server)
         server.sessions.show_robot(load_robot(package / "urdf" / "first.urdf"))
-        server.sessions.wait_for_meshes(20)
+        server.sessions.wait_for_meshes(patience(20))
         assert server.sessions.shared is not None
         return Case(server.sessions.shared, models)
 
@@ -279,7 +279,7 @@ def test_a_second_robot_follows_its_file(package: Path) -> None:
             if "b/changed" in session.frames.tree.frames:
                 drawn.set()
 
-        viz._server.sessions.wait_for_meshes(20)
+        viz._server.sessions.wait_for_meshes(patience(20))
         assert "b/own" in session.frames.tree.frames
         connect([session.scene.frames], look)
         second.write_text("<robot")

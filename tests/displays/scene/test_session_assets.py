@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from patience import patience
+
 from sambot_viz import Visualizer
 
 
@@ -19,7 +21,7 @@ def test_a_box_with_a_broken_texture_is_drawn_without_it_and_that_is_said(
     )
     with Visualizer(model) as viz:
         server = viz._server  # pyright: ignore[reportPrivateUsage]
-        server.sessions.wait_for_meshes(20)
+        server.sessions.wait_for_meshes(patience(20))
         session = server.sessions.all()[0]
         robot = next(d for d in session.scene.displays if d.config.name == "RobotModel")
         assert [p.code for p in robot.problems] == ["texture-unreadable"]

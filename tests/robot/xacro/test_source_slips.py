@@ -213,6 +213,46 @@ def test_the_cause_comes_with_what_was_meant(
     assert problem.hint.startswith(hint)
 
 
+ENDLESS = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="half" value="${{1 / 2}}"/>
+<xacro:include filename="part.xacro"/>
+<xacro:macro name="still" params="of"><link name="${{of}}"/></xacro:macro>
+{0}<xacro:still of="a"/>
+<xacro:include filename="r.urdf.xacro"/>
+{1}
+</robot>
+"""
+CALLED = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:macro name="still" params="of"><link name="${{of}}"/></xacro:macro>
+<xacro:macro name="again" params="of">
+<xacro:still of="${{of}}"/>
+{0}<xacro:still of="${{of}}"/>
+<xacro:again of="${{of}}"/>{1}
+</xacro:macro>
+<xacro:again of="a"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize("around", range(5))
+@pytest.mark.parametrize(
+    ("model", "message"),
+    [(ENDLESS, "this file includes itself"), (CALLED, "the macro again calls itself")],
+)
+def test_what_goes_on_for_ever_is_named_wherever_python_gives_up(
+    tmp_path: Path, model: str, message: str, around: int
+) -> None:
+    (tmp_path / "part.xacro").write_text("<robot><link name='b'/></robot>")
+    path = tmp_path / "r.urdf.xacro"
+    # Each element around it takes more of Python's depth.
+    path.write_text(model.format("<a>" * around, "</a>" * around))
+
+    (problem,) = check(path)
+
+    assert problem.message == f"the expansion never ends: {message}"
+    assert (problem.file, problem.line) == (str(path), 6)
+
+
 def test_a_block_without_its_prefix_in_a_joint_is_named(changed: Change) -> None:
     problems = changed("wheel.xacro", "<xacro:insert_block", "<insert_block")
 

@@ -7,7 +7,6 @@ import gc
 import importlib
 import json
 import os
-import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -24,6 +23,7 @@ from sambot_viz.robot.xacro.child.exchange import (
     UnprefixedRow,
     WarningRow,
 )
+from sambot_viz.robot.xacro.child.failure import OutputLimit, again, unwrapped
 from sambot_viz.robot.xacro.child.package_files import XacroFiles
 from sambot_viz.robot.xacro.child.places import (
     PlaceKeeper,
@@ -38,10 +38,6 @@ from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 _XACRO_WORDS = frozenset(
     {"property", "macro", "arg", "if", "unless", "insert_block", "include"}
 )
-
-
-class OutputLimit(Exception):
-    """The expanded text is longer than allowed."""
 
 
 def run(job: Job) -> bytes:
@@ -81,6 +77,7 @@ class Expansion:
         self._places = PlaceKeeper()
         self._node: Any = None
         self._failed_at: tuple[Any, list[Call], list[str]] | None = None
+        self._entered: list[Any] = []
         self._definitions: dict[tuple[str, str], DefinitionRow] = {}
         self._warnings: list[WarningRow] = []
         self._files: list[str] = []
@@ -131,7 +128,7 @@ class Expansion:
     def failure(self, error: BaseException) -> FailureAnswer:
         """Describe an exception for `XacroFailure`."""
         node, calls, files = self._failed_at or (self._node, self._places.calls, [])
-        cause, expressions = _unwrapped(error)
+        cause, expressions = unwrapped(error)
         place = getattr(node, "sambot_place", None)
         open_files = reversed(files or self._xacro.filestack or [])
         stack = [self._shown(file) for file in open_files if file]
@@ -139,6 +136,10 @@ class Expansion:
             (m.body.getAttribute("name"), self._shown(m.history[-1][-1] or ""))
             for m in reversed(self._xacro.macrostack or [])
         ]
+        if isinstance(cause, RecursionError):
+            # What else was being read when the depth was reached, is chance.
+            places = again([one.sambot_place for one in self._entered]) or [place]
+            place, stack, macros = places[-1], again(stack), again(macros)
         return {
             "kind": type(cause).__name__,
             "text": str(cause).strip() or repr(cause),
@@ -160,10 +161,10 @@ class Expansion:
         x.parse = self._parse
         x.eval_text = skipping_plain_text(x.eval_text)
         x.eval_all = self._following(x.eval_all)
-        x.handle_macro_call = self._macro_call(x.handle_macro_call)
+        x.handle_macro_call = self._macro_call(self._entering(x.handle_macro_call))
         x.grab_property = self._defining("property", x.grab_property)
         x.grab_macro = self._defining("macro", x.grab_macro)
-        x.process_include = self._touching(x.process_include)
+        x.process_include = self._entering(self._touching(x.process_include))
         x.check_attrs = self._touching(x.check_attrs)
         x.reqd_attrs = self._touching(x.reqd_attrs)
         x.warning = x.error = self._warn
@@ -229,6 +230,18 @@ class Expansion:
             files: list[str] = list(filter(None, self._xacro.filestack or []))
             self._failed_at = (self._node, list(self._places.calls), files)
 
+    def _entering(self, original: Callable[..., Any]) -> Callable[..., Any]:
+        """Note an element as long as what it includes or calls is being expanded."""
+
+        @functools.wraps(original)
+        def wrapper(node: Any, *rest: Any, **named: Any) -> Any:
+            self._entered.append(node)
+            outcome = original(node, *rest, **named)
+            self._entered.pop()
+            return outcome
+
+        return wrapper
+
     def _touching(self, original: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(original)
         def wrapper(node: Any, *rest: Any, **named: Any) -> Any:
@@ -284,17 +297,3 @@ class Expansion:
 
 def _say_nothing(*_words: Any, **_options: Any) -> str:
     return ""
-
-
-def _unwrapped(error: BaseException) -> tuple[BaseException, list[str]]:
-    """The exception below xacro's wrappers, and the expressions it came through."""
-    expressions: list[str] = []
-    while True:
-        suffix = getattr(error, "suffix", None) or ""
-        match = re.search(r"when evaluating expression '(.*)'", suffix, re.DOTALL)
-        if match:
-            expressions.insert(0, match[1])
-        inner = getattr(error, "exc", None)
-        if not isinstance(inner, BaseException):
-            return error, expressions
-        error = inner
