@@ -29,8 +29,13 @@ CLOCKS = {
 }
 """Module → its names that sleep, or tell the time of the computer."""
 
+PATIENT = 5.0
+"""What waits shorter is expected to run out, and so is a sleep [s]."""
+
 MAY = {
     "support/patience.py": "waits for all tests",
+    "commands/test_live.py": "drives a robot as long as a command listens",
+    "server/test_server.py": "holds a save up, which another one may wait for",
     "support/protocol_client.py": "waits with a deadline, and notes when frames came",
     "support/a_jupyter.py": "waits for another program",
     "support/browser_input.py": "moves a mouse as fast as a hand does",
@@ -67,8 +72,17 @@ def uses(tree: ast.AST) -> Iterator[tuple[int, str]]:
         if isinstance(node, ast.Call) and not _gives_way(node):
             name = taken.get(ast.unparse(node.func), ast.unparse(node.func))
             module, _, last = name.rpartition(".")
-            if last in CLOCKS.get(module, ()):
+            if last in CLOCKS.get(module, ()) or _runs_out(node):
                 yield node.lineno, name
+
+
+def _runs_out(call: ast.Call) -> bool:
+    """Whether it is a pause: a wait that is shorter than `PATIENT`."""
+    if not isinstance(call.func, ast.Attribute) or call.func.attr != "wait":
+        return False
+    given = [*call.args[:1], *(k.value for k in call.keywords if k.arg == "timeout")]
+    numbers = [one.value for one in given if isinstance(one, ast.Constant)]
+    return any(isinstance(n, int | float) and n < PATIENT for n in numbers)
 
 
 def _gives_way(call: ast.Call) -> bool:
@@ -93,6 +107,8 @@ def test_no_test_sleeps_or_looks_at_a_clock(repository: Path) -> None:
         "from time import monotonic as now\nnow()",
         "import threading\nthreading.Timer(1, print)",
         "import asyncio\nasync def f():\n    await asyncio.sleep(0.1)",
+        "event.wait(0.2)",
+        "process.wait(timeout=1)",
     ],
 )
 def test_a_sleep_is_noticed(text: str) -> None:

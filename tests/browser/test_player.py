@@ -15,6 +15,7 @@ from viewer_page import ViewerPage, viewer_url
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
+from sambot_viz.session.data.player import Player
 
 SKY = (700, 160)
 
@@ -58,14 +59,20 @@ def test_keys_go_through_a_recording_where_nothing_else_has_them(
     user.until(lambda: "ROS Elapsed 18.97" in user.find("dialog", "Time").text)
 
 
+def paused(viz: Visualizer, viewer: ViewerPage) -> Player:
+    """The player, after a click of the mouse on Pause."""
+    data = session_of(viz).data
+    assert data is not None and data.player is not None
+    player = data.player
+    viewer.user.click("button", "Pause")
+    viewer.user.until(lambda: not player.playback.value.playing)
+    return player
+
+
 def test_a_time_that_is_typed_is_gone_to_and_a_wrong_one_says_what_can_be(
     viz: Visualizer, viewer: ViewerPage
 ) -> None:
-    user, data = viewer.user, session_of(viz).data
-    assert data is not None and data.player is not None
-    player = data.player
-    user.click("button", "Pause")
-    user.until(lambda: not player.playback.value.playing)
+    user, player = viewer.user, paused(viz, viewer)
     user.click("button", re.compile("^Time: "))
     user.enter(user.find("textbox", re.compile("Go to")), "9:00")
     user.until(lambda: "up to 0:19.969" in alerts(user))
@@ -134,11 +141,7 @@ def test_a_tap_on_a_line_that_is_cut_off_shows_all_of_it(
 def test_the_keys_of_the_player_go_on_after_a_click_of_the_mouse(
     viz: Visualizer, viewer: ViewerPage
 ) -> None:
-    user, data = viewer.user, session_of(viz).data
-    assert data is not None and data.player is not None
-    player = data.player
-    user.click("button", "Pause")
-    user.until(lambda: not player.playback.value.playing)
+    user, player = viewer.user, paused(viz, viewer)
     user.click("button", "Loop")
     user.until(lambda: player.playback.value.loop)
     user.keys(" ")

@@ -11,6 +11,15 @@ from pathlib import Path
 FORMATS = ("mcap", "mcap without chunks", "db3", "bag")
 STRING = "std_msgs/msg/String"
 TEXT = "string data\n"
+DB3_TABLES = """
+create table topics (id integer primary key, name text, type text,
+  serialization_format text, offered_qos_profiles text);
+create table messages (id integer primary key, topic_id integer, timestamp integer,
+  data blob);
+create table message_definitions (id integer primary key, topic_type text,
+  encoding text, encoded_message_definition text, type_description_hash);
+"""
+"""The tables of a recording that is a database."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,16 +83,7 @@ def _loose_mcap(path: Path, topics: Sequence[Given], timed: _Timed) -> None:
 
 def _db3(path: Path, topics: Sequence[Given], timed: _Timed) -> None:
     with closing(sqlite3.connect(path)) as base, base:
-        base.executescript(
-            """
-            create table topics (id integer primary key, name text, type text,
-              serialization_format text, offered_qos_profiles text);
-            create table messages (id integer primary key, topic_id integer,
-              timestamp integer, data blob);
-            create table message_definitions (id integer primary key, topic_type text,
-              encoding text, encoded_message_definition text, type_description_hash);
-            """
-        )
+        base.executescript(DB3_TABLES)
         for number, one in enumerate(topics):
             row = (number, one.topic, one.type_name, "cdr", "")
             base.execute("insert into topics values (?, ?, ?, ?, ?)", row)

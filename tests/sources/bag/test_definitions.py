@@ -5,6 +5,8 @@ from __future__ import annotations
 import sqlite3
 from pathlib import Path
 
+from any_recording import DB3_TABLES
+
 from sambot_viz.messages import Schema
 from sambot_viz.sources.bag import open_recording
 
@@ -15,19 +17,14 @@ def test_the_event_of_a_service_has_the_definition_of_the_service(
     path = tmp_path / "events.db3"
     with sqlite3.connect(path) as base:
         base.executescript(
-            """
-            create table topics (id integer primary key, name text, type text,
-                serialization_format text, offered_qos_profiles text);
-            create table messages (id integer primary key, topic_id integer,
-                timestamp integer, data blob);
-            create table message_definitions (id integer primary key, topic_type text,
-                encoding text, encoded_message_definition text);
+            DB3_TABLES
+            + """
             insert into topics values (1, '/a/_service_event',
                 'std_srvs/srv/Trigger_Event', 'cdr', '');
             insert into topics values (2, '/b', 'lab/msg/Some_Event', 'cdr', '');
             insert into messages values (1, 1, 5, x'00010000');
             insert into message_definitions values (1, 'std_srvs/srv/Trigger',
-                'ros2msg', '---' || char(10) || 'bool success' || char(10));
+                'ros2msg', '---' || char(10) || 'bool success' || char(10), '');
             """
         )
     base.close()
