@@ -10,7 +10,7 @@ from sambot_viz.displays.data.interactive_markers.controls import ShowOptions
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
 )
-from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
+from sambot_viz.displays.data.markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
 from sambot_viz.displays.display import DisplayContext, Status

@@ -20,9 +20,9 @@ from sambot_viz.displays.data.interactive_markers.marker_nodes import (
     ControlNodes,
     InteractiveMarkerNodes,
 )
-from sambot_viz.displays.data.interactive_markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.checks import check_of
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
+from sambot_viz.displays.data.markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.nodes import Key
 from sambot_viz.displays.data.refusals import MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
@@ -95,7 +95,9 @@ class InteractiveMarkers:
             return
         most = limits.INTERACTIVE_MARKERS.value
         if before is None and len(self.known) >= most:
-            self._rows.say_of_all(f"More than the {most} markers that are shown")
+            self._rows.say_of_all(
+                "Warn", f"More than the {most} markers that are shown"
+            )
             return
         try:
             with refusing():

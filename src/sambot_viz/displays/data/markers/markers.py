@@ -10,10 +10,11 @@ from sambot_viz import limits
 from sambot_viz.displays.data.markers.checks import check_of, looks_the_same
 from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
 from sambot_viz.displays.data.markers.fields import MarkerPose
+from sambot_viz.displays.data.markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.namespaces import Namespaces
 from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
 from sambot_viz.displays.data.markers.off_markers import OffMarker, OffMarkers
-from sambot_viz.displays.display import DisplayContext, StatusList
+from sambot_viz.displays.display import DisplayContext, Level, StatusList
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
@@ -24,7 +25,6 @@ ADD, DELETE, DELETE_ALL = 0, 2, 3
 _NS = 1_000_000_000
 SHORTEST_LIFE_NS = 100_000
 """A lifetime that is not longer is none [ns]."""
-MARKERS = "Markers"
 
 
 class Markers:
@@ -52,12 +52,11 @@ class Markers:
         self._off = OffMarkers()
         self._context = context
         self._key = key
-        self._status = status
         self._namespaces = namespaces
         self._nodes = MarkerNodes(context, key, files_found)
         self._changed: dict[Key, None] = {}
         self._places: dict[tuple[str, int | None], MarkerPose] = {}
-        self._rows: set[str] = set()
+        self._rows = MarkerRows(status)
         self._free: list[int] = []
         self._points = 0
 
@@ -117,12 +116,7 @@ class Markers:
         place, why = one.place, ""
         if place is None:
             place, why = self._place(marker)
-        if why:
-            self._say(key, "Error", why)
-        elif check.text:
-            self._say(key, check.level, check.text)
-        else:
-            self._unsay(key)
+        self._say(key, "Error" if why else check.level, why or check.text)
         before = self.shown.get(key)
         taken = Shown(
             marker,
@@ -156,7 +150,7 @@ class Markers:
             text = f"More than the {most:,} points of markers that are drawn"
         else:
             return True
-        self._status.set(MARKERS, "Error", text)
+        self._rows.say_of_all("Error", text)
         return False
 
     def _place(self, marker: Any) -> tuple[MarkerPose | None, str]:
@@ -176,7 +170,7 @@ class Markers:
         return place, ""
 
     def _remove(self, key: Key) -> None:
-        self._unsay(key)
+        self._say(key, "Ok", "")
         if key in self.shown:
             self._set_apart(key)
         self._points -= _points_of(self._apart.pop(key, None))
@@ -192,9 +186,7 @@ class Markers:
                 place = None if key in self._apart else one.place
                 self._remove(key)
                 self._off.keep(key, OffMarker(one.marker, one.until_ns, place))
-        for row in [row for row in self._rows if row.rpartition("/")[0] == namespace]:
-            self._rows.discard(row)
-            self._status.remove(row)
+        self._rows.unsay_all(namespace)
 
     def remove_all(self, namespace: str | None = None) -> None:
         """Remove the markers of a namespace, or all of them."""
@@ -204,9 +196,7 @@ class Markers:
             if namespace is None or key[0] == namespace:
                 self._remove(key)
         if namespace is None:
-            for row in tuple(self._rows):
-                self._status.remove(row)
-            self._rows.clear()
+            self._rows.unsay_all()
 
     def _slot(self) -> int:
         # All slots below the number of markers are taken or free.
@@ -279,7 +269,7 @@ class Markers:
     def clear(self) -> None:
         """Forget all markers."""
         self.remove_all()
-        self._status.remove(MARKERS)
+        self._rows.clear()
         self._changed.clear()
         self._free.clear()
         self._nodes.remove()
@@ -314,23 +304,12 @@ class Markers:
 
     # What is said
 
-    def _say(self, key: Key, level: Any, text: str) -> None:
+    def _say(self, key: Key, level: Level, text: str) -> None:
         row = f"{key[0]}/{key[1]}"
-        if not text:
-            self._unsay(key)
-        elif row in self._rows or len(self._rows) < limits.MARKER_ROWS.value:
-            self._rows.add(row)
-            self._status.set(row, level, text)
+        if text:
+            self._rows.say(row, level, text)
         else:
-            most = limits.MARKER_ROWS.value
-            more = f"More markers than the {most} that have a row here are wrong"
-            self._status.set(MARKERS, "Warn", more)
-
-    def _unsay(self, key: Key) -> None:
-        row = f"{key[0]}/{key[1]}" if self._rows else ""
-        if row in self._rows:
-            self._rows.discard(row)
-            self._status.remove(row)
+            self._rows.unsay(row)
 
 
 def _points_of(shown: Shown | None) -> int:

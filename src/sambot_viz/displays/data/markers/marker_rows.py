@@ -1,4 +1,4 @@
-"""What is said of interactive markers: a status for each, up to a number."""
+"""What is said of markers: a status for each, up to a number."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MARKERS = "Markers"
 
 
 class MarkerRows:
-    """The statuses of interactive markers, by their names.
+    """The statuses of markers, by their names.
 
     Args:
         status: of the display.
@@ -34,13 +34,16 @@ class MarkerRows:
             self._status.set(row, level, text)
         elif level != "Ok":
             most = limits.MARKER_ROWS.value
-            self.say_of_all(
-                f"More markers than the {most} that have a row here are wrong"
-            )
+            more = f"More markers than the {most} that have a row here are wrong"
+            self.say_of_all("Warn", more)
 
-    def say_of_all(self, text: str) -> None:
-        """Warn of what concerns no single marker."""
-        self._status.set(MARKERS, "Warn", text)
+    def say_of_all(self, level: Level, text: str) -> None:
+        """Say what concerns no single marker."""
+        self._status.set(MARKERS, level, text)
+
+    def __contains__(self, name: str) -> bool:
+        """Return whether something is said of a marker."""
+        return name in self._rows
 
     def unsay(self, name: str) -> None:
         """Say nothing more of a marker."""
@@ -48,8 +51,13 @@ class MarkerRows:
         if row is not None:
             self._status.remove(row)
 
+    def unsay_all(self, namespace: str | None = None) -> None:
+        """Say nothing more of any marker, or of those of a namespace."""
+        for name in tuple(self._rows):
+            if namespace is None or name.rpartition("/")[0] == namespace:
+                self.unsay(name)
+
     def clear(self) -> None:
         """Say nothing more."""
-        for name in tuple(self._rows):
-            self.unsay(name)
+        self.unsay_all()
         self._status.remove(MARKERS)
