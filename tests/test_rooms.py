@@ -441,7 +441,6 @@ HOLDERS = {
     "scripting/links.py",
     "scripting/player.py",
     "server/client_sessions.py",
-    "server/places.py",
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",

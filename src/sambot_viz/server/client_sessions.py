@@ -19,9 +19,8 @@ from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.window import Window
 from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.links import invite
-from sambot_viz.server.places import SessionPlace
 from sambot_viz.server.protection.client_messages import CameraReport
-from sambot_viz.server.sessions import Sessions
+from sambot_viz.server.sessions import SessionPlace, Sessions
 from sambot_viz.session import Session
 from sambot_viz.session.clients.camera import reported
 from sambot_viz.session.session_copy import SessionCopy
@@ -49,7 +48,6 @@ class ClientSessions:
     ) -> None:
         self._server = server
         self._sessions = sessions
-        self._places = sessions.places
         self._options = sessions.options
         self._files = files
         self._ask_page = ask_page
@@ -62,7 +60,7 @@ class ClientSessions:
         Raises:
             FrameError: static transforms that form a ring.
         """
-        place = self._places.add(None)
+        place = self._sessions.add_place(None)
         place.session = self._sessions.open(self._server, place.worker)
         place.session.roles.end_connection = self._end_connection
 
@@ -72,7 +70,7 @@ class ClientSessions:
         Call it after `show_robot`: a browser draws what it receives in order, and the
         panels take it longer than the robot.
         """
-        place = self._places.of_all
+        place = self._sessions.shared_place
         if place is not None and place.session is not None:
             self._add_panels(place, place.session)
 
@@ -82,7 +80,7 @@ class ClientSessions:
         with session.lock:
             if options.panels and place.window is None:
                 # Clients with a session of their own do not use the server's disk.
-                shared = place is self._places.of_all
+                shared = place is self._sessions.shared_place
                 place.window = Window(
                     session,
                     options.gui,
@@ -100,7 +98,7 @@ class ClientSessions:
 
     def take_camera(self, client_id: int, report: CameraReport) -> None:
         """Give the camera of a page to its client; the last of those that wait."""
-        place = self._places.of(client_id)
+        place = self._sessions.place_of(client_id)
         camera = reported(
             np.array(report.position),
             np.array(report.look_at),
@@ -114,7 +112,7 @@ class ClientSessions:
 
     def rows_of(self, client_id: int) -> ClientRows | None:
         """Return what a client sees beside the scene; None when it has none yet."""
-        place = self._places.of(client_id)
+        place = self._sessions.place_of(client_id)
         if place is None or place.session is None:
             return None
         if place.window is not None:
@@ -126,16 +124,16 @@ class ClientSessions:
 
     def may_edit(self, client_id: int) -> bool:
         """Return whether a client may use the widgets of a program, which all have."""
-        shared = self._places.shared
+        shared = self._sessions.shared
         return shared is None or shared.roles.may_edit(client_id)
 
     def behind(self, client_id: int, action: Callable[[], None]) -> None:
         """Run an action behind what a client has caused in its session."""
-        place = self._places.of(client_id)
+        place = self._sessions.place_of(client_id)
         action() if place is None else place.worker.post(action, client=client_id)
 
     def _window_of(self, client_id: int) -> Window | None:
-        place = self._places.of(client_id)
+        place = self._sessions.place_of(client_id)
         return None if place is None else place.window
 
     def _end_connection(self, client_id: int) -> None:
@@ -159,7 +157,7 @@ class ClientSessions:
 
     def has_copy(self, client_id: int) -> bool:
         """Return whether a client sees a copy, so nothing of the shared session."""
-        return self._places.shared is not None and self._context(client_id).copy
+        return self._sessions.shared is not None and self._context(client_id).copy
 
     def wait_for_page(self, ticket: str, timeout: float) -> viser.ClientHandle:
         """Return the client of a page, as soon as it is there.
@@ -188,17 +186,17 @@ class ClientSessions:
     async def join(self, client: viser.ClientHandle) -> None:
         """Give a client that has come its session."""
         viser_private.allow_late_messages(client)
-        shared, context = self._places.shared, self._context(client.client_id)
+        shared, context = self._sessions.shared, self._context(client.client_id)
         if shared is not None and not context.copy:
             shared.worker.post(
                 partial(self._give_view, shared, client, context),
                 client=client.client_id,
             )
             return
-        with self._places.lock:
-            if self._places.closed:
+        with self._sessions.lock:
+            if self._sessions.closed:
                 return
-            place = self._places.add(client.client_id)
+            place = self._sessions.add_place(client.client_id)
         open_private = partial(self._open_private, client, place)
         if shared is None:
             place.worker.post(open_private)
@@ -236,9 +234,9 @@ class ClientSessions:
 
     def _count_copies(self) -> None:
         """Tell those who share the session how many have a copy of it."""
-        shared, places = self._places.shared, self._places
+        shared, sessions = self._sessions.shared, self._sessions
         if shared is not None:
-            shared.worker.post(lambda: shared.roles.count_copies(places.copies))
+            shared.worker.post(lambda: shared.roles.count_copies(sessions.copies))
 
     def _has_left(self, client: viser.ClientHandle) -> bool:
         """Tell if a client has gone before its turn: to let it in would be for nobody.
@@ -249,18 +247,18 @@ class ClientSessions:
 
     async def leave(self, client: viser.ClientHandle) -> None:
         """Take a client that has gone out of its session; its own one ends."""
-        place = self._places.own(client.client_id)
+        place = self._sessions.own_place(client.client_id)
         if place is not None:
             # Behind one that opens at the moment: this must not wait on the loop.
             # Behind what it has sent.
             close = partial(self._close_private, client.client_id, place)
             place.worker.post(close, client=client.client_id)
-        elif (shared := self._places.shared) is not None:
+        elif (shared := self._sessions.shared) is not None:
             leave = partial(shared.leave, client.client_id)
             shared.worker.post(leave, client=client.client_id)
 
     def _close_private(self, client_id: int, place: SessionPlace) -> None:
-        self._places.remove(client_id)
+        self._sessions.remove_place(client_id)
         self._count_copies()
         self._sessions.on_files()
         if place.window is not None:

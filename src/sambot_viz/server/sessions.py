@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import cast
 
 import viser
@@ -13,12 +15,12 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.outlet import logger
+from sambot_viz.panels.window import Window
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import reload_problems
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
-from sambot_viz.server.places import SessionPlace, SessionPlaces
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
@@ -30,8 +32,17 @@ _log = logger(__name__)
 MakeConfig = Callable[[], RvizConfig]
 
 
+@dataclass(eq=False)
+class SessionPlace:
+    """A thread, the session that lives in it, and its window, as they come."""
+
+    worker: Worker
+    session: Session | None = None
+    window: Window | None = None
+
+
 class Sessions:
-    """The sessions of a server, each with a thread and a window of its own.
+    """The sessions of a server: one for all clients, and those of single clients.
 
     Args:
         server: whose browsers see them.
@@ -43,7 +54,8 @@ class Sessions:
             a live source.
 
     Attributes:
-        places: where each of them lives.
+        lock: held while sessions come and go, and what a new one begins with changes.
+        closed: set at the end; nothing opens after it.
         options: what every session begins with.
         meshes: what was read of mesh files, for all of them.
         opened: the robot that was shown last.
@@ -77,18 +89,55 @@ class Sessions:
         self.assemble: Callable[[Robot], Robot] = lambda robot: robot
         self._reload_problems: dict[Reloaded, tuple[Problem, ...]] = {}
         self._followers: list[Callable[[Session], object]] = []
-        self.places = SessionPlaces(lambda: Worker(server.get_event_loop()))
+        self._places: dict[int | None, SessionPlace] = {}
+        self.lock = threading.RLock()
+        self.closed = False
+
+    # Where they live
+
+    def add_place(self, client_id: int | None) -> SessionPlace:
+        """Make the place of a client; None for that of all clients."""
+        place = SessionPlace(Worker(self._server.get_event_loop()))
+        with self.lock:
+            self._places[client_id] = place
+        return place
+
+    def remove_place(self, client_id: int) -> None:
+        """Forget the place of a client."""
+        with self.lock:
+            del self._places[client_id]
+
+    @property
+    def shared_place(self) -> SessionPlace | None:
+        """The place of all clients; None when each has its own."""
+        return self._places.get(None)
+
+    def own_place(self, client_id: int) -> SessionPlace | None:
+        """Return the place that a client has to itself; None when it has none."""
+        return self._places.get(client_id)
+
+    def place_of(self, client_id: int) -> SessionPlace | None:
+        """Return the place where a client is."""
+        return self.own_place(client_id) or self.shared_place
 
     @property
     def shared(self) -> Session | None:
         """The session of all clients; None when each has its own."""
-        return self.places.shared
+        place = self.shared_place
+        return None if place is None else place.session
+
+    @property
+    def copies(self) -> int:
+        """The number of sessions that single clients have."""
+        with self.lock:
+            places = list(self._places.items())
+        return sum(n is not None and p.session is not None for n, p in places)
 
     def close(self) -> None:
         """End all sessions and their threads."""
-        with self.places.lock:
-            self.places.closed = True
-            places = self.places.all()
+        with self.lock:
+            self.closed = True
+            places = list(self._places.values())
         for place in places:
             if place.session is not None:
                 place.session.close()
@@ -97,7 +146,7 @@ class Sessions:
 
     def require_open(self) -> None:
         """Raise ServerError after `close`: nobody would see what a program changes."""
-        if self.places.closed:
+        if self.closed:
             raise ServerError("it was stopped; make a new Visualizer")
 
     def all(self, *, copies: bool = True) -> list[Session]:
@@ -108,13 +157,16 @@ class Sessions:
         """
         if not copies and self.shared is not None:
             return [self.shared]
-        sessions = [place.session for place in self.places.all()]
+        with self.lock:
+            sessions = [place.session for place in self._places.values()]
         return [session for session in sessions if session is not None]
+
+    # What is done in them
 
     def follow(self, action: Callable[[Session], object]) -> None:
         """Call an action once with every session, present and to come; not copies."""
         # A session that opens meanwhile is in one of both, and in no more.
-        with self.places.lock:
+        with self.lock:
             self._followers.append(action)
             present = self.all(copies=False)
         for session in present:
@@ -143,7 +195,7 @@ class Sessions:
 
     def show_robot(self, robot: Robot) -> None:
         """Show a robot in every session, present and to come, without its own model."""
-        with self.places.lock:
+        with self.lock:
             self.opened = robot
             self.robot = robot = self.assemble(robot)
         self.on_files()
@@ -179,7 +231,7 @@ class Sessions:
 
     def set_reload_problems(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show in every session, present and to come, why a save is not shown."""
-        with self.places.lock:
+        with self.lock:
             self._reload_problems[of] = tuple(problems)
         try:
             self.for_each(lambda s: s.problems.set_saves(of, problems))
@@ -254,7 +306,7 @@ class Sessions:
             session: it has just been opened.
             copied: whether it is a copy of the shared one.
         """
-        with self.places.lock:
+        with self.lock:
             place.session = session
             followers = () if copied else tuple(self._followers)
             robot, problems = self.robot, dict(self._reload_problems)
