@@ -20,7 +20,6 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Coroutine
-from contextlib import suppress
 from functools import partial
 from typing import Any, Protocol
 
@@ -39,7 +38,7 @@ class Worker(threading.Thread):
     """Runs posted actions one at a time; started by the first of them.
 
     Args:
-        loop: viser's event loop, for `on_loop`.
+        loop: viser's event loop, for `run_on_loop`.
         clock: the time of the session; the computer's by default.
 
     Attributes:
@@ -98,15 +97,6 @@ class Worker(threading.Thread):
             due = self.clock.now() + delay
             heapq.heappush(self._timers, (due, self._count, action))
             self._wake()
-
-    def on_loop(self, action: Action) -> None:
-        """Run something short on viser's event loop; returns at once.
-
-        The values of widgets are set there: a browser may be setting the same one.
-        """
-        # A loop that has stopped already has no browsers.
-        with suppress(RuntimeError):
-            self._loop.call_soon_threadsafe(action)
 
     def run_on_loop(self, task: Coroutine[Any, Any, None], client: int) -> None:
         """Run something on viser's event loop that waits for a client there."""

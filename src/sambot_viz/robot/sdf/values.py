@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from sambot_viz.geometry import (
     SHORTEST,
     Matrix,
     Rgba,
-    Vector3,
     rotation_from_rpy,
     rotation_from_xyzw,
 )
@@ -219,9 +217,6 @@ def _unit(part: float) -> float:
     return part if part <= 1 else part / 255
 
 
-RotationFormat = Literal["euler_rpy", "quat_xyzw"]
-
-
 @dataclass(frozen=True, slots=True)
 class PoseText:
     """A pose as it is written.
@@ -311,9 +306,3 @@ def _finite(word: str) -> Number:
     if not math.isfinite(number.value):
         raise BadValue(f"contains {word}, which is not finite", "write a usual number")
     return number
-
-
-def as_vector(numbers: tuple[float, ...]) -> Vector3:
-    """Return three numbers as a vector."""
-    x, y, z = numbers
-    return (x, y, z)

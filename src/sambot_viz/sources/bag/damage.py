@@ -41,11 +41,6 @@ class Damage:
         self._seen = 0
         self._step_back: tuple[int, int, int] | None = None
 
-    @property
-    def is_broken_inside(self) -> bool:
-        """Something in the middle is lost."""
-        return bool(self._broken or self._unreadable)
-
     def add_broken(self, start: int, end: int) -> None:
         """Note that the messages between two log times [ns] are lost."""
         self._broken.append((start, end))
