@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.package_files import package_of
+from sambot_viz.checks.around.files.text_files import package_of
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Problem
 

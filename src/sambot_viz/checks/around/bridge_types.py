@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from sambot_viz.checks.around.bridges import BridgeEntry, entries
 from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, taken
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.read_topics import kinds_read, published_topics
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.topics import kinds_read, published_topics
 from sambot_viz.errors import Problem, nearest
 
 _PAIRS: dict[str, tuple[str, ...]] = {

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
-from sambot_viz.checks.around.frames import drive_tf
+from sambot_viz.checks.around.frame_names import drive_tf
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters

@@ -16,6 +16,7 @@ from sambot_viz.checks.around.bridge_types import (
     unknown_bridge_types,
     wrong_data_types,
 )
+from sambot_viz.checks.around.bridged_joint_states import unsent_joint_states
 from sambot_viz.checks.around.bridges import (
     bridge_directions,
     bridge_topics,
@@ -36,7 +37,7 @@ from sambot_viz.checks.around.drives import (
 )
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
-from sambot_viz.checks.around.frames import (
+from sambot_viz.checks.around.frame_names import (
     moved_twice,
     odometry_frames,
     planes,
@@ -51,8 +52,7 @@ from sambot_viz.checks.around.generations import (
     xacro_py,
 )
 from sambot_viz.checks.around.installed import not_installed
-from sambot_viz.checks.around.joint_states import unsent_joint_states
-from sambot_viz.checks.around.joints import (
+from sambot_viz.checks.around.joint_names import (
     joints_of_controllers,
     unknown_joints,
     unknown_references,
@@ -85,6 +85,7 @@ from sambot_viz.checks.around.nav2_sections import (
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
 from sambot_viz.checks.around.parameter_types import parameter_types
+from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.sensors import (
     frames_of_sensors,
     lidars_of_the_other,
@@ -98,7 +99,6 @@ from sambot_viz.checks.around.systems import (
     malformed_numbers,
     unknown_classes,
 )
-from sambot_viz.checks.around.topics import unknown_topics
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
     misspelt_key,

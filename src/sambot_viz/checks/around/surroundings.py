@@ -12,8 +12,8 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.package_files import PackageFiles
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
+from sambot_viz.checks.around.files.text_files import PackageFiles
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
