@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import string
 from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar, cast
 
 import numpy as np
 import viser
@@ -160,6 +161,7 @@ def _shown(metres: float) -> float:
 
 
 Handle = viser.SceneNodeHandle
+H = TypeVar("H", bound=viser.SceneNodeHandle)
 
 
 class NodeCache:
@@ -169,18 +171,21 @@ class NodeCache:
         self._state: object = None
         self.handles: tuple[Handle, ...] = ()
 
-    def show(self, state: object, make: Callable[[], Iterable[Handle]]) -> None:
+    def show(self, state: object, make: Callable[[], Iterable[H]]) -> Sequence[H]:
         """Make the nodes, unless they were made from the same state and still exist.
 
         Args:
             state: everything that `make` depends on, the nodes' names included.
             make: adds the nodes to the scene.
+
+        Returns:
+            The nodes, made now or before.
         """
-        if state == self._state and not any_gone(self.handles):
-            return
-        self.remove()
-        self.handles = tuple(make())
-        self._state = state
+        if state != self._state or any_gone(self.handles):
+            self.remove()
+            self.handles = tuple(make())
+            self._state = state
+        return cast("Sequence[H]", self.handles)
 
     def remove(self) -> None:
         """Take the nodes out of the scene."""

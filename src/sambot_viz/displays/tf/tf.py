@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
-import viser
 
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.nodes import (
-    Handle,
     NodeCache,
-    any_gone,
     position_of,
-    remove_all,
 )
 from sambot_viz.displays.scene.solids import (
     AXIS_COLORS,
@@ -54,17 +50,15 @@ EM_HEIGHT = 0.0889
 
 @dataclass
 class _FrameOverlays:
-    """The nodes of one frame, and the name of the node that they hang below."""
+    """The nodes of one frame."""
 
-    path: str
-    axes: viser.BatchedMeshHandle | None = None
-    name: viser.LabelHandle | None = None
-    look: FrameLook = FRESH
+    axes: NodeCache = field(default_factory=NodeCache)
+    name: NodeCache = field(default_factory=NodeCache)
 
-    @property
-    def handles(self) -> tuple[Handle, ...]:
-        """Its nodes."""
-        return tuple(h for h in (self.axes, self.name) if h is not None)
+    def remove(self) -> None:
+        """Take them out of the scene."""
+        self.axes.remove()
+        self.name.remove()
 
 
 class TfDisplay(TriangleDisplay):
@@ -114,7 +108,7 @@ class TfDisplay(TriangleDisplay):
             if self._look(frame) != GONE
         }
         for frame in [f for f in self._overlays if f not in frames]:
-            self._drop(self._overlays.pop(frame))
+            self._overlays.pop(frame).remove()
         for frame in frames:
             self._draw_overlays(frame)
         parents = {tree.parent(f) for f in frames}
@@ -148,49 +142,33 @@ class TfDisplay(TriangleDisplay):
         path = self.context.nodes.path(frame)
         if path is None:
             return
-        overlays = self._overlays.get(frame)
-        if overlays is not None and (
-            overlays.path != path or any_gone(overlays.handles)
-        ):
-            self._drop(overlays)
-            overlays = None
-        if overlays is None:
-            overlays = self._overlays[frame] = _FrameOverlays(path)
-        scene, scale = self.context.scene, float(self.config.get("Marker Scale"))
-        look = self._look(frame)
-        if overlays.axes is not None and overlays.look != look:
-            remove_all([overlays.axes])
-            overlays.axes = None
-        overlays.look = look
+        overlays = self._overlays.setdefault(frame, _FrameOverlays())
+        scene, look = self.context.scene, self._look(frame)
         if bool(self.config.get("Show Axes")):
-            if overlays.axes is None:
-                overlays.axes = add_axes(
-                    scene,
-                    f"{path}/{self.key}a",
-                    AXES_LENGTH,
-                    AXES_DIAMETER,
-                    [look.of(color) for color in AXIS_COLORS],
-                    look.alpha,
-                )
-            overlays.axes.scale = scale
-        elif overlays.axes is not None:
-            remove_all([overlays.axes])
-            overlays.axes = None
+            colors = [look.of(color) for color in AXIS_COLORS]
+            axes = f"{path}/{self.key}a", AXES_LENGTH, AXES_DIAMETER, colors, look.alpha
+            (node,) = overlays.axes.show((path, look), lambda: [add_axes(scene, *axes)])
+            node.scale = float(self.config.get("Marker Scale"))
+        else:
+            overlays.axes.remove()
         if bool(self.config.get("Show Names")):
             height = self._letters()
-            if overlays.name is None:
-                overlays.name = scene.add_label(
-                    f"{path}/{self.key}n",
-                    text(frame),
-                    font_size_mode="scene",
-                    font_scene_height=height,
-                    depth_test=True,
-                    anchor="top-center",
-                )
-            overlays.name.font_scene_height = height
-        elif overlays.name is not None:
-            remove_all([overlays.name])
-            overlays.name = None
+            (label,) = overlays.name.show(
+                path,
+                lambda: [
+                    scene.add_label(
+                        f"{path}/{self.key}n",
+                        text(frame),
+                        font_size_mode="scene",
+                        font_scene_height=height,
+                        depth_test=True,
+                        anchor="top-center",
+                    )
+                ],
+            )
+            label.font_scene_height = height
+        else:
+            overlays.name.remove()
 
     def _draw_arrows(self, parent: str) -> None:
         """The arrows of all children of a frame, as two nodes below it."""
@@ -232,7 +210,7 @@ class TfDisplay(TriangleDisplay):
         axes, T = axes_triangles(AXES_LENGTH, AXES_DIAMETER), np.eye(4)
         T[:3, :3] *= scale
         for frame, overlays in self._overlays.items():
-            if overlays.axes is not None:
+            if overlays.axes.handles:
                 yield DrawnTriangles(axes, T, frame, Selectable("frame", frame))
         for parent in self._arrows:
             arrows = tuple(self._arrows_at(parent).values())
@@ -241,7 +219,7 @@ class TfDisplay(TriangleDisplay):
 
     def names(self) -> Mapping[str, float]:
         """Return the frames that have names below them."""
-        named = (f for f, overlays in self._overlays.items() if overlays.name)
+        named = (f for f, overlays in self._overlays.items() if overlays.name.handles)
         return dict.fromkeys(named, self._letters())
 
     def property_changed(self, path: str) -> None:
@@ -282,15 +260,11 @@ class TfDisplay(TriangleDisplay):
     def clear(self) -> None:
         """Take all overlays out of the scene."""
         for overlays in self._overlays.values():
-            self._drop(overlays)
+            overlays.remove()
         for arrows in self._arrows.values():
             arrows.remove()
         self._overlays.clear()
         self._arrows.clear()
-
-    @staticmethod
-    def _drop(overlays: _FrameOverlays) -> None:
-        remove_all(overlays.handles)
 
 
 def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
