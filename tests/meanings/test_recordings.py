@@ -99,9 +99,9 @@ def test_a_pose_is_drawn_in_every_encoding(tmp_path: Path) -> None:
     config = (RECORDINGS / "enc.rviz").read_text()
     with shown(tmp_path, "encodings.mcap", config) as viz:
         displays: Any = session_of(viz).scene.displays
-        poses = {one.config.name: one.taken for one in displays}
+        poses = {one.config.name: one.kept for one in displays}
     names = ("msg_cdr", "msg_cdr_be", "omgidl", "ros2idl", "json_ros", "json_nosch")
-    assert {name for name, taken in poses.items() if taken is None} == set()
+    assert {name for name, kept in poses.items() if not kept} == set()
     assert set(names) <= poses.keys()
 
 
