@@ -166,12 +166,7 @@ class DisplayList(VisualizationManager):
 
     def _list(self, group: DisplayConfig | None) -> List:
         owner = self._attached_manager() if group is None else group.node
-        found = owner.get("Displays")
-        if isinstance(found, List):
-            return found
-        made = List()
-        owner.put("Displays", made)
-        return made
+        return owner.made("Displays", List)
 
     def _insert(
         self,

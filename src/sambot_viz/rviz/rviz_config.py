@@ -135,10 +135,7 @@ class RvizConfig(DisplayList, ViewList):
             panel = Map()
             panel.put("Class", Scalar(f"{self._panel_package()}/{_PANEL_CLASS}"))
             panel.put("Name", Scalar(_PANEL_CLASS))
-            panels = self._document.root.get(_PANELS)
-            if not isinstance(panels, List):
-                panels = List()
-                self._document.root.put(_PANELS, panels)
+            panels = self._document.root.made(_PANELS, List)
             panels.entries.append(Entry(None, panel))
         tree = panel.get(_TREE)
         if not isinstance(tree, Map):

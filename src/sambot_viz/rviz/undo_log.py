@@ -176,11 +176,7 @@ class DocumentPlace:
         """Return the map at some keys, made if it is missing."""
         node = self._root
         for key in keys:
-            inner = node.get(key)
-            if not isinstance(inner, Map):
-                inner = Map()
-                node.put(key, inner)
-            node = inner
+            node = node.made(key, Map)
         return node
 
     def _entry(self, keys: Keys) -> Entry | None:

@@ -63,25 +63,13 @@ class ViewList(VisualizationManager):
         )
 
     def _views_map(self) -> Map:
-        manager = self._attached_manager()
-        views = manager.get("Views")
-        if isinstance(views, Map):
-            return views
-        made = Map()
-        manager.put("Views", made)
-        return made
+        return self._attached_manager().made("Views", Map)
 
     def _attach_current(self, node: Map) -> None:
         self._views_map().put("Current", node)
 
     def _saved_list(self) -> List:
-        views = self._views_map()
-        saved = views.get("Saved")
-        if isinstance(saved, List):
-            return saved
-        made = List()
-        views.put("Saved", made)
-        return made
+        return self._views_map().made("Saved", List)
 
     @property
     def view(self) -> ViewConfig:

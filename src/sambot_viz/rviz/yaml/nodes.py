@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TypeAlias, Union
+from typing import TypeAlias, TypeVar, Union
 
 Plain: TypeAlias = Union[str, "dict[str, Plain]", "list[Plain]", None]
 """A node as ordinary Python values: text, None for null, dicts and lists."""
@@ -109,6 +109,9 @@ class Entry:
     quote: str = ""
 
 
+C = TypeVar("C", "Map", "List")
+
+
 @dataclass(eq=False, slots=True)
 class Collection:
     """Base of maps and lists.
@@ -170,6 +173,14 @@ class Map(Collection):
     def keys(self) -> Iterator[str]:
         """Yield each key once, in the order of the file."""
         return iter(dict.fromkeys(e.key for e in self.entries if e.key is not None))
+
+    def made(self, key: str, kind: type[C]) -> C:
+        """Return the map or list of a key; an empty one is put where there is none."""
+        found = self.get(key)
+        if not isinstance(found, kind):
+            found = kind()
+            self.put(key, found)
+        return found
 
     def put(self, key: str, value: Node) -> None:
         """Give a key another value; a new key goes where RViz would write it.
