@@ -15,7 +15,7 @@ from program import address, serving
 
 from sambot_viz import load_robot
 from sambot_viz.cli import COMMANDS
-from sambot_viz.displays.robot_model.properties import ROBOT_MODEL_PROPERTIES
+from sambot_viz.displays.robot_model.robot_properties import ROBOT_MODEL_PROPERTIES
 from sambot_viz.export.browser_process import find_browser
 from sambot_viz.rviz import GroupProperty
 

@@ -26,7 +26,7 @@ NO_LIMITS = {
         messages/shape.py _WIDEST_TEXT
         panels/joints/joint_rows.py LARGEST_GROUP
         panels/permalink/permalink_parts.py MOST_NAMED
-        panels/problems/problems.py _LONGEST_FILE
+        panels/problems/problems_panel.py _LONGEST_FILE
         panels/problems/status_rows.py MOST_NAMES _LONGEST_SENTENCE _LONGEST_NAME
         panels/rows/row.py LONGEST_NAME LONGEST_TEXT
         problems.py MOST _LONGEST_LINE
@@ -73,13 +73,13 @@ NO_LIMITS = {
         messages/definition_text.py _LONGEST_WITHOUT_COMMENTS
         messages/flat_types.py _MOST_LEAVES
         messages/kept_elements.py MOST_BYTES _WIDEST
-        messages/transforms.py _MOST_KEPT _MOST_TEMPLATES _MOST_OF_A_LENGTH
-        messages/transforms.py _LARGEST_TEMPLATE _MOST_OF_TEMPLATES
+        messages/transform_decoder.py _MOST_KEPT _MOST_TEMPLATES _MOST_OF_A_LENGTH
+        messages/transform_decoder.py _LARGEST_TEMPLATE _MOST_OF_TEMPLATES
         server/tickets.py _MOST_REMOVED
         session/robot/motion_recorder.py MOST_NUMBERS
         sources/bag/file_bytes.py _MOST_AHEAD
         sources/cut_recording.py _MOST_GIVEN_UP
-        tools/picking/picture.py MOST_PIXELS
+        tools/picking/pixel_rays.py MOST_PIXELS
         topics/decoding.py _MOST_KEPT
         topics/frame_limit.py _MOST_KEPT
         topics/joint_states.py _MOST_TEMPLATES
@@ -93,7 +93,7 @@ NO_LIMITS = {
         meshes/named_files.py _MAX_UP
         robot/packages/package_index.py _MAX_UP
         robot/xacro/diagnose/text_for_number.py _DEEPEST
-        robot/xacro/diagnose/values.py _DEEPEST
+        robot/xacro/diagnose/failing_values.py _DEEPEST
         sources/recorder.py _MOST_NAMES
     """,
     "meaning: a number of ROS, of a check, of a type or of what moves": """
@@ -102,7 +102,7 @@ NO_LIMITS = {
         checks/slips.py _SMALLEST_LIMIT _LARGEST_LIMIT
         displays/data/interactive_markers/controls.py LARGEST
         frames/history.py _DEEPEST
-        panels/drive.py MOST_LINEAR MOST_ANGULAR
+        panels/drive_panel.py MOST_LINEAR MOST_ANGULAR
         robot/balance/ground.py LARGEST_GAP
         robot/parts.py _NO_LIMIT
         robot/urdf/write_urdf.py _NO_LIMIT

@@ -198,7 +198,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/websocket_source.py": "asyncio concurrent threading",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
-    "robot/xacro/expand.py": "signal subprocess",  # xacro runs in a child process
+    "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.
     "robot/xacro/child/main.py": "_thread signal",
 }
@@ -434,12 +434,12 @@ HOLDERS = {
     "export/recorded_scene.py",
     "panels/browser.py",
     "panels/window.py",
-    "scripting/camera.py",
+    "scripting/camera_control.py",
     "scripting/displays.py",
     "scripting/events.py",
-    "scripting/files.py",
+    "scripting/outputs.py",
     "scripting/links.py",
-    "scripting/player.py",
+    "scripting/player_control.py",
     "server/client_sessions.py",
     "server/reload.py",
     "server/sessions.py",

@@ -118,7 +118,7 @@ def named_words(words: Sequence[str], flag: str) -> dict[str, str]:
 
 def assignments(words: Sequence[str], flag: str) -> dict[str, float]:
     """Read NAME=VALUE words."""
-    from sambot_viz.joints.values import parse_assignments
+    from sambot_viz.joints.value_texts import parse_assignments
 
     return parse_assignments(words, flag)
 

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from sambot_viz.listened import Listened
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
-    from sambot_viz.rviz.yaml.document import Document
+    from sambot_viz.rviz.yaml.yaml_document import Document
     from sambot_viz.topics.source_robot import SourceRobot
 
 
@@ -402,7 +402,7 @@ class Inputs:
             self._robot.set_exception(error)
 
     def _open_config(self, path: Path, may_be_broken: bool) -> None:
-        from sambot_viz.rviz.yaml.document import Document
+        from sambot_viz.rviz.yaml.yaml_document import Document
 
         try:
             self._document = Document.load(path)

@@ -12,8 +12,8 @@ from sambot_viz.options import Options
 # Most robots are moved by hand.
 if TYPE_CHECKING:
     from sambot_viz.rviz import RvizConfig
-    from sambot_viz.rviz.yaml.document import Document
-    from sambot_viz.rviz.yaml.nodes import Map
+    from sambot_viz.rviz.yaml.yaml_document import Document
+    from sambot_viz.rviz.yaml.yaml_nodes import Map
     from sambot_viz.sources.given import GivenSource
     from sambot_viz.sources.source import Source
     from sambot_viz.topics.source_robot import SourceRobot
@@ -131,7 +131,7 @@ def named_descriptions(config: Document | RvizConfig | None) -> tuple[str, ...]:
         config: as text or as a document; None for no topics.
     """
     from sambot_viz.rviz import RvizConfig
-    from sambot_viz.rviz.yaml.nodes import Map, items_of
+    from sambot_viz.rviz.yaml.yaml_nodes import Map, items_of
 
     if config is None:
         return ()
@@ -143,7 +143,7 @@ def named_descriptions(config: Document | RvizConfig | None) -> tuple[str, ...]:
 
 
 def _topics_of(displays: Iterable[Map]) -> Iterator[str]:
-    from sambot_viz.rviz.yaml.nodes import Map, Scalar, items_of
+    from sambot_viz.rviz.yaml.yaml_nodes import Map, Scalar, items_of
 
     for display in displays:
         if display.text("Enabled") == "false":

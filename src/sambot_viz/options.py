@@ -435,7 +435,7 @@ class Options:
     def _read_recorded(self) -> Mapping[str, float]:
         if self.joint_state is None:
             return {}
-        from sambot_viz.joints.values import load_joint_state
+        from sambot_viz.joints.value_texts import load_joint_state
 
         return load_joint_state(Path(self.joint_state))
 

@@ -10,7 +10,7 @@ import pytest
 
 from sambot_viz import Robot, load_robot
 from sambot_viz.drive.differential import DifferentialDrive
-from sambot_viz.drive.wheels import find_wheel_pair
+from sambot_viz.drive.driven_wheels import find_wheel_pair
 from sambot_viz.errors import JointError
 
 SPHERE = '<sphere radius="0.1"/>'

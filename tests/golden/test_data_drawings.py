@@ -124,7 +124,7 @@ def test_triangles_are_lit_on_the_side_from_which_they_turn_left(
     shared_page: SharedPage,
 ) -> None:
     """The other side is black, as in RViz, also when a scale mirrors them."""
-    from sambot_viz.displays.data.markers.triangles import TrianglesNode
+    from sambot_viz.displays.data.markers.marker_triangles import TrianglesNode
 
     def draw(scene: viser.SceneApi) -> None:
         left = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]

@@ -11,7 +11,7 @@ import yaml
 
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.joints.presets import Presets
-from sambot_viz.joints.values import (
+from sambot_viz.joints.value_texts import (
     as_arguments,
     as_launch_parameters,
     as_topic_pub,

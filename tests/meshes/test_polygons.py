@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from sambot_viz.meshes.assembly.triangles import triangulate
+from sambot_viz.meshes.mesh_source import MeshBudget
 from sambot_viz.meshes.read_mesh import read_mesh
-from sambot_viz.meshes.source import MeshBudget
 
 Write = Callable[..., Path]
 

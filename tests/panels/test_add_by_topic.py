@@ -21,7 +21,7 @@ from sambot_viz.panels.displays.add_by_topic import (
     AddByTopicPanel,
 )
 from sambot_viz.panels.displays.display_commands import DisplayCommands
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session

@@ -14,8 +14,8 @@ from panel_rows import panel_of
 
 from sambot_viz import SambotVizError, Visualizer, load_robot
 from sambot_viz.panels import row_sync
-from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.frames.frames import FramesPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
+from sambot_viz.panels.frames.frames_panel import FramesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row_store import RowStore

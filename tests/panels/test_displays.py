@@ -16,9 +16,9 @@ from sambot_viz.frames import Transform
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.panels.displays.display_commands import DisplayCommands
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems.problems import ProblemsPanel
+from sambot_viz.panels.problems.problems_panel import ProblemsPanel
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect

@@ -15,11 +15,11 @@ from patience import until
 from sambot_viz import Visualizer
 from sambot_viz.errors import FrameError, UsageError
 from sambot_viz.frames import Transform
-from sambot_viz.panels.drive import DrivePanel
+from sambot_viz.panels.drive_panel import DrivePanel
 from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.robot.drive import Drive
+from sambot_viz.session.robot.robot_drive import Drive
 from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

@@ -15,10 +15,10 @@ from protocol_client import ProtocolClient
 
 from sambot_viz import UsageError, Visualizer, bundled, load_config
 from sambot_viz.export.page_file import ask_page
-from sambot_viz.panels.files import FilesPanel
+from sambot_viz.panels.files_panel import FilesPanel
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.pictures import PicturesPanel
 from sambot_viz.panels.rows.row import Row
+from sambot_viz.panels.saved_pictures import PicturesPanel
 from sambot_viz.panels.unfolded import keep_expanded
 from sambot_viz.session import Session
 

@@ -12,8 +12,8 @@ from sambot_viz import FrameError, Visualizer, load_robot
 from sambot_viz.errors import UsageError
 from sambot_viz.frames import Transform
 from sambot_viz.frames.static_transform import StaticTransformError
-from sambot_viz.panels.frames import frames
-from sambot_viz.panels.frames.frames import FramesPanel, pasted_arguments
+from sambot_viz.panels.frames import frames_panel
+from sambot_viz.panels.frames.frames_panel import FramesPanel, pasted_arguments
 from sambot_viz.panels.rows.row import Level
 from sambot_viz.session import Session
 
@@ -213,9 +213,11 @@ def test_arguments_alone_stay_as_they_are() -> None:
 def test_all_frames_are_a_tree_once_a_page_asks(
     panel: FramesPanel, viz: Visualizer
 ) -> None:
-    assert {row.id: row for row in panel.rows()}[frames.ALL].extra == {"lazy": True}
-    edit(panel, "frames/unfold", [frames.ALL])
+    assert {row.id: row for row in panel.rows()}[frames_panel.ALL].extra == {
+        "lazy": True
+    }
+    edit(panel, "frames/unfold", [frames_panel.ALL])
     parents = {row.name: row.parent for row in panel.rows() if row.icon == "frame"}
     assert set(parents) == set(viz.frames.frames)
-    assert parents["base_link"] == frames.ALL
+    assert parents["base_link"] == frames_panel.ALL
     assert parents[LEFT] == "frame/base_link"

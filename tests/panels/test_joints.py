@@ -17,7 +17,7 @@ from panel_rows import data_of, edit, panel_of, row_named, rows_of
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.joints.joint_rows import FOLLOWERS, SKIPPED
-from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect

@@ -12,7 +12,7 @@ from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.displays.picking.selectable import Selectable
-from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.rows.row import Answer

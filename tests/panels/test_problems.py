@@ -11,7 +11,7 @@ from panel_rows import data_of, edit, rows_of
 
 from sambot_viz import Problem, limits
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems.problems import ProblemsPanel
+from sambot_viz.panels.problems.problems_panel import ProblemsPanel
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.session import Session
 

@@ -27,8 +27,8 @@ from sambot_viz.rviz import (
     TopicProperty,
     VectorProperty,
 )
-from sambot_viz.rviz.yaml.document import ConfigFindings
-from sambot_viz.rviz.yaml.nodes import Map
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
+from sambot_viz.rviz.yaml.yaml_nodes import Map
 
 
 class Item:

@@ -10,7 +10,7 @@ from panel_rows import data_of, edit, panel_of
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.session import Session
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from panel_rows import data_of, edit, panel_of
 
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.rows.row import Answer
-from sambot_viz.panels.undo import UndoPanel
+from sambot_viz.panels.undo_panel import UndoPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 

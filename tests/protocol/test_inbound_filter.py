@@ -22,7 +22,7 @@ from websockets.typing import Subprotocol
 
 from sambot_viz import Visualizer, limits
 from sambot_viz.server.connections import client_writer, connection
-from sambot_viz.session.clients.camera import ClientCamera
+from sambot_viz.session.clients.client_camera import ClientCamera
 
 Connect = Callable[..., ProtocolClient]
 SLIDER = "joints", "drivewhl_l_joint"

@@ -12,7 +12,7 @@ from PIL import Image
 from protocol_client import ROW_PATCH, ProtocolClient
 
 from sambot_viz import Visualizer
-from sambot_viz.session import picture
+from sambot_viz.session import client_picture
 
 REQUEST, FILE = "GetRenderRequestMessage", "FileTransferStartDownload"
 
@@ -104,7 +104,7 @@ def test_a_browser_is_asked_for_one_picture_at_a_time(
 def test_a_browser_that_does_not_answer_can_ask_again_and_keeps_no_thread(
     client: ProtocolClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(picture, "RENDER_TIME", 0.05)
+    monkeypatch.setattr(client_picture, "RENDER_TIME", 0.05)
     for count in (1, 2):
         ask(client)
         client.wait_until(

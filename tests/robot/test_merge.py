@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sambot_viz import Robot, load_robot
-from sambot_viz.robot.merge import HungRobot, merged
+from sambot_viz.robot.merged_robots import HungRobot, merged
 from sambot_viz.robot.parts import Origin
 
 ARM = """<robot name="arm"><link name="base"/><link name="hand"/><link name="finger"/>

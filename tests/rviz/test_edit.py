@@ -10,7 +10,7 @@ import pytest
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import Declarations, DisplayConfig, RvizConfig
-from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.rviz.yaml.yaml_nodes import Plain
 
 Parse = Callable[[str], RvizConfig]
 

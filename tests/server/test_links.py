@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sambot_viz.options import Options
-from sambot_viz.server import links, listener
+from sambot_viz.server import invitation, listener
 
 
 def options(**given: object) -> Options:
@@ -48,7 +48,7 @@ def options(**given: object) -> Options:
 def test_viewers_get_an_address_that_works_for_them(
     given: dict[str, object], opened_at: str, link: str, only_here: bool
 ) -> None:
-    made = links.invite(options(**given), opened_at)
+    made = invitation.invite(options(**given), opened_at)
     assert (made.link, made.only_here) == (link, only_here)
     assert len(set(map(len, made.dark))) == 1 and set("".join(made.dark)) == {"0", "1"}
 

@@ -18,7 +18,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.first_sight import dot_size
 from sambot_viz.session.session import Session
 from sambot_viz.sources.bag import open_recording
-from sambot_viz.topics.first_sight import shown_at_first
+from sambot_viz.topics.first_topics import shown_at_first
 
 Show = Callable[..., Session]
 

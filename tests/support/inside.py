@@ -7,7 +7,7 @@ from typing import Any
 import viser
 
 from sambot_viz import Visualizer
-from sambot_viz.panels.files import Files
+from sambot_viz.panels.files_panel import Files
 from sambot_viz.session import Session
 from sambot_viz.session.signals import Signal
 

@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from sambot_viz.robot.xacro import expand
+from sambot_viz.robot.xacro import expansion
 from sambot_viz.robot.xacro.child.exchange import ChildAnswer, Job
-from sambot_viz.robot.xacro.expand import Limits
+from sambot_viz.robot.xacro.expansion import Limits
 
 RunChild = Callable[[Job, Limits], ChildAnswer]
 _FOLDER = "/the/folder/of/a/test"
@@ -28,7 +28,7 @@ class XacroMemory:
     """
 
     def __init__(self, run: RunChild | None = None) -> None:
-        self._run = run or expand._run_child  # pyright: ignore[reportPrivateUsage]
+        self._run = run or expansion._run_child  # pyright: ignore[reportPrivateUsage]
         self._kept: dict[str, tuple[str, Mapping[str, bytes | None]]] = {}
 
     def run_child(self, job: Job, limits: Limits, folder: Path) -> ChildAnswer:

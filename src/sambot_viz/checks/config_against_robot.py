@@ -13,7 +13,7 @@ from sambot_viz.bundled import is_bundled
 from sambot_viz.errors import Place, Problem, did_you_mean
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import QOS_PROPERTIES
-from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar
 
 if TYPE_CHECKING:
     from sambot_viz.rviz import RvizConfig

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.nodes import NodeCache
+from sambot_viz.displays.scene.frame_nodes import NodeCache
 from sambot_viz.displays.scene.solids import add_axes, axes_triangles
 from sambot_viz.displays.scene_size import SceneSize, round_size
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay

@@ -18,11 +18,11 @@ import numpy as np
 import viser
 
 from sambot_viz import limits
-from sambot_viz.displays.picking.meshes import Part
+from sambot_viz.displays.camera_pictures import Pictures
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.displays.pictures import Pictures
+from sambot_viz.displays.picking.triangle_mesh import Part
 from sambot_viz.displays.robot_display import (
     Descriptions,
     ModelReader,
@@ -30,7 +30,7 @@ from sambot_viz.displays.robot_display import (
     RobotDisplay,
     WantedQos,
 )
-from sambot_viz.displays.scene.nodes import FrameNodes
+from sambot_viz.displays.scene.frame_nodes import FrameNodes
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.displays.scene_size import SceneSize

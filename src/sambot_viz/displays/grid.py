@@ -12,8 +12,8 @@ from sambot_viz import limits
 from sambot_viz.displays.display import Display, DisplayContext, Status
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array
+from sambot_viz.displays.scene.frame_nodes import Handle, NodeCache
 from sambot_viz.displays.scene.lines import in_pieces, lines_glb
-from sambot_viz.displays.scene.nodes import Handle, NodeCache
 from sambot_viz.displays.scene.ribbons import segment_ribbons
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.displays.scene_size import SceneSize, round_size

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz.displays.axes import AxesDisplay
-from sambot_viz.displays.data.camera_info import CameraInfoDisplay
+from sambot_viz.displays.data.camera_info_display import CameraInfoDisplay
 from sambot_viz.displays.data.cloud.laser_scan import LaserScanDisplay
 from sambot_viz.displays.data.cloud.measurements import (
     FluidPressureDisplay,
@@ -18,8 +18,8 @@ from sambot_viz.displays.data.cloud.point_clouds import (
 from sambot_viz.displays.data.depth_cloud.depth_cloud import DepthCloudDisplay
 from sambot_viz.displays.data.effort.effort import EffortDisplay
 from sambot_viz.displays.data.grid_cells import GridCellsDisplay
-from sambot_viz.displays.data.image.camera import CameraDisplay
-from sambot_viz.displays.data.image.image import ImageDisplay
+from sambot_viz.displays.data.image.camera_display import CameraDisplay
+from sambot_viz.displays.data.image.image_display import ImageDisplay
 from sambot_viz.displays.data.interactive_markers.interactive_display import (
     InteractiveMarkersDisplay,
 )
@@ -31,7 +31,7 @@ from sambot_viz.displays.data.markers.marker_displays import (
 from sambot_viz.displays.data.path import PathDisplay
 from sambot_viz.displays.data.point_stamped import PointStampedDisplay
 from sambot_viz.displays.data.polygon import PolygonDisplay
-from sambot_viz.displays.data.poses.odometry import OdometryDisplay
+from sambot_viz.displays.data.poses.odometry_display import OdometryDisplay
 from sambot_viz.displays.data.poses.particle_cloud import ParticleCloudDisplay
 from sambot_viz.displays.data.poses.pose import PoseDisplay, PoseWithCovarianceDisplay
 from sambot_viz.displays.data.poses.pose_array import PoseArrayDisplay

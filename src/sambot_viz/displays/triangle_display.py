@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.display import Display, DisplayContext
-from sambot_viz.displays.picking.meshes import Part, TriangleMesh
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import Matrix
 from sambot_viz.rviz import DisplayConfig

@@ -21,8 +21,8 @@ from sambot_viz.joints import JointState
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
 from sambot_viz.session.clients import viser_camera
-from sambot_viz.session.robot.drive import ODOM
 from sambot_viz.session.robot.motion_recorder import MotionSample
+from sambot_viz.session.robot.robot_drive import ODOM
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
 from sambot_viz.views.camera import Camera, Vector

@@ -22,7 +22,7 @@ from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.export.page_file import ViewState
 from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.pixel_rays import Picture
 from sambot_viz.views.camera import Camera
 
 SIZE = (800, 500)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.frames.errors import LookupRefused, TransformRefused
+from sambot_viz.frames.frame_errors import LookupRefused, TransformRefused
 from sambot_viz.frames.hierarchy import Edge, FrameHierarchy, plain_name
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import Sample

@@ -8,7 +8,11 @@ when it would be made.
 from __future__ import annotations
 
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.errors import FrameCycleError, LookupRefused, TransformRefused
+from sambot_viz.frames.frame_errors import (
+    FrameCycleError,
+    LookupRefused,
+    TransformRefused,
+)
 from sambot_viz.frames.transform import Transform
 
 

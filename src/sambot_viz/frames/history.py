@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from sambot_viz.frames.errors import LookupReason, LookupRefused, TransformFault
+from sambot_viz.frames.frame_errors import LookupReason, LookupRefused, TransformFault
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.samples import (
     FramePair,

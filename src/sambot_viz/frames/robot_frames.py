@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from sambot_viz.errors import Problem
-from sambot_viz.frames.errors import LookupRefused
+from sambot_viz.frames.frame_errors import LookupRefused
 from sambot_viz.frames.frame_tree import FrameTree, Hop
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz import limits
-from sambot_viz.frames.errors import TransformFault
+from sambot_viz.frames.frame_errors import TransformFault
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import Vector3, Xyzw
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import UsageError
-from sambot_viz.frames.errors import TransformRefused
+from sambot_viz.frames.frame_errors import TransformRefused
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
 

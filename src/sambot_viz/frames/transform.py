@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import FrameError
-from sambot_viz.frames.errors import TransformRefused
+from sambot_viz.frames.frame_errors import TransformRefused
 from sambot_viz.geometry import (
     Matrix,
     Vector3,

@@ -18,7 +18,7 @@ from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.files import write_atomically
 from sambot_viz.geometry import finite
 from sambot_viz.joints.state import JointState
-from sambot_viz.joints.values import first_document
+from sambot_viz.joints.value_texts import first_document
 from sambot_viz.robot.model import Robot
 
 Pose = dict[str, float]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.row import SENSOR_POSE, Fields, SchemaRow
+from sambot_viz.meanings.schema_row import SENSOR_POSE, Fields, SchemaRow
 from sambot_viz.meanings.schemas import row_of
 from sambot_viz.messages import Decoder, KeptElements, MessageTypes
 from sambot_viz.messages.decoder import Payload

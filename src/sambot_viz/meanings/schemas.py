@@ -7,7 +7,7 @@ from functools import cache
 
 from sambot_viz.meanings.foxglove import FOXGLOVE
 from sambot_viz.meanings.meaning import Meaning
-from sambot_viz.meanings.row import SchemaRow
+from sambot_viz.meanings.schema_row import SchemaRow
 from sambot_viz.messages.definition_text import canonical_name
 
 _FOXGLOVE_IN_ROS = re.compile(r"foxglove_msgs/(?:msg/)?(\w+)", re.ASCII)

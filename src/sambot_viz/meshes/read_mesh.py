@@ -20,7 +20,7 @@ from sambot_viz.files import (
 from sambot_viz.meshes.assembly.assemble import Submesh, assemble
 from sambot_viz.meshes.content import other_content
 from sambot_viz.meshes.mesh import Mesh, MeshError, mesh_error
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 from sambot_viz.meshes.textures import TextureStore
 
 _Reader = Callable[[MeshSource], list[Submesh]]

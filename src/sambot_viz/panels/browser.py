@@ -6,21 +6,21 @@ import re
 from collections.abc import Callable, Sequence
 
 from sambot_viz.panels.displays.add_by_topic import AddByTopicPanel
-from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.files import Files, FilesPanel
-from sambot_viz.panels.frames.frames import FramesPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
+from sambot_viz.panels.files_panel import Files, FilesPanel
+from sambot_viz.panels.frames.frames_panel import FramesPanel
 from sambot_viz.panels.joints.poses import GhostPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
-from sambot_viz.panels.pictures import AskPage, PicturesPanel
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row import Answer, Data, Json, Level, LongText, Row
+from sambot_viz.panels.saved_pictures import AskPage, PicturesPanel
 from sambot_viz.panels.selection.selection import SelectionPanel
 from sambot_viz.panels.sources.images import ImagesPanel
 from sambot_viz.panels.sources.topics import TopicsPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
-from sambot_viz.panels.undo import UndoPanel
+from sambot_viz.panels.undo_panel import UndoPanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client

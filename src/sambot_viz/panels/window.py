@@ -8,18 +8,18 @@ from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import validation
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.displays.display_commands import DisplayCommands
-from sambot_viz.panels.displays.displays import DisplaysPanel
-from sambot_viz.panels.drive import DrivePanel
-from sambot_viz.panels.files import Files
-from sambot_viz.panels.joints.joints import JointsPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
+from sambot_viz.panels.drive_panel import DrivePanel
+from sambot_viz.panels.files_panel import Files
+from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.joints.poses import PosesPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
-from sambot_viz.panels.pictures import AskPage
-from sambot_viz.panels.problems.problems import ProblemsPanel
+from sambot_viz.panels.problems.problems_panel import ProblemsPanel
 from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
+from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.panels.sources.source import SourcePanel
 from sambot_viz.session import Session

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.gazebo import gazebo_parts
+from sambot_viz.robot.gazebo_parts import gazebo_parts
 from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
@@ -40,7 +40,7 @@ from sambot_viz.robot.xacro.child_result import (
     ExpansionXmlError,
     XacroFailure,
 )
-from sambot_viz.robot.xacro.expand import expand_model
+from sambot_viz.robot.xacro.expansion import expand_model
 from sambot_viz.robot.xml.decode import declared_as_utf8
 from sambot_viz.robot.xml.element import Element
 
@@ -234,7 +234,7 @@ class _Loader:
     def _sdf(
         self, root: Element, files: FileFinder, findings: ModelFindings
     ) -> RobotTree | None:
-        from sambot_viz.robot.sdf.misspelt import sdf_slips
+        from sambot_viz.robot.sdf.misspelt_elements import sdf_slips
         from sambot_viz.robot.sdf.read_sdf import read_sdf
 
         written = self.opened.document

@@ -9,8 +9,8 @@ from sambot_viz.rviz.item import ConfigItem, EntryItem
 from sambot_viz.rviz.properties.numbers import read_bool
 from sambot_viz.rviz.properties.property import KeptProperty, Property
 from sambot_viz.rviz.properties.texts import TopicProperty, checked_text
-from sambot_viz.rviz.yaml.document import ConfigFindings
-from sambot_viz.rviz.yaml.nodes import Entry, Map, Scalar
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
+from sambot_viz.rviz.yaml.yaml_nodes import Entry, Map, Scalar
 
 _OF_ROS1 = (
     KeptProperty(

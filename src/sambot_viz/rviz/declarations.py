@@ -15,7 +15,7 @@ from sambot_viz.rviz.properties.color import ColorProperty
 from sambot_viz.rviz.properties.numbers import BoolProperty, IntProperty, VectorProperty
 from sambot_viz.rviz.properties.property import Property
 from sambot_viz.rviz.properties.texts import TfFrameProperty
-from sambot_viz.rviz.yaml.nodes import Map
+from sambot_viz.rviz.yaml.yaml_nodes import Map
 
 GROUP = "rviz_common/Group"
 NO_CLASS = "(no class name found)"

@@ -8,7 +8,7 @@ from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import DisplayConfig, new_map
 from sambot_viz.rviz.declarations import GROUP, kind_of, short_name, written_in_ros1
 from sambot_viz.rviz.visualization_manager import VisualizationManager
-from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of
+from sambot_viz.rviz.yaml.yaml_nodes import Entry, List, Map, copied_map, items_of
 
 
 @dataclass(frozen=True, slots=True)

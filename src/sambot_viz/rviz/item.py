@@ -11,8 +11,8 @@ from sambot_viz.rviz.declarations import Declared, UnknownPropertyError
 from sambot_viz.rviz.item_map import ItemMap
 from sambot_viz.rviz.properties.property import KeptProperty, Property
 from sambot_viz.rviz.undo_log import DocumentPlace, FinishChange, Leaves, Restore, note
-from sambot_viz.rviz.yaml.document import ConfigFindings
-from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
+from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar
 
 
 class ConfigItem(ItemMap):

@@ -8,7 +8,15 @@ from typing import Any
 from sambot_viz.rviz.declarations import Declared, unknown_keys
 from sambot_viz.rviz.properties.numbers import VectorProperty
 from sambot_viz.rviz.properties.property import Property
-from sambot_viz.rviz.yaml.nodes import Entry, Map, Node, Plain, Scalar, copied, plain
+from sambot_viz.rviz.yaml.yaml_nodes import (
+    Entry,
+    Map,
+    Node,
+    Plain,
+    Scalar,
+    copied,
+    plain,
+)
 
 Path = str | Sequence[str]
 

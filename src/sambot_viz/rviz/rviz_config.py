@@ -12,8 +12,8 @@ from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.item import ConfigItem
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.visualization_manager import MANAGER
-from sambot_viz.rviz.yaml.document import ConfigFindings, Document
-from sambot_viz.rviz.yaml.nodes import (
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings, Document
+from sambot_viz.rviz.yaml.yaml_nodes import (
     Collection,
     Entry,
     List,

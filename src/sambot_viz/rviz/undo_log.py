@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Protocol, TypeAlias
 
-from sambot_viz.rviz.yaml.nodes import Entry, Map, Node, Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import Entry, Map, Node, Scalar
 
 Restore: TypeAlias = Callable[[], None]
 """Brings something back to how it was."""

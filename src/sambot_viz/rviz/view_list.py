@@ -14,7 +14,7 @@ from sambot_viz.rviz.declarations import (
     written_in_ros1,
 )
 from sambot_viz.rviz.visualization_manager import VisualizationManager
-from sambot_viz.rviz.yaml.nodes import Entry, List, Map, copied_map, items_of, same
+from sambot_viz.rviz.yaml.yaml_nodes import Entry, List, Map, copied_map, items_of, same
 
 CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from sambot_viz.rviz.declarations import Declarations, is_ros1
-from sambot_viz.rviz.yaml.document import ConfigFindings, Document
-from sambot_viz.rviz.yaml.nodes import Map, items_of
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings, Document
+from sambot_viz.rviz.yaml.yaml_nodes import Map, items_of
 
 MANAGER = "Visualization Manager"
 

@@ -13,15 +13,15 @@ from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
 from sambot_viz.robot.model import Positions, Robot
-from sambot_viz.scripting.camera import CameraControl
+from sambot_viz.scripting.camera_control import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
-from sambot_viz.scripting.files import Motion, page_of, picture_of
 from sambot_viz.scripting.links import FrameControl, LinkControl, Links
-from sambot_viz.scripting.player import PlayerControl
+from sambot_viz.scripting.outputs import Motion, page_of, picture_of
+from sambot_viz.scripting.player_control import PlayerControl
 from sambot_viz.scripting.robots import AddedRobot, Robots
 from sambot_viz.server.server import Server
-from sambot_viz.session.robot.frames import FrameView
+from sambot_viz.session.robot.session_frames import FrameView
 
 _F = TypeVar("_F", bound=Moved)
 

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
-from sambot_viz.robot.merge import HungRobot, merged
+from sambot_viz.robot.merged_robots import HungRobot, merged
 from sambot_viz.robot.model import Positions, Robot, load_robot
 from sambot_viz.robot.parts import Origin
 from sambot_viz.scripting.displays import first

@@ -13,16 +13,16 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.errors import ServerError
-from sambot_viz.panels.files import Files
-from sambot_viz.panels.pictures import AskPage
+from sambot_viz.panels.files_panel import Files
 from sambot_viz.panels.rows.row_store import ClientRows
+from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.window import Window
 from sambot_viz.server.connections.connection import ClientContext, Connection
-from sambot_viz.server.links import invite
+from sambot_viz.server.invitation import invite
 from sambot_viz.server.protection.client_messages import CameraReport
 from sambot_viz.server.sessions import SessionPlace, Sessions
 from sambot_viz.session import Session
-from sambot_viz.session.clients.camera import reported
+from sambot_viz.session.clients.client_camera import reported
 from sambot_viz.session.session_copy import SessionCopy
 
 

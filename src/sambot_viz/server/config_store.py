@@ -11,7 +11,7 @@ from sambot_viz.errors import ConfigError
 from sambot_viz.inputs import load_config
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.rviz.yaml.yaml_nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument

@@ -19,7 +19,7 @@ from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
 from sambot_viz.outlet import logger
 from sambot_viz.robot.model import assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
-from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.rviz.yaml.yaml_nodes import Plain
 from sambot_viz.server import reload_problems
 from sambot_viz.server.config_store import Sources
 from sambot_viz.server.sessions import Sessions

@@ -13,8 +13,8 @@ import viser
 from sambot_viz.joints.presets import Presets
 from sambot_viz.options import Options
 from sambot_viz.outlet import logger
-from sambot_viz.panels.files import Files
-from sambot_viz.panels.pictures import AskPage
+from sambot_viz.panels.files_panel import Files
+from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.server.client_sessions import ClientSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread

@@ -9,7 +9,7 @@ from sambot_viz.displays.robot_display import Description
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.errors import JointError, Problem, RobotError
 from sambot_viz.inputs import Inputs
-from sambot_viz.panels.pictures import AskPage
+from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import open_text
 from sambot_viz.rviz import DisplayConfig, RvizConfig

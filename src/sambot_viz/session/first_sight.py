@@ -13,7 +13,7 @@ from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.rviz.declarations import short_name
-from sambot_viz.topics.first_sight import is_costmap, shown_at_first
+from sambot_viz.topics.first_topics import is_costmap, shown_at_first
 
 _COLORS = ("25; 130; 255", "255; 120; 30", "40; 190; 90", "215; 60; 170")
 """Of paths and outlines, one after the other, so that they can be told apart."""

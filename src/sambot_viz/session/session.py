@@ -35,10 +35,10 @@ from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.own_config import SizeOfRobot
 from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.problems import Checks, Problems
-from sambot_viz.session.robot.drive import Drive, DriveTrail
-from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.motion import Motion
+from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.robot.session_frames import Frames
 from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.first_sight import shown_at_first
+from sambot_viz.topics.first_topics import shown_at_first
 
 # It is opened by who has one.
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import Severity, did_you_mean, nearest
-from sambot_viz.frames.errors import LookupRefused
+from sambot_viz.frames.frame_errors import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.topics.robot_topics import describes_robot
 

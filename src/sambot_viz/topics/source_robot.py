@@ -23,7 +23,7 @@ from sambot_viz.sources.source import Capability, Source
 from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.first_messages import FirstMessages
-from sambot_viz.topics.first_sight import shown_at_first
+from sambot_viz.topics.first_topics import shown_at_first
 from sambot_viz.topics.joint_states import JointStateTopics
 from sambot_viz.topics.name_spaces import NameSpaces, space_of
 from sambot_viz.topics.robot_topics import (

@@ -22,8 +22,7 @@ from sambot_viz.viser_private.outgoing import (
     replace_flush,
     replace_window_loop,
 )
-from sambot_viz.viser_private.recorder import Recorder
-from sambot_viz.viser_private.scene import (
+from sambot_viz.viser_private.scene_nodes import (
     fill_background,
     is_removed,
     node_count,
@@ -33,6 +32,7 @@ from sambot_viz.viser_private.scene import (
     share_arrays,
     tell_poses_of_remade_nodes,
 )
+from sambot_viz.viser_private.scene_recorder import Recorder
 from sambot_viz.viser_private.widgets import (
     awaits_picture,
     drawn_by,

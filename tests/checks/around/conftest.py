@@ -25,7 +25,7 @@ def _xacro_once(
 ) -> None:
     """Expand each model once: what is checked is around it."""
     monkeypatch.setattr(
-        "sambot_viz.robot.xacro.expand._run_child",
+        "sambot_viz.robot.xacro.expansion._run_child",
         lambda job, limits: xacro_memory.run_child(job, limits, tmp_path),
     )
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.displays.data.camera_info import corners_of
+from sambot_viz.displays.data.camera_info_display import corners_of
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]

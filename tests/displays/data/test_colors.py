@@ -20,7 +20,7 @@ from sambot_viz.displays.data.cloud.colors import (
     rainbow,
     transformer_of,
 )
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 
 F = np.float32
 

@@ -12,7 +12,7 @@ from inside import session_of
 from lower_limit import lower
 from patience import until
 
-from sambot_viz.displays.data.effort.joints import JointEffort, placed_ring
+from sambot_viz.displays.data.effort.effort_joints import JointEffort, placed_ring
 from sambot_viz.robot.parts import Joint
 
 Make = Callable[[Any], tuple[str, str, object]]

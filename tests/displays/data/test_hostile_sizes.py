@@ -13,7 +13,7 @@ from patience import until
 from situations import TYPES, good_message
 
 from sambot_viz import limits
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 
 Make = Callable[[Any], tuple[str, str, object]]
 Open = Callable[..., Any]

@@ -16,7 +16,7 @@ from inside import session_of
 from PIL import Image
 
 from sambot_viz import Visualizer
-from sambot_viz.displays.pictures import CameraPicture, ClientPictures, Pictures
+from sambot_viz.displays.camera_pictures import CameraPicture, ClientPictures, Pictures
 
 CASES = Path(__file__).parents[2] / "golden" / "images"
 Open = Callable[..., Any]

@@ -10,7 +10,7 @@ import pytest
 from inside import session_of
 from panel_rows import panel_of
 
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.rviz import UnknownPropertyError
 
 Make = Callable[[Any], tuple[str, str, object]]

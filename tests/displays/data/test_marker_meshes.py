@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.displays.data.markers.meshes import look_of
+from sambot_viz.displays.data.markers.marker_meshes import look_of
 from sambot_viz.meshes.mesh import MeshPart, Texture
 
 CORNERS = np.eye(3, dtype=np.float32)

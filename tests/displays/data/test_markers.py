@@ -14,7 +14,7 @@ from inside import session_of
 from PIL import Image
 
 from sambot_viz import limits
-from sambot_viz.displays.data.markers.textures import has_texture
+from sambot_viz.displays.data.markers.marker_textures import has_texture
 from sambot_viz.displays.scene.batch_node import BatchNode
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL
 

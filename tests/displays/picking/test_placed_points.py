@@ -16,7 +16,7 @@ from sambot_viz.displays.picking.placed_points import (
 from sambot_viz.displays.picking.selectable import Hit, Selectable
 from sambot_viz.geometry import matrix_from_wxyz
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
-from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.pixel_rays import Picture
 
 CLOUD = Selectable("points", "cloud", "~1/1")
 AXES = np.array(((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)))

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.rasterise import nearness
 from sambot_viz.displays.picking.rays import Array, RayGrid
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.parts import Origin
-from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.pixel_rays import Picture
 
 HERE = np.eye(4)
 SQUARE = TriangleMesh.of(

@@ -7,7 +7,7 @@ import random
 import numpy as np
 import pytest
 
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.geometry import inverse_matrix, wxyz_from_matrix, wxyz_from_z
 from sambot_viz.robot.parts import Origin
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from sambot_viz import limits
-from sambot_viz.displays.scene.texts import SPACE, TextNode
+from sambot_viz.displays.scene.text_node import SPACE, TextNode
 
 if TYPE_CHECKING:
     from conftest import Drawn

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from sambot_viz import Problem, Robot, RobotError, check, load_robot
-from sambot_viz.drive.wheels import find_wheel_pair
+from sambot_viz.drive.driven_wheels import find_wheel_pair
 from sambot_viz.joints import JointState
 from sambot_viz.robot.parts import Box, MeshFile
 

@@ -13,7 +13,7 @@ import pytest
 from patience import until
 
 from sambot_viz.robot.xacro.child_result import ExpansionError
-from sambot_viz.robot.xacro.expand import Limits, expand_model
+from sambot_viz.robot.xacro.expansion import Limits, expand_model
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ENDLESS = f"""{HEAD}

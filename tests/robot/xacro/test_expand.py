@@ -9,7 +9,7 @@ from sambot_viz.errors import Place, Problem, RobotError
 from sambot_viz.robot.load import expand
 from sambot_viz.robot.model import load_robot
 from sambot_viz.robot.xacro.child_result import ExpansionError
-from sambot_viz.robot.xacro.expand import Limits, expand_model
+from sambot_viz.robot.xacro.expansion import Limits, expand_model
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 

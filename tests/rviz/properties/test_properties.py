@@ -22,8 +22,8 @@ from sambot_viz.rviz import (
     TopicProperty,
     VectorProperty,
 )
-from sambot_viz.rviz.yaml.nodes import Node
 from sambot_viz.rviz.yaml.parser import parse
+from sambot_viz.rviz.yaml.yaml_nodes import Node
 
 ALPHA = FloatProperty("Alpha", default=0.5, minimum=0.0, maximum=1.0)
 COUNT = IntProperty("Count", default=10, minimum=1)

@@ -10,8 +10,10 @@ import yaml
 
 from sambot_viz.errors import ConfigError
 from sambot_viz.rviz.yaml import parser
-from sambot_viz.rviz.yaml.document import Document
-from sambot_viz.rviz.yaml.nodes import (
+from sambot_viz.rviz.yaml.parser import parse
+from sambot_viz.rviz.yaml.writer import Writer
+from sambot_viz.rviz.yaml.yaml_document import Document
+from sambot_viz.rviz.yaml.yaml_nodes import (
     Collection,
     Entry,
     List,
@@ -21,8 +23,6 @@ from sambot_viz.rviz.yaml.nodes import (
     plain,
     same,
 )
-from sambot_viz.rviz.yaml.parser import parse
-from sambot_viz.rviz.yaml.writer import Writer
 
 HAND_WRITTEN = """\
 # Our lab's config.

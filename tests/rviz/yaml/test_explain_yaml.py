@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.errors import ConfigError
-from sambot_viz.rviz.yaml.document import Document
+from sambot_viz.rviz.yaml.yaml_document import Document
 
 MANAGER = "Visualization Manager:\n"
 

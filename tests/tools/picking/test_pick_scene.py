@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.grid import GridLines
-from sambot_viz.displays.picking.meshes import Part, TriangleMesh, TurnedBox
 from sambot_viz.displays.picking.placed import PlacedMesh, PlacedShapes
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh, TurnedBox
 from sambot_viz.meshes.primitives import unit_box, unit_cylinder, unit_sphere
 from sambot_viz.robot.parts import Origin
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
-from sambot_viz.tools.picking.picture import Picture
+from sambot_viz.tools.picking.pixel_rays import Picture
 
 SHAPES = [
     TriangleMesh.of(shape.vertices, shape.faces)

@@ -7,7 +7,7 @@ from typing import Any
 
 from sambot_viz.rviz import BoolProperty, DisplayConfig, EntryItem
 from sambot_viz.rviz.declarations import Declared
-from sambot_viz.rviz.yaml.nodes import Map
+from sambot_viz.rviz.yaml.yaml_nodes import Map
 
 BOX = "Value"
 

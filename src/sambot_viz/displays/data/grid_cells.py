@@ -16,7 +16,7 @@ from sambot_viz.displays.data.message_numbers import (
     require_finite,
 )
 from sambot_viz.displays.data.properties import alpha_property
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.scene.points import PointNode, PointStyle
 from sambot_viz.geometry import Vector3

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.sources.message import Recorded

@@ -20,13 +20,13 @@ from sambot_viz.displays.data.map_properties import (
 )
 from sambot_viz.displays.data.message_filter import TRANSFORM
 from sambot_viz.displays.data.message_numbers import point_of, require_finite, wxyz_of
-from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TOPIC, TopicDisplay
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.displays.scene.maps import MapNode, palette
-from sambot_viz.displays.scene.nodes import position_of
 from sambot_viz.frames import LookupRefused
 from sambot_viz.geometry import Matrix, rotation_from_xyzw, wxyz_from_matrix
 from sambot_viz.meanings import Meaning, meaning_of

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Generic
 from sambot_viz import limits
 from sambot_viz.displays.data.kept import Held, HeldMessages, T, Taken
 from sambot_viz.displays.data.message_numbers import at_sensor
-from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import (
     TOPIC,
     TopicDisplay,

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz import limits
-from sambot_viz.displays.data.refusals import INVALID_FLOATS, MessageRefused
+from sambot_viz.displays.data.refused_messages import INVALID_FLOATS, MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.frames import Transform
@@ -21,7 +21,7 @@ from sambot_viz.geometry import (
     unit_wxyz,
     unit_wxyzs,
 )
-from sambot_viz.meanings.row import SENSOR_POSE
+from sambot_viz.meanings.schema_row import SENSOR_POSE
 from sambot_viz.topics.decoding import numbers_of
 
 Floats = npt.NDArray[np.float64]

@@ -16,8 +16,8 @@ from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import HERE, Placed
+from sambot_viz.displays.scene.frame_nodes import position_of, short_id
 from sambot_viz.displays.scene.lines import LineNode, chain_segments
-from sambot_viz.displays.scene.nodes import position_of, short_id
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode
 from sambot_viz.geometry import Vector3, wxyz_from_matrix

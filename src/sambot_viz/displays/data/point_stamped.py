@@ -14,7 +14,7 @@ from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import point_of
 from sambot_viz.displays.data.properties import alpha_property, metres
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.geometry import IDENTITY, Matrix, Vector3
 from sambot_viz.meanings import Meaning

@@ -8,10 +8,10 @@ from typing import ClassVar
 from sambot_viz import limits
 from sambot_viz.displays.data.display_node import nodes_of
 from sambot_viz.displays.display import Display, DisplayContext, Status
-from sambot_viz.displays.picking.meshes import Part
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.placed import HERE, Placed, PlacedShapes
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import Part
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import (
     TopicDoubt,

@@ -10,12 +10,12 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.picking.meshes import Part, TriangleMesh
 from sambot_viz.displays.picking.pick_buffer import PickBuffer
 from sambot_viz.displays.picking.placed import HERE, Parts, Placed, within
 from sambot_viz.displays.picking.rasterise import covered, nearness
 from sambot_viz.displays.picking.rays import Array, Indices, RayGrid
 from sambot_viz.displays.picking.selectable import Selectable, Selection
+from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
 from sambot_viz.geometry import Matrix
 
 Items: TypeAlias = "Selectable | Sequence[Selectable | None] | None"

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.picking.meshes import Part, TriangleMesh
 from sambot_viz.displays.picking.pick_buffer import PickBuffer
 from sambot_viz.displays.picking.placed import HERE, Parts, Placed
 from sambot_viz.displays.picking.rasterise import nearness
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
 from sambot_viz.geometry import Matrix
 
 NEAR_LINE = 3.0

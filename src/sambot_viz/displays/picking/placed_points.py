@@ -9,13 +9,13 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.picking.meshes import Part, TriangleMesh
 from sambot_viz.displays.picking.pick_buffer import PickBuffer
 from sambot_viz.displays.picking.pick_geometry import Nearby
 from sambot_viz.displays.picking.placed import HERE, Parts, Placed
 from sambot_viz.displays.picking.rasterise import Covered, blocks, ranges
 from sambot_viz.displays.picking.rays import Array, Balls, Indices, RayGrid
 from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
+from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
 from sambot_viz.geometry import Matrix, Vector3, inverse_matrix
 
 NEAR_POINT = 3.0

@@ -16,8 +16,8 @@ from functools import reduce
 
 import numpy as np
 
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.rays import Array, Indices, RayGrid
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.geometry import Matrix
 
 GROUPS = 2000

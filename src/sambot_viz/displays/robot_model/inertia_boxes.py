@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.geometry import Matrix, Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.robot.parts import Inertial
 

@@ -17,8 +17,13 @@ import viser
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_model.inertia_boxes import ball_diameter, inertia_box
 from sambot_viz.displays.robot_model.robot_entries import BOX, WITH_AXIS, RobotEntries
+from sambot_viz.displays.scene.frame_nodes import (
+    Handle,
+    any_gone,
+    position_of,
+    remove_all,
+)
 from sambot_viz.displays.scene.lines import Ribbon
-from sambot_viz.displays.scene.nodes import Handle, any_gone, position_of, remove_all
 from sambot_viz.displays.scene.solids import (
     Arrow,
     add_arrows,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 from sambot_viz.displays.display import DisplayContext, EntryList, numbers
-from sambot_viz.displays.robot_model.properties import (
+from sambot_viz.displays.robot_model.robot_properties import (
     ALL_ENABLED,
     ALL_LINKS_ENABLED,
     JOINT_PROPERTIES,
@@ -19,12 +19,12 @@ from sambot_viz.displays.robot_model.properties import (
     STYLE,
     STYLES,
 )
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.rviz import DisplayConfig, EntryItem
-from sambot_viz.rviz.yaml.nodes import Plain
+from sambot_viz.rviz.yaml.yaml_nodes import Plain
 
 Thing = Literal["link", "joint"]
 Keys = tuple[str, ...]

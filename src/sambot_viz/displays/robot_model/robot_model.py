@@ -17,18 +17,18 @@ from sambot_viz.displays.robot_model.balance_facts import (
 from sambot_viz.displays.robot_model.balance_mark import BalanceMark
 from sambot_viz.displays.robot_model.followed_joints import FollowedJoints
 from sambot_viz.displays.robot_model.link_overlays import LinkOverlays, Wanted
-from sambot_viz.displays.robot_model.properties import (
-    ALL_ENABLED,
-    BALANCE,
-    COLLISIONS,
-    MASS_PROPERTIES,
-    ROBOT_MODEL_PROPERTIES,
-)
 from sambot_viz.displays.robot_model.robot_entries import (
     BOX,
     RobotEntries,
     collision_note,
     robot_lists,
+)
+from sambot_viz.displays.robot_model.robot_properties import (
+    ALL_ENABLED,
+    BALANCE,
+    COLLISIONS,
+    MASS_PROPERTIES,
+    ROBOT_MODEL_PROPERTIES,
 )
 from sambot_viz.displays.robot_model.robot_source import (
     FILE,

@@ -22,7 +22,7 @@ from sambot_viz.displays.robot_model.shape_solids import (
     stand_in,
     textured,
 )
-from sambot_viz.displays.scene.nodes import any_gone, position_of, remove_all
+from sambot_viz.displays.scene.frame_nodes import any_gone, position_of, remove_all
 from sambot_viz.displays.scene.session_assets import SessionAssets
 from sambot_viz.displays.scene.solids import Rgb, sphere
 from sambot_viz.displays.triangle_display import DrawnTriangles

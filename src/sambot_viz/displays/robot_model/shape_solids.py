@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import viser
 
-from sambot_viz.displays.scene.nodes import Handle
+from sambot_viz.displays.scene.frame_nodes import Handle
 from sambot_viz.displays.scene.solids import Rgb, sphere
 from sambot_viz.displays.triangle_display import Triangles
 from sambot_viz.geometry import Matrix, Rgba, Vector3

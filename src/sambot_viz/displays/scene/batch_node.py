@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.placed_copies import Items, PlacedCopies
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
+from sambot_viz.displays.scene.frame_nodes import placed
 from sambot_viz.displays.scene.glb_node import single
-from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.displays.scene.posed_node import Pose, PosedNode
 from sambot_viz.displays.scene.solids import Compact, linear
 from sambot_viz.geometry import (

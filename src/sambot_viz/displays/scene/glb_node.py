@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.nodes import placed
+from sambot_viz.displays.scene.frame_nodes import placed
 from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import glb_file

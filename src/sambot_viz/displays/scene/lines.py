@@ -11,6 +11,7 @@ import viser
 
 from sambot_viz.displays.picking.placed_lines import PlacedLines
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.scene.frame_nodes import any_gone, remove_all
 from sambot_viz.displays.scene.glb_node import (
     LINES,
     GlbNode,
@@ -18,7 +19,6 @@ from sambot_viz.displays.scene.glb_node import (
     rgba_rows,
     single,
 )
-from sambot_viz.displays.scene.nodes import any_gone, remove_all
 from sambot_viz.displays.scene.solids import Rgb, linear
 from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM, glb_file

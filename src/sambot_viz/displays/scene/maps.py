@@ -10,10 +10,10 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.placed import PlacedMesh
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
+from sambot_viz.displays.scene.frame_nodes import placed, short_id
 from sambot_viz.displays.scene.glb_node import ONE_PIXEL, GlbNode, drawn_glb
-from sambot_viz.displays.scene.nodes import placed, short_id
 from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM

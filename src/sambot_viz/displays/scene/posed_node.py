@@ -6,7 +6,7 @@ from typing import Generic, TypeVar
 
 import viser
 
-from sambot_viz.displays.scene.nodes import any_gone, remove_all
+from sambot_viz.displays.scene.frame_nodes import any_gone, remove_all
 from sambot_viz.geometry import (
     IDENTITY,
     ORIGIN,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from sambot_viz.displays.display import DisplayContext, EntryList, numbers
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.rviz import (
     BoolProperty,

@@ -11,7 +11,7 @@ import numpy as np
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.robot_display import WantedQos
-from sambot_viz.displays.scene.nodes import (
+from sambot_viz.displays.scene.frame_nodes import (
     NodeCache,
     position_of,
 )

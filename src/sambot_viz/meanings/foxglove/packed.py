@@ -14,8 +14,8 @@ import numpy.typing as npt
 
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.foxglove.parts import header_of, part, parts, pose_of
-from sambot_viz.meanings.row import SENSOR_POSE, Fields
+from sambot_viz.meanings.foxglove.common_parts import header_of, part, parts, pose_of
+from sambot_viz.meanings.schema_row import SENSOR_POSE, Fields
 from sambot_viz.messages.shape import bytes_of, real_number, whole_number
 
 Values = npt.NDArray[Any]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.foxglove import packed, scene
-from sambot_viz.meanings.foxglove.parts import (
+from sambot_viz.meanings.foxglove import packed, scene_update
+from sambot_viz.meanings.foxglove.common_parts import (
     header_of,
     part,
     parts,
@@ -18,7 +18,7 @@ from sambot_viz.meanings.foxglove.parts import (
     time_of,
 )
 from sambot_viz.meanings.meaning import Meaning
-from sambot_viz.meanings.row import SENSOR_POSE, Fields, SchemaRow
+from sambot_viz.meanings.schema_row import SENSOR_POSE, Fields, SchemaRow
 from sambot_viz.messages.shape import real_number
 
 _LEVELS = (0, 10, 20, 30, 40, 50)
@@ -175,7 +175,7 @@ FOXGLOVE: Mapping[str, SchemaRow] = {
     "foxglove.PosesInFrame": SchemaRow(Meaning.POSES, _poses),
     "foxglove.Point3InFrame": SchemaRow(Meaning.POINT, _point),
     "foxglove.Odometry": SchemaRow(Meaning.ODOMETRY, _odometry),
-    "foxglove.SceneUpdate": SchemaRow(Meaning.MARKERS, scene.markers),
+    "foxglove.SceneUpdate": SchemaRow(Meaning.MARKERS, scene_update.markers),
     "foxglove.RawImage": SchemaRow(Meaning.IMAGE, _raw_image),
     "foxglove.CompressedImage": SchemaRow(Meaning.IMAGE_FILE, _image_file),
     "foxglove.CompressedVideo": SchemaRow(Meaning.IMAGE_FILE, _image_file),

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from sambot_viz.geometry import Matrix, Rgba
 from sambot_viz.meshes.mesh import Mesh, MeshPart, Texture, mesh_error
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 Floats = npt.NDArray[np.floating[Any]]
 Ints = npt.NDArray[np.integer[Any]]

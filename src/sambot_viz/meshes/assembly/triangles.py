@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.meshes.assembly.assemble import Floats, Ints
-from sambot_viz.meshes.source import MeshBudget
+from sambot_viz.meshes.mesh_source import MeshBudget
 
 _Number = TypeVar("_Number", bound=np.generic)
 _BLANK = b" \t\r\n\f\v"

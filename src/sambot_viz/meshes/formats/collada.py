@@ -23,7 +23,7 @@ from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.collada_geometry import Geometry, read_geometry
 from sambot_viz.meshes.formats.collada_material import Materials
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_document
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 FEW_CHILDREN = 20
 """A node with so many transforms and parts counts as two."""

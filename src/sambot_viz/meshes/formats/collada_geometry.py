@@ -17,7 +17,7 @@ from sambot_viz.meshes.assembly.triangles import (
     triangulate,
 )
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 _Int64 = npt.NDArray[np.int64]
 

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 from sambot_viz.meshes.formats.collada_xml import ColladaDocument
 from sambot_viz.meshes.mesh import GREY, WHITE, Texture
-from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
+from sambot_viz.meshes.mesh_source import MeshMaterial, MeshSource, load_texture
 
 _SHADERS = ("phong", "lambert", "blinn", "constant")
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,8 +25,8 @@ from sambot_viz.meshes.assembly.assemble import Submesh, placed
 from sambot_viz.meshes.formats.gltf_file import GltfFile, GltfMaterials, Json
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
 from sambot_viz.meshes.mesh import MeshError, mesh_error
+from sambot_viz.meshes.mesh_source import MeshSource
 from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
-from sambot_viz.meshes.source import MeshSource
 
 _TRIANGLES, _FAN = 4, 6
 _READ = (0, 1, _TRIANGLES, 5)

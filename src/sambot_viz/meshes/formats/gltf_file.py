@@ -18,8 +18,8 @@ import numpy.typing as npt
 from sambot_viz import limits
 from sambot_viz.geometry import Rgba
 from sambot_viz.meshes.mesh import WHITE, Texture
+from sambot_viz.meshes.mesh_source import MeshMaterial, MeshSource
 from sambot_viz.meshes.named_files import NamedFileError
-from sambot_viz.meshes.source import MeshMaterial, MeshSource
 from sambot_viz.meshes.textures import TextureError
 
 Json = dict[str, Any]

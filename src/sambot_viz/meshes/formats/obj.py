@@ -27,7 +27,7 @@ from sambot_viz.meshes.assembly.triangles import (
 )
 from sambot_viz.meshes.formats.obj_material import read_libraries
 from sambot_viz.meshes.mesh import GREY
-from sambot_viz.meshes.source import MeshMaterial, MeshSource
+from sambot_viz.meshes.mesh_source import MeshMaterial, MeshSource
 
 _TWO_SLASHES = re.compile(rb"/\d*/")
 _MISSING = np.iinfo(np.int64).min

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from sambot_viz import limits
 from sambot_viz.meshes.mesh import GREY, Texture
+from sambot_viz.meshes.mesh_source import MeshMaterial, MeshSource, load_texture
 from sambot_viz.meshes.named_files import LfsPointerError, NamedFileError
-from sambot_viz.meshes.source import MeshMaterial, MeshSource, load_texture
 
 
 def read_libraries(names: list[str], source: MeshSource) -> dict[str, MeshMaterial]:

@@ -20,7 +20,7 @@ from sambot_viz.meshes.assembly.assemble import Submesh
 from sambot_viz.meshes.assembly.triangles import triangulate
 from sambot_viz.meshes.formats.trimesh_call import call_trimesh
 from sambot_viz.meshes.mesh import WHITE
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 _Element = dict[str, bool]
 """The properties of a kind of entry, and which of them are lists."""

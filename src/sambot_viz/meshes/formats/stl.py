@@ -19,7 +19,7 @@ from sambot_viz.meshes.assembly.triangles import (
     triples,
 )
 from sambot_viz.meshes.mesh import mesh_error
-from sambot_viz.meshes.source import MeshSource
+from sambot_viz.meshes.mesh_source import MeshSource
 
 _HEADER = 84
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("extra", "<u2")])

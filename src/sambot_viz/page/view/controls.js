@@ -3,7 +3,7 @@
  * turn to the view, with their x along it and their z up.
  *
  * The server makes a node of viser for those of a marker that are turned and hidden together; a
- * file without a picture in it says how (displays/data/interactive_markers/marker_nodes.py).
+ * file without a picture in it says how (displays/data/interactive_markers/control_nodes.py).
  */
 
 /** How the axes of what faces the view are turned in the camera: x forward, y left, z up. */

@@ -9,7 +9,7 @@ from sambot_viz.displays.display import Display
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, Argument, command
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json
 from sambot_viz.rviz import DisplayConfig

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from sambot_viz import limits
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.errors import UsageError
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import wxyz_from_matrix

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from sambot_viz.displays.display import Display
 from sambot_viz.displays.robot_display import Repair
 from sambot_viz.errors import Problem, nearest
-from sambot_viz.panels.problems.problems import place_of, rows_by_place
+from sambot_viz.panels.problems.problems_panel import place_of, rows_by_place
 from sambot_viz.panels.rows.row import Json, Level, Row
 from sambot_viz.rviz import TfFrameProperty
 from sambot_viz.session.scene.scene import Scene

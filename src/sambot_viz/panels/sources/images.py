@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sambot_viz.displays.pictures import ClientPictures
+from sambot_viz.displays.camera_pictures import ClientPictures
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Row

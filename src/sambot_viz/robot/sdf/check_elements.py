@@ -18,9 +18,9 @@ from sambot_viz.robot.sdf.habits import (
     element_of_urdf,
     says_more_inside,
 )
-from sambot_viz.robot.sdf.left_out import check_left_out, is_needed
 from sambot_viz.robot.sdf.loose_text import text_not_read
 from sambot_viz.robot.sdf.misplaced import advised_place
+from sambot_viz.robot.sdf.missing_values import check_left_out, is_needed
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.values import BadValue, trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described

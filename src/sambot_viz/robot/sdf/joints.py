@@ -12,10 +12,10 @@ from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Dynamics, JointType, Limit
 from sambot_viz.robot.sdf.fields import number_in, text_in, vector_in
-from sambot_viz.robot.sdf.frames import FramePoses
 from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.scopes import Frame
+from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, and_list
 from sambot_viz.robot.xml.element import Element

@@ -11,10 +11,10 @@ from sambot_viz.geometry import Matrix, Rgba, inverse_matrix, rpy_from_matrix
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Inertial, Link, Material, MeshFile, Origin, Shape
 from sambot_viz.robot.sdf.fields import colour_in, number_in, pose_of, text_in
-from sambot_viz.robot.sdf.frames import FramePoses
 from sambot_viz.robot.sdf.loose_text import loose_text
 from sambot_viz.robot.sdf.scopes import Frame
 from sambot_viz.robot.sdf.script_colours import SCRIPT_COLOURS
+from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.shapes import FindMesh, ShapeReader
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED

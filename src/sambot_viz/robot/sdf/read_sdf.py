@@ -11,12 +11,12 @@ from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, RobotTree
 from sambot_viz.robot.sdf.away_from_joint import warn_of_links_away_from_joints
 from sambot_viz.robot.sdf.check_elements import check_elements
-from sambot_viz.robot.sdf.frames import FramePoses
 from sambot_viz.robot.sdf.gazebo_only import note_gazebo_only
 from sambot_viz.robot.sdf.joint_ends import JoinedLinks, read_ends
 from sambot_viz.robot.sdf.joints import JointMotion, MotionReader
 from sambot_viz.robot.sdf.links import SdfLinkReader, origin_of
 from sambot_viz.robot.sdf.scopes import Frame, read_scopes
+from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.shapes import FindMesh
 from sambot_viz.robot.sdf.the_model import find_model
 from sambot_viz.robot.sdf.tree import check_tree, root_link

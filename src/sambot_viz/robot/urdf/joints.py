@@ -11,7 +11,7 @@ from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
-from sambot_viz.robot.urdf.limits import LimitReader
+from sambot_viz.robot.urdf.joint_limits import LimitReader
 from sambot_viz.robot.xml.element import Element
 
 JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from sambot_viz.rviz.properties.numbers import finite_numbers
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report
-from sambot_viz.rviz.yaml.nodes import Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import Scalar
 
 Rgb: TypeAlias = tuple[int, int, int]
 

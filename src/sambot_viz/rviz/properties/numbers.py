@@ -16,7 +16,7 @@ from sambot_viz.rviz.properties.number_text import (
     parse_int,
 )
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report, silent
-from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar
 
 _FALSE = frozenset({"", "0", "false"})
 _MEANT_FALSE = frozenset({"no", "off", "n"})

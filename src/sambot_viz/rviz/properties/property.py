@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from sambot_viz.errors import UsageError
-from sambot_viz.rviz.yaml.nodes import List, Map, Node, Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import List, Map, Node, Scalar
 
 Support: TypeAlias = Literal["full", "approximate", "none", "kept"]
 """How far a property is shown; "kept" has no effect in RViz for ROS 2 either."""

@@ -16,7 +16,7 @@ import re2 as _re2  # pyright: ignore[reportMissingTypeStubs]
 from sambot_viz import limits
 from sambot_viz.rviz.properties.numbers import IntProperty
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report
-from sambot_viz.rviz.yaml.nodes import Scalar
+from sambot_viz.rviz.yaml.yaml_nodes import Scalar
 
 FIXED_FRAME = "<Fixed Frame>"
 """What a frame property says when it means the fixed frame, whatever that is."""

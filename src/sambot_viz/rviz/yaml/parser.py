@@ -9,7 +9,7 @@ from typing import Any, cast
 import yaml
 
 from sambot_viz import limits
-from sambot_viz.rviz.yaml.nodes import (
+from sambot_viz.rviz.yaml.yaml_nodes import (
     Collection,
     Entry,
     List,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.rviz.yaml.nodes import (
+from sambot_viz.rviz.yaml.yaml_nodes import (
     Collection,
     Entry,
     List,

@@ -29,7 +29,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
-from sambot_viz.tools.picking.picture import ScreenPoint
+from sambot_viz.tools.picking.pixel_rays import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool

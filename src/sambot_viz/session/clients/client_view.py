@@ -17,12 +17,12 @@ from typing import Any
 
 import viser
 
-from sambot_viz.displays.picking.meshes import Corners
+from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import ViewConfig
 from sambot_viz.rviz.declarations import short_name
 from sambot_viz.session.clients import viser_camera
-from sambot_viz.session.clients.camera import (
+from sambot_viz.session.clients.client_camera import (
     ClientCamera,
     Followed,
     followed_of,

@@ -8,7 +8,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.robot.drive import ODOM, Drive
+from sambot_viz.session.robot.robot_drive import ODOM, Drive
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Listening

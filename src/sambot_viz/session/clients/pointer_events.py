@@ -11,7 +11,7 @@ import viser
 
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.session.worker import Worker
-from sambot_viz.tools.picking.picture import Picture, ScreenPoint
+from sambot_viz.tools.picking.pixel_rays import Picture, ScreenPoint
 from sambot_viz.tools.tool import Click, Tool
 
 MODIFIERS: tuple[Literal["shift", "cmd/ctrl"] | None, ...] = (None, "shift", "cmd/ctrl")

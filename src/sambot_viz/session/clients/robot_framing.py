@@ -6,7 +6,7 @@ import math
 
 import viser
 
-from sambot_viz.displays.picking.meshes import Corners
+from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import first_box

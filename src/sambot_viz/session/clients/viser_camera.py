@@ -13,7 +13,7 @@ import numpy as np
 import viser
 
 from sambot_viz.geometry import rotation_from_xyzw
-from sambot_viz.session.clients.camera import leaning
+from sambot_viz.session.clients.client_camera import leaning
 from sambot_viz.views.camera import (
     FIELD_OF_VIEW,
     ORTHO_FIELD_OF_VIEW,

@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from sambot_viz.displays.picking.meshes import Corners
+from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz import FIXED_FRAME, RvizConfig, ViewConfig
-from sambot_viz.rviz.yaml.document import ConfigFindings
-from sambot_viz.rviz.yaml.nodes import copied_map
+from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
+from sambot_viz.rviz.yaml.yaml_nodes import copied_map
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene

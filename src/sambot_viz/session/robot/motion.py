@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from sambot_viz.joints.animation import eased, turn
 from sambot_viz.joints.state import JointState
-from sambot_viz.session.robot.drive import Drive
+from sambot_viz.session.robot.robot_drive import Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker

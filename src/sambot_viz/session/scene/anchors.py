@@ -10,7 +10,7 @@ from __future__ import annotations
 import viser
 
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.geometry import Vector3, Wxyz, wxyz_from_matrix
 from sambot_viz.viser_private import is_removed, set_pose
 

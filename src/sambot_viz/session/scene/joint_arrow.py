@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.scene.nodes import any_gone, remove_all
+from sambot_viz.displays.scene.frame_nodes import any_gone, remove_all
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
-from sambot_viz.displays.picking.meshes import Corners
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Selectable, Selection
 from sambot_viz.displays.picking.selected import SelectedData
+from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot

@@ -9,7 +9,7 @@ from pathlib import Path
 from sambot_viz.displays.display import Display, DisplayContext, Status, robot_displays
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.displays.robot_display import ModelReader
-from sambot_viz.displays.scene.nodes import FrameNodes, short_id
+from sambot_viz.displays.scene.frame_nodes import FrameNodes, short_id
 from sambot_viz.displays.scene.session_assets import Reader, SessionAssets
 from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.meshes.cache import MeshCache

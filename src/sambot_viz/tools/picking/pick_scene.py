@@ -9,12 +9,12 @@ import numpy as np
 
 from sambot_viz import limits
 from sambot_viz.displays.display import Display
-from sambot_viz.displays.picking.meshes import Corners, Part, TurnedBox
 from sambot_viz.displays.picking.pick_buffer import Owner, PickBuffer, hides
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
 from sambot_viz.displays.picking.selected import Cubes, SelectedData
+from sambot_viz.displays.picking.triangle_mesh import Corners, Part, TurnedBox
 from sambot_viz.text import columns
 from sambot_viz.views.view import Name
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.picking.rays import Indices
 from sambot_viz.topics.contents.clouds import (
     POINT_TYPES,

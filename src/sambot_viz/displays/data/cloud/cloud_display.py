@@ -7,15 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from sambot_viz.displays.data.cloud.cloud import Cloud
-from sambot_viz.displays.data.cloud.colors import (
-    Colors,
-    bounds_of,
-    colors_of,
-    intensities_of,
-    transformer_of,
-    transformers_of,
-)
-from sambot_viz.displays.data.cloud.properties import (
+from sambot_viz.displays.data.cloud.cloud_properties import (
     CHANNEL,
     CLOUD_PROPERTIES,
     COORDINATES,
@@ -24,6 +16,14 @@ from sambot_viz.displays.data.cloud.properties import (
     TRANSFORMER,
     color_options,
 )
+from sambot_viz.displays.data.cloud.colors import (
+    Colors,
+    bounds_of,
+    colors_of,
+    intensities_of,
+    transformer_of,
+    transformers_of,
+)
 from sambot_viz.displays.data.cloud.selected_points import DOT, SelectedPoints
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.topic_display import topic_property
@@ -31,7 +31,7 @@ from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.displays.scene.nodes import position_of, short_id
+from sambot_viz.displays.scene.frame_nodes import position_of, short_id
 from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix

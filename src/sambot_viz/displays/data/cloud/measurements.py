@@ -9,7 +9,7 @@ import numpy as np
 
 from sambot_viz.displays.data.cloud.cloud import Cloud
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
-from sambot_viz.displays.data.cloud.properties import CHANNEL, CLOUD_PROPERTIES
+from sambot_viz.displays.data.cloud.cloud_properties import CHANNEL, CLOUD_PROPERTIES
 from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.frames import Transform

@@ -11,15 +11,14 @@ import numpy as np
 from sambot_viz import limits
 from sambot_viz.displays.data.cloud.cloud import Cloud
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
-from sambot_viz.displays.data.cloud.properties import CLOUD_PROPERTIES
+from sambot_viz.displays.data.cloud.cloud_properties import CLOUD_PROPERTIES
 from sambot_viz.displays.data.depth_cloud.depth_points import (
     Occluded,
     cloud_of_depth,
     focus_of,
     metres_of,
 )
-from sambot_viz.displays.data.depth_cloud.depth_sync import DepthMessage, DepthSync
-from sambot_viz.displays.data.depth_cloud.properties import (
+from sambot_viz.displays.data.depth_cloud.depth_properties import (
     AUTO_SIZE,
     COLOR_HINT,
     COLOR_TOPIC,
@@ -31,6 +30,7 @@ from sambot_viz.displays.data.depth_cloud.properties import (
     QUEUE_SIZE,
     TIME_OUT,
 )
+from sambot_viz.displays.data.depth_cloud.depth_sync import DepthMessage, DepthSync
 from sambot_viz.displays.data.image.camera_info import (
     CAMERA_INFO,
     CameraNumbers,
@@ -39,9 +39,9 @@ from sambot_viz.displays.data.image.camera_info import (
     size_doubt,
 )
 from sambot_viz.displays.data.image.encodings import Bytes
-from sambot_viz.displays.data.image.files import read_colors, read_depths
+from sambot_viz.displays.data.image.image_files import read_colors, read_depths
 from sambot_viz.displays.data.image.transports import info_topic, sent_topic
-from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.scene.points import PointStyle

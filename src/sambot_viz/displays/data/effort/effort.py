@@ -8,7 +8,7 @@ from typing import Any
 
 from sambot_viz import limits
 from sambot_viz.displays.data.display_node import DisplayNode
-from sambot_viz.displays.data.effort.joints import (
+from sambot_viz.displays.data.effort.effort_joints import (
     JOINTS,
     EffortJoints,
     JointEffort,
@@ -17,7 +17,7 @@ from sambot_viz.displays.data.effort.joints import (
 )
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import TRANSFORM, MessageFilterDisplay
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList, Status
 from sambot_viz.displays.robot_display import Repair, WantedQos

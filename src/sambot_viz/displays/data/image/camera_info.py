@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sambot_viz.displays.data.message_numbers import require_finite
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import TopicMessages
 from sambot_viz.meanings import Meaning

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.image.bayer import BAYER, demosaiced
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.topics.contents.pictures import CHROMA_SHARE, picture_fault
 
 IMAGE = "Image"

@@ -17,7 +17,7 @@ from sambot_viz.displays.data.interactive_markers.control_marker import (
 )
 from sambot_viz.displays.data.interactive_markers.handles import MENU, handles, title
 from sambot_viz.displays.data.message_numbers import coordinates_of
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.geometry import IDENTITY, Wxyz, unit_wxyz
 
 INHERIT, FIXED, VIEW_FACING = range(3)

@@ -11,7 +11,7 @@ from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
 )
 from sambot_viz.displays.data.markers.marker_rows import MarkerRows
-from sambot_viz.displays.data.refusals import MESSAGE, MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
 from sambot_viz.displays.display import DisplayContext, Status
 from sambot_viz.displays.picking.placed import Placed

@@ -8,6 +8,10 @@ from itertools import chain
 from typing import Any
 
 from sambot_viz import limits
+from sambot_viz.displays.data.interactive_markers.control_nodes import (
+    ControlNodes,
+    InteractiveMarkerNodes,
+)
 from sambot_viz.displays.data.interactive_markers.controls import (
     TITLES,
     ShowOptions,
@@ -16,20 +20,16 @@ from sambot_viz.displays.data.interactive_markers.known_marker import (
     ControlPart,
     KnownMarker,
 )
-from sambot_viz.displays.data.interactive_markers.marker_nodes import (
-    ControlNodes,
-    InteractiveMarkerNodes,
-)
 from sambot_viz.displays.data.markers.checks import check_of
-from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
+from sambot_viz.displays.data.markers.marker_nodes import Key
 from sambot_viz.displays.data.markers.marker_rows import MarkerRows
-from sambot_viz.displays.data.markers.nodes import Key
-from sambot_viz.displays.data.refusals import MessageRefused, refusing
+from sambot_viz.displays.data.markers.shown_markers import Shown, selected_marker
+from sambot_viz.displays.data.refused_messages import MessageRefused, refusing
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.displays.scene.nodes import short_id
+from sambot_viz.displays.scene.frame_nodes import short_id
 from sambot_viz.frames import LookupRefused
 
 EMPTY = "Marker empty."

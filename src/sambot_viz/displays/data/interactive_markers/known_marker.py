@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.displays.data.interactive_markers.control_marker import ControlMarker
+from sambot_viz.displays.data.interactive_markers.control_nodes import (
+    InteractiveMarkerNodes,
+)
 from sambot_viz.displays.data.interactive_markers.controls import (
     INHERIT,
     VIEW_FACING,
@@ -19,10 +22,7 @@ from sambot_viz.displays.data.interactive_markers.controls import (
     scale_of,
     title_of,
 )
-from sambot_viz.displays.data.interactive_markers.marker_nodes import (
-    InteractiveMarkerNodes,
-)
-from sambot_viz.displays.data.markers.fields import MarkerPose
+from sambot_viz.displays.data.markers.marker_fields import MarkerPose
 from sambot_viz.displays.data.message_numbers import point_of, wxyz_of
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.frames import LookupRefused, Transform

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from sambot_viz import limits
-from sambot_viz.displays.data.markers.textures import has_texture, texture_of
+from sambot_viz.displays.data.markers.marker_textures import has_texture, texture_of
 from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.display import Level
 from sambot_viz.meshes.textures import TextureError

@@ -15,7 +15,7 @@ from sambot_viz.displays.data.message_filter import (
     MessageFilterDisplay,
     is_final,
 )
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
 from sambot_viz.displays.picking.placed import Placed

@@ -8,12 +8,12 @@ from typing import Any
 
 from sambot_viz import limits
 from sambot_viz.displays.data.markers.checks import check_of, looks_the_same
-from sambot_viz.displays.data.markers.drawing import Shown, selected_marker
-from sambot_viz.displays.data.markers.fields import MarkerPose
+from sambot_viz.displays.data.markers.marker_fields import MarkerPose
+from sambot_viz.displays.data.markers.marker_nodes import Key, MarkerNodes
 from sambot_viz.displays.data.markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.markers.namespaces import Namespaces
-from sambot_viz.displays.data.markers.nodes import Key, MarkerNodes
 from sambot_viz.displays.data.markers.off_markers import OffMarker, OffMarkers
+from sambot_viz.displays.data.markers.shown_markers import Shown, selected_marker
 from sambot_viz.displays.display import DisplayContext, Level, StatusList
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable

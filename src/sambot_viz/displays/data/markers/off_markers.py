@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from sambot_viz import limits
-from sambot_viz.displays.data.markers.fields import MarkerPose
-from sambot_viz.displays.data.markers.nodes import Key
+from sambot_viz.displays.data.markers.marker_fields import MarkerPose
+from sambot_viz.displays.data.markers.marker_nodes import Key
 
 """So many markers, with so many points together, are kept."""
 

@@ -16,7 +16,10 @@ from sambot_viz.displays.data.message_numbers import (
     point_of,
     wxyz_of,
 )
-from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
+from sambot_viz.displays.data.poses.covariance_properties import (
+    COVARIANCE,
+    covariance_look,
+)
 from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
     AXES,

@@ -12,6 +12,10 @@ from collections.abc import Callable
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
+from sambot_viz.robot.xacro.diagnose.failing_values import (
+    broken_yaml,
+    placeholder,
+)
 from sambot_viz.robot.xacro.diagnose.macro_parameters import unknown_parameter
 from sambot_viz.robot.xacro.diagnose.reports import CALL, ELEMENT, EXPRESSION, ROWS
 from sambot_viz.robot.xacro.diagnose.source_slips import source_slip
@@ -20,10 +24,6 @@ from sambot_viz.robot.xacro.diagnose.unknown_names import (
     undefined_argument,
     undefined_name,
     unknown_macro,
-)
-from sambot_viz.robot.xacro.diagnose.values import (
-    broken_yaml,
-    placeholder,
 )
 
 _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (

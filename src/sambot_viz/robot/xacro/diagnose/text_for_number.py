@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.units import without_units
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion, line_in
-from sambot_viz.robot.xacro.diagnose.values import given_in
+from sambot_viz.robot.xacro.diagnose.failing_values import given_in
 from sambot_viz.robot.xml.diagnose.lexer import Token
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*")

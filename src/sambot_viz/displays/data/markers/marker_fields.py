@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.displays.data.message_numbers import coordinates_of
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import IDENTITY, Vector3, Wxyz, unit_wxyz, wxyz_product

@@ -10,7 +10,7 @@ from typing import Any
 
 from sambot_viz.errors import UsageError
 from sambot_viz.joints import JointState
-from sambot_viz.joints.values import (
+from sambot_viz.joints.value_texts import (
     as_arguments,
     as_launch_parameters,
     as_topic_pub,

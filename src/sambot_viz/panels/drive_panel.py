@@ -17,8 +17,8 @@ from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Kind, Row
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.robot.drive import ODOM, Drive
 from sambot_viz.session.robot.motion import HOLD
+from sambot_viz.session.robot.robot_drive import ODOM, Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Signal
 

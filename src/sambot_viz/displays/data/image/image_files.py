@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from sambot_viz.displays.camera_pictures import CameraPicture
 from sambot_viz.displays.data.image.encodings import (
     IMAGE,
     Bytes,
@@ -19,8 +20,7 @@ from sambot_viz.displays.data.image.encodings import (
     require_shown,
 )
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
-from sambot_viz.displays.data.refusals import MessageRefused
-from sambot_viz.displays.pictures import CameraPicture
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.topics.contents.pictures import (
     DEPTH,
     DEPTH_HEADER,

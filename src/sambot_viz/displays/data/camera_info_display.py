@@ -13,11 +13,11 @@ from sambot_viz.displays.data.image.camera_info import projection_of
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.message_numbers import Floats, require_finite
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.placed import PlacedMesh
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb, rgba_rows, single
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.geometry import Matrix

@@ -12,9 +12,9 @@ from sambot_viz.displays.data.interactive_markers.controls import (
     VIEW_FACING,
     Group,
 )
-from sambot_viz.displays.data.markers.nodes import MarkerNodes, Shown
+from sambot_viz.displays.data.markers.marker_nodes import MarkerNodes, Shown
+from sambot_viz.displays.scene.frame_nodes import placed
 from sambot_viz.displays.scene.glb_node import GlbNode, drawn_glb
-from sambot_viz.displays.scene.nodes import placed
 from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.displays.scene.solid_nodes import AxesNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sambot_viz.panels.command import TEXT, command
-from sambot_viz.panels.displays.displays import DisplaysPanel
+from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Data, Json
 from sambot_viz.rviz import DisplayConfig

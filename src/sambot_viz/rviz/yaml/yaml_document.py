@@ -11,9 +11,9 @@ from sambot_viz import limits
 from sambot_viz.errors import ConfigError, Findings, Problem
 from sambot_viz.files import is_recording, read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
-from sambot_viz.rviz.yaml.nodes import Map, Node, Scalar, copied, same
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
 from sambot_viz.rviz.yaml.writer import Writer
+from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar, copied, same
 
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
 

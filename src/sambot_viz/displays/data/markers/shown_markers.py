@@ -14,7 +14,7 @@ from sambot_viz.displays.data.markers.checks import (
     POINTS,
     SPHERE_LIST,
 )
-from sambot_viz.displays.data.markers.fields import (
+from sambot_viz.displays.data.markers.marker_fields import (
     MarkerPose,
     alpha_of,
     points_of,
@@ -26,7 +26,7 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.points import PointNode, PointShape, PointStyle
 from sambot_viz.displays.scene.ribbons import RibbonNode
-from sambot_viz.displays.scene.texts import TextNode
+from sambot_viz.displays.scene.text_node import TextNode
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.glb import OPAQUE_FROM
 

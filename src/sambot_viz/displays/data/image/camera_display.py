@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from sambot_viz import limits
+from sambot_viz.displays.camera_pictures import NO_PICTURE, CameraPicture
 from sambot_viz.displays.data.image.camera_info import (
     CAMERA_INFO,
     CameraNumbers,
@@ -22,8 +23,8 @@ from sambot_viz.displays.data.image.encodings import (
     Values,
     require_shown,
 )
-from sambot_viz.displays.data.image.files import picture_of
-from sambot_viz.displays.data.image.image import NONE_YET
+from sambot_viz.displays.data.image.image_display import NONE_YET
+from sambot_viz.displays.data.image.image_files import picture_of
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
 from sambot_viz.displays.data.image.transports import (
     ROS1_HINT,
@@ -35,11 +36,10 @@ from sambot_viz.displays.data.image.transports import (
 from sambot_viz.displays.data.image.visibility import VISIBILITY, Visibility
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
-from sambot_viz.displays.data.refusals import MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext, EntryList
-from sambot_viz.displays.pictures import NO_PICTURE, CameraPicture
-from sambot_viz.displays.scene.nodes import placed
+from sambot_viz.displays.scene.frame_nodes import placed
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import Matrix, wxyz_from_matrix
 from sambot_viz.meanings import Meaning

@@ -18,7 +18,10 @@ from sambot_viz.displays.data.message_numbers import (
     point_of,
     require_finite,
 )
-from sambot_viz.displays.data.poses.covariance import COVARIANCE, covariance_look
+from sambot_viz.displays.data.poses.covariance_properties import (
+    COVARIANCE,
+    covariance_look,
+)
 from sambot_viz.displays.data.poses.pose_shapes import (
     ARROW,
     AXES,
@@ -29,10 +32,10 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     look_of,
 )
 from sambot_viz.displays.data.properties import alpha_property
-from sambot_viz.displays.data.refusals import MessageRefused
+from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
-from sambot_viz.displays.scene.nodes import position_of
+from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import (

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from sambot_viz import limits
+from sambot_viz.displays.camera_pictures import NO_PICTURE
 from sambot_viz.displays.data.image.encodings import (
     IMAGE,
     Bytes,
     Values,
     require_shown,
 )
-from sambot_viz.displays.data.image.files import picture_of
+from sambot_viz.displays.data.image.image_files import picture_of
 from sambot_viz.displays.data.image.ranges import Ranges, scaled
 from sambot_viz.displays.data.image.transports import (
     ROS1_HINT,
@@ -19,10 +20,9 @@ from sambot_viz.displays.data.image.transports import (
     hint_property,
     sent_topic,
 )
-from sambot_viz.displays.data.refusals import MessageRefused, refusing
+from sambot_viz.displays.data.refused_messages import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.pictures import NO_PICTURE
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     BoolProperty,

@@ -11,7 +11,7 @@ from sambot_viz.displays.display import Display, EntryList
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.problems.problems import without_folders
+from sambot_viz.panels.problems.problems_panel import without_folders
 from sambot_viz.panels.problems.status_rows import (
     LEVELS,
     STATUS,

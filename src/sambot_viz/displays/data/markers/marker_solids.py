@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from sambot_viz.displays.data.markers.checks import ARROW, CUBE, SPHERE
-from sambot_viz.displays.data.markers.fields import MarkerPose, alpha_of, rgb_of
+from sambot_viz.displays.data.markers.marker_fields import MarkerPose, alpha_of, rgb_of
 from sambot_viz.displays.scene.solid_nodes import Kind, Solid
 from sambot_viz.displays.scene.solids import AXIS_WXYZ, Rgb, arrow_wxyz
 from sambot_viz.geometry import Vector3, Wxyz, wxyz_product, wxyz_rotated

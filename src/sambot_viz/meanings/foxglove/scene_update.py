@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.foxglove.parts import (
+from sambot_viz.meanings.foxglove.common_parts import (
     color_of,
     header_of,
     part,
@@ -16,7 +16,7 @@ from sambot_viz.meanings.foxglove.parts import (
     pose_of,
     time_of,
 )
-from sambot_viz.meanings.row import Fields
+from sambot_viz.meanings.schema_row import Fields
 from sambot_viz.messages.shape import real_number, whole_number
 
 _ARROW, _CUBE, _SPHERE, _CYLINDER, _LINE_STRIP, _LINE_LIST = range(6)

@@ -10,23 +10,23 @@ import numpy as np
 import numpy.typing as npt
 import viser
 
-from sambot_viz.displays.data.markers.fields import (
+from sambot_viz.displays.data.markers.marker_fields import (
     alpha_of,
     rgb_of,
     rgba_of,
 )
-from sambot_viz.displays.data.markers.textures import (
+from sambot_viz.displays.data.markers.marker_textures import (
     has_texture,
     is_clear,
     texture_of,
     uv_of,
 )
 from sambot_viz.displays.data.message_numbers import coordinates_of
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.placed import PlacedMesh
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
+from sambot_viz.displays.scene.frame_nodes import NodeCache, placed
 from sambot_viz.displays.scene.glb_node import GlbNode, digest_of, drawn_glb
-from sambot_viz.displays.scene.nodes import NodeCache, placed
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.geometry import (
     IDENTITY,

@@ -9,12 +9,12 @@ from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Level
-from sambot_viz.session.clients.client import Client
-from sambot_viz.session.picture import (
+from sambot_viz.session.client_picture import (
     SHORTEST_SIDE,
     PictureError,
     picture_of,
 )
+from sambot_viz.session.clients.client import Client
 from sambot_viz.session.robot.motion_recorder import Past
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene

@@ -13,23 +13,23 @@ from sambot_viz.displays.data.markers.checks import (
     SOLIDS,
     TEXT,
 )
-from sambot_viz.displays.data.markers.drawing import (
+from sambot_viz.displays.data.markers.marker_meshes import MeshFinder, MeshNodes
+from sambot_viz.displays.data.markers.marker_solids import solids_of
+from sambot_viz.displays.data.markers.marker_triangles import TrianglesNode
+from sambot_viz.displays.data.markers.shown_markers import (
     Shown,
     draw_lines,
     draw_list,
     draw_text,
 )
-from sambot_viz.displays.data.markers.meshes import MeshFinder, MeshNodes
-from sambot_viz.displays.data.markers.solids import solids_of
-from sambot_viz.displays.data.markers.triangles import TrianglesNode
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import Placed
 from sambot_viz.displays.picking.selectable import Selectable
-from sambot_viz.displays.scene.nodes import short_id
+from sambot_viz.displays.scene.frame_nodes import short_id
 from sambot_viz.displays.scene.points import PointNode
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
-from sambot_viz.displays.scene.texts import TextNode
+from sambot_viz.displays.scene.text_node import TextNode
 from sambot_viz.geometry import Matrix
 from sambot_viz.meshes.glb import OPAQUE_FROM
 

@@ -8,14 +8,14 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 from sambot_viz import limits, viser_private
-from sambot_viz.displays.data.markers.fields import alpha_of, rgb_of
+from sambot_viz.displays.data.markers.marker_fields import alpha_of, rgb_of
 from sambot_viz.displays.display import DisplayContext
-from sambot_viz.displays.picking.meshes import TriangleMesh
 from sambot_viz.displays.picking.placed import PlacedMesh
 from sambot_viz.displays.picking.selectable import Selectable
+from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.displays.robot_display import Description, ModelRequest, ModelResult
 from sambot_viz.displays.robot_model.shape_solids import rgb255
-from sambot_viz.displays.scene.nodes import Handle, NodeCache, any_gone, placed
+from sambot_viz.displays.scene.frame_nodes import Handle, NodeCache, any_gone, placed
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.geometry import (

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 from sambot_viz.errors import DecodeError
-from sambot_viz.meanings.row import Fields
+from sambot_viz.meanings.schema_row import Fields
 from sambot_viz.messages.shape import is_fields, time_parts
 
 IDENTITY = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}

@@ -11,7 +11,7 @@ import math
 
 from sambot_viz.displays.scene.lines import PathLine
 from sambot_viz.drive.differential import DifferentialDrive, PlanarPose, WheelPair
-from sambot_viz.drive.wheels import find_wheel_pair
+from sambot_viz.drive.driven_wheels import find_wheel_pair
 from sambot_viz.errors import FrameError, JointError, Problem
 from sambot_viz.frames import Transform
 from sambot_viz.frames.hierarchy import plain_name
@@ -19,8 +19,8 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.joints.animation import wrap_angle
 from sambot_viz.options import Options
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.robot.session_frames import Frames
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Throttle, Worker

@@ -18,8 +18,8 @@ from sambot_viz.panels.frames.frame_answer import answer_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
-from sambot_viz.session.robot.frames import Frames
 from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.robot.session_frames import Frames
 from sambot_viz.session.robot.user_frames import UserFrame
 from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene
