@@ -105,10 +105,10 @@ def shared() -> Path:
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Chromium]:
     """The browser, one for all tests of a worker; pages have storage of their own."""
-    from a_chromium import QUICK, a_chromium
+    from a_chromium import a_chromium
     from patience import patience
 
-    with a_chromium(timeout=patience(60.0), flags=QUICK) as browser:
+    with a_chromium(timeout=patience(60.0)) as browser:
         yield browser
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -31,6 +30,11 @@ _FLAGS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--force-color-profile=srgb",
+    # Only the 3D view needs OpenGL; software draws the rest of a page sooner so.
+    "--disable-gpu-rasterization",
+    "--disable-gpu-compositing",
+    # Pages of the browser's own, which it loads for the address bar of each window.
+    "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
     # No traffic of the browser's own, and none to other machines.
     "--disable-background-networking",
     "--disable-component-update",
@@ -73,7 +77,6 @@ class Chromium:
         *,
         timeout: float = 30.0,
         scroll_bars: bool = False,
-        flags: Sequence[str] = (),
     ) -> None:
         """Remember what to start; `__enter__` starts it.
 
@@ -81,12 +84,10 @@ class Chromium:
             executable: the browser's program; None to look for one.
             timeout: how long its start, and later each call, may take [s].
             scroll_bars: show them as on a desktop; a picture has none.
-            flags: further command line flags.
         """
         self._executable = executable
         self._timeout = timeout
-        hidden = () if scroll_bars else ("--hide-scrollbars",)
-        self._flags = (*hidden, *flags)
+        self._flags = () if scroll_bars else ("--hide-scrollbars",)
         self._process: BrowserProcess | None = None
         self._profile: Path | None = None
         self._devtools: DevTools | None = None
