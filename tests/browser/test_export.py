@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from inside import node_of, session_of
 from recorded_page import open_page
-from viewer_page import ViewerPage
+from viewer_page import COARSE, ViewerPage
 
 from sambot_viz import Visualizer
 from sambot_viz.export.chromium import Chromium
@@ -34,7 +34,7 @@ def open_file(chromium: Chromium) -> Iterator[Open]:
 
     def open_one(file: Path, width: int = 800, height: int = 640) -> ViewerPage:
         page = open_page(chromium, width, height)
-        url = f"file://{file}?fixedDpr=1"
+        url = f"file://{file}?fixedDpr={COARSE:g}"
         page.goto(url)
         page.wait_for("document.querySelector('#sambot[data-ready]')", 30.0)
         viewer = ViewerPage(page, url)
