@@ -14,6 +14,8 @@ from typing import TypeVar
 
 T = TypeVar("T")
 _FACTOR = float(os.environ.get("SAMBOT_VIZ_PATIENCE", "1"))
+NOT_YET = (AssertionError, ValueError)
+"""What a condition raises that asserts, or unpacks, what is not there yet."""
 _PAUSES = (0.02, 0.03, 0.05, 0.08, 0.12)
 """Between two looks [s]: to look costs time too, which what is waited for needs."""
 
@@ -27,7 +29,7 @@ def until(
     condition: Callable[[], T],
     timeout: float = 10.0,
     why: str = "",
-    not_yet: type[Exception] | tuple[type[Exception], ...] = AssertionError,
+    not_yet: type[Exception] | tuple[type[Exception], ...] = NOT_YET,
 ) -> T:
     """Return what a condition gives as soon as it is true.
 

@@ -21,7 +21,7 @@ from typing import Any, TypeVar, cast
 
 from ax_tree import Name, Role, Thing, look, rows_of
 from browser_input import Button, Point
-from patience import until
+from patience import NOT_YET, until
 from recorded_page import RecordedPage
 
 from sambot_viz.export.devtools import BrowserError
@@ -126,12 +126,12 @@ class User:
     ) -> T:
         """Return what a condition gives as soon as it is true.
 
-        A condition that raises an AssertionError is not true yet.
+        A condition that raises an AssertionError or ValueError is not true yet.
 
         Raises:
             AssertionError: it did not become true within `timeout` seconds.
         """
-        return until(condition, timeout, why, (AssertionError, BrowserError))
+        return until(condition, timeout, why, (*NOT_YET, BrowserError))
 
     def find(self, role: Role, name: Name = None, *inside: tuple[Role, Name]) -> Thing:
         """Wait for the only thing of a role and name.

@@ -285,5 +285,5 @@ def test_the_robot_of_another_topic_is_read(messages: Open) -> None:
         return joints.facts("shoulder")["Max Effort"]
 
     until(lambda: limit() == "2")
-    assert shown.statuses["URDF"] == ("Ok", "Robot model parsed Ok")
-    assert circles(shown) == 1
+    until(lambda: shown.statuses["URDF"] == ("Ok", "Robot model parsed Ok"))
+    until(lambda: circles(shown) == 1)
