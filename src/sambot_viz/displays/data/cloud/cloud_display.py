@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -85,6 +85,8 @@ class CloudDisplay(MessageFilterDisplay[None]):
     """Draws the points of messages, of the newest one or of some seconds."""
 
     properties: ClassVar[tuple[Property, ...]] = (topic_property(), *CLOUD_PROPERTIES)
+    points_of: ClassVar[Callable[[Any], Cloud]]
+    """Reads the points of a message; for those that need no more than that."""
     in_fixed_frame: ClassVar[bool] = False
     """Whether its points are those in the fixed frame, not in that of the message."""
 
@@ -104,7 +106,7 @@ class CloudDisplay(MessageFilterDisplay[None]):
         Raises:
             MessageRefused: its points cannot be drawn.
         """
-        raise NotImplementedError
+        return type(self).points_of(message), T_fixed_frame.matrix
 
     @property
     def needs_last_only(self) -> bool:

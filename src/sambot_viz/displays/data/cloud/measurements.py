@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -12,8 +13,6 @@ from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
 from sambot_viz.displays.data.cloud.cloud_properties import CHANNEL, CLOUD_PROPERTIES
 from sambot_viz.displays.data.message_numbers import require_finite
 from sambot_viz.displays.data.topic_display import topic_property
-from sambot_viz.frames import Transform
-from sambot_viz.geometry import Matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import Property
 
@@ -43,55 +42,56 @@ def measurement_properties(
     return (topic_property(), *changed)
 
 
-class MeasurementDisplay(CloudDisplay):
-    """Draws what a sensor measures as a point at its frame."""
+def point_with(field: str) -> Callable[[Any], Cloud]:
+    """Return what reads a message as a point at its frame.
 
-    field: ClassVar[str]
-    """The field of the message with the value."""
+    Args:
+        field: of the message, with the value that is measured.
+    """
 
-    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
-        """Return a point at the origin of the frame."""
-        value = float(getattr(message, self.field))
+    def read(message: Any) -> Cloud:
+        value = float(getattr(message, field))
         require_finite([value])
-        fields = {self.field: np.array([value])}
-        return Cloud(np.zeros((1, 3), np.float32), fields), T_fixed_frame.matrix
+        return Cloud(np.zeros((1, 3), np.float32), {field: np.array([value])})
+
+    return read
 
 
-class FluidPressureDisplay(MeasurementDisplay):
+class FluidPressureDisplay(CloudDisplay):
     """The pressure of sensor_msgs/FluidPressure [Pa]."""
 
     kind = "rviz_default_plugins/FluidPressure"
     help = "Pressures as coloured points."
     meanings = frozenset({Meaning.PRESSURE})
-    field = "fluid_pressure"
-    properties = measurement_properties(field, 98000.0, 105000.0)
+    points_of = point_with("fluid_pressure")
+    properties = measurement_properties("fluid_pressure", 98000.0, 105000.0)
 
 
-class IlluminanceDisplay(MeasurementDisplay):
+class IlluminanceDisplay(CloudDisplay):
     """The brightness of sensor_msgs/Illuminance [lx]."""
 
     kind = "rviz_default_plugins/Illuminance"
     help = "Brightnesses as coloured points."
     meanings = frozenset({Meaning.LIGHT})
-    field = "illuminance"
-    properties = measurement_properties(field, 0.0, 1000.0)
+    points_of = point_with("illuminance")
+    properties = measurement_properties("illuminance", 0.0, 1000.0)
 
 
-class RelativeHumidityDisplay(MeasurementDisplay):
+class RelativeHumidityDisplay(CloudDisplay):
     """The humidity of sensor_msgs/RelativeHumidity, 0 to 1."""
 
     kind = "rviz_default_plugins/RelativeHumidity"
     help = "Humidities as coloured points."
     meanings = frozenset({Meaning.HUMIDITY})
-    field = "relative_humidity"
-    properties = measurement_properties(field, 0.0, 1.0)
+    points_of = point_with("relative_humidity")
+    properties = measurement_properties("relative_humidity", 0.0, 1.0)
 
 
-class TemperatureDisplay(MeasurementDisplay):
+class TemperatureDisplay(CloudDisplay):
     """The temperature of sensor_msgs/Temperature [°C]."""
 
     kind = "rviz_default_plugins/Temperature"
     help = "Temperatures as coloured points."
     meanings = frozenset({Meaning.TEMPERATURE})
-    field = "temperature"
-    properties = measurement_properties(field, 0.0, 100.0, is_inverted=True)
+    points_of = point_with("temperature")
+    properties = measurement_properties("temperature", 0.0, 100.0, is_inverted=True)

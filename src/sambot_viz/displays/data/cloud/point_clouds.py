@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from sambot_viz.displays.data.cloud.cloud import Cloud, cloud_of_cloud, cloud_of_cloud2
+from sambot_viz.displays.data.cloud.cloud import cloud_of_cloud, cloud_of_cloud2
 from sambot_viz.displays.data.cloud.cloud_display import CloudDisplay
-from sambot_viz.frames import Transform
-from sambot_viz.geometry import Matrix
 from sambot_viz.meanings import Meaning
 
 
@@ -23,10 +19,7 @@ class PointCloud2Display(CloudDisplay):
         "rounding decides. So it is in all displays of points."
     )
     meanings = frozenset({Meaning.CLOUD})
-
-    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
-        """Return the points of a message, and the pose of its frame."""
-        return cloud_of_cloud2(message), T_fixed_frame.matrix
+    points_of = cloud_of_cloud2
 
 
 class PointCloudDisplay(CloudDisplay):
@@ -35,7 +28,4 @@ class PointCloudDisplay(CloudDisplay):
     kind = "rviz_default_plugins/PointCloud"
     help = "Points, in the older kind of message."
     meanings = frozenset({Meaning.OLD_CLOUD})
-
-    def cloud_of(self, message: Any, T_fixed_frame: Transform) -> tuple[Cloud, Matrix]:
-        """Return the points of a message, and the pose of its frame."""
-        return cloud_of_cloud(message), T_fixed_frame.matrix
+    points_of = cloud_of_cloud
