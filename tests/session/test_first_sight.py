@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from any_recording import Given, write_any
+from inside import session_of
 from live_peers import eventually
 from made_recording import write_recording
 from robot_peer import BusyPeer, square_peer
@@ -30,7 +31,7 @@ def shown(request: pytest.FixtureRequest) -> Show:
     def show(source: Path, **options: object) -> Session:
         viz = Visualizer(source=str(source), port=0, **options)  # pyright: ignore
         request.addfinalizer(viz.stop)
-        return viz.server.sessions.all()[0]
+        return session_of(viz)
 
     return show
 
@@ -100,7 +101,7 @@ def test_a_live_robot_without_a_description_is_seen_in_the_frame_at_its_top(
         stopped(BusyPeer(recording)) as peer,
         Visualizer(source=peer.uri, port=0) as viz,
     ):
-        session = viz.server.sessions.all()[0]
+        session = session_of(viz)
         options = session.document.config.global_options
         eventually(lambda: options.get("Fixed Frame") == "map")
         eventually(lambda: session.scene.global_status().level == "Ok")
@@ -197,7 +198,7 @@ def test_a_live_robot_shows_its_topics_as_they_come(repository: Path) -> None:
         square_peer(repository, BusyPeer) as peer,
         Visualizer(source=peer.uri, port=0) as viz,
     ):
-        session = viz.server.sessions.all()[0]
+        session = session_of(viz)
         eventually(lambda: "/scan" in peer.subscribed())
         with session.lock:
             assert {"LaserScan", "Odometry"} <= set(kinds(session.document.config))

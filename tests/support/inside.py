@@ -27,7 +27,16 @@ def node_of(viz: Visualizer, frame: str) -> str:
 
 
 def session_of(viz: Visualizer) -> Session:
-    """The session of all browsers, or of the one that came first."""
+    """The session of all browsers, or of the one that came first; the test looks."""
+    session = session_alone_of(viz)
+    if session.data is not None:
+        with session.lock:
+            session.data.look("test")
+    return session
+
+
+def session_alone_of(viz: Visualizer) -> Session:
+    """The same, while nobody looks at it."""
     return viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
 
 

@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,8 +49,12 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
     from sambot_viz.visualizer import Visualizer
 
     options, (width, height) = inputs.options, size
-    with _exit_on_sigterm(), Visualizer.of_inputs(inputs) as viz:
+    with ExitStack() as stack:
+        stack.enter_context(_exit_on_sigterm())
+        viz = stack.enter_context(Visualizer.of_inputs(inputs))
         session = viz.server.sessions.all()[0]
+        # Before there is a page: the camera looks at all that is drawn.
+        stack.enter_context(session.looked_at())
         if inputs.moved_by is not None and inputs.moved_by.can("seek"):
             # The page would play it.
             viz.player.pause()

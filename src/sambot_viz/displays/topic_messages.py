@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeAlias
 
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.topics.subscription import Subscription
+
+Rests: TypeAlias = Literal["never", "where recorded", "always"]
+"""Whether messages come while nobody looks.
+
+Those of a recording are there again with the first page, as after a jump. Of a robot
+only a stream of large messages may rest, each of which takes the place of the last.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +74,20 @@ class TopicMessages(Protocol):
         size: int,
         base: str = "",
         minds_older: bool = False,
+        rests: Rests = "never",
     ) -> Subscription:
-        """Ask for the messages of some topics (see `Subscription` for the arguments).
+        """Ask for the messages of some topics (see `Subscription` for the others).
 
         Those that hold at the present time wait already, in a recording.
+
+        Args:
+            topics: their names.
+            came: called when there are some.
+            depth_s: how far back messages count.
+            size: so many wait at most.
+            base: what changes are made to.
+            minds_older: whether older ones matter.
+            rests: whether they are left alone while nobody looks.
         """
         ...
 

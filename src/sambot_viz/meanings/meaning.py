@@ -66,7 +66,23 @@ class Meaning(Enum):
         name = _DISPLAYS.get(self)
         return name if name is None or "/" in name else f"rviz_default_plugins/{name}"
 
+    @property
+    def is_large(self) -> bool:
+        """Whether it comes as a stream of large messages; the newest counts."""
+        return self in _LARGE
 
+
+_LARGE = frozenset(
+    {
+        Meaning.CLOUD,
+        Meaning.OLD_CLOUD,
+        Meaning.SCAN,
+        Meaning.GRID,
+        Meaning.GRID_UPDATE,
+        Meaning.IMAGE,
+        Meaning.IMAGE_FILE,
+    }
+)
 _DISPLAYS = {
     Meaning.TRANSFORMS: "TF",
     Meaning.TEXT: "RobotModel",

@@ -34,7 +34,8 @@ def picture_of(server: Server, size: Size) -> bytes:
     if session is None:
         raise UsageError("a picture is taken of a shared session, not of private ones")
     width, height = _checked(size)
-    with Chromium() as chromium:
+    # The camera looks at all that is drawn.
+    with session.looked_at(), Chromium() as chromium:
         server.sessions.wait_for_meshes(LONGEST_WAIT)
         with session.lock:
             view = session.document_view
@@ -76,7 +77,10 @@ def page_of(
         look: "rviz" or "studio".
     """
     shown = session.copy()
-    first = ViewState.at_first(session.document_view, session.robot.model is not None)
+    with session.looked_at():
+        first = ViewState.at_first(
+            session.document_view, session.robot.model is not None
+        )
     if motion is None:
         moves = "sweep" if shown.recorded is None else "recording"
         return page_file(shown, first, moves if sweep else "none", look=look)

@@ -283,6 +283,9 @@ class Sessions:
             poses,
             self._moved_by,
         )
+        if audience is self._server and session.data is not None:
+            # Its pages are still to come.
+            session.data.rest()
         connect([session.scene.statuses, session.checks.files], self._tell_files)
         if copy is not None:
             session.prepare(copy)

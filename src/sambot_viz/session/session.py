@@ -9,6 +9,8 @@ streams at the config's Frame Rate.
 from __future__ import annotations
 
 import threading
+from collections.abc import Generator
+from contextlib import contextmanager
 
 import viser
 
@@ -162,8 +164,23 @@ class Session:
         with self.lock:
             self.roles.join(handle.client_id, presenter, login)
             if self.data is not None:
+                self.data.look(handle.client_id)
                 self.data.begin()
             return self.clients.join(handle)
+
+    @contextmanager
+    def looked_at(self) -> Generator[None]:
+        """Draw all that there is, also without a page, until the end of the block."""
+        viewer = object()
+        with self.lock:
+            if self.data is not None:
+                self.data.look(viewer)
+        try:
+            yield
+        finally:
+            with self.lock:
+                if self.data is not None:
+                    self.data.leave(viewer)
 
     def take_camera(self, client_id: int, number: int, camera: Camera) -> None:
         """Take what a page reports of its camera; see `ClientCamera.take`."""
@@ -176,6 +193,8 @@ class Session:
         with self.lock:
             self.clients.leave(client_id)
             self.roles.leave(client_id)
+            if self.data is not None:
+                self.data.leave(client_id)
 
     def show_robot(self, robot: Robot, *, own: bool = False) -> None:
         """Show a robot, or the same after an edit: joints keep their values.

@@ -14,6 +14,7 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.triangle_mesh import Part
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import (
+    Rests,
     TopicDoubt,
     topics_of,
     values_of_topic,
@@ -137,6 +138,12 @@ class TopicDisplay(Display):
         """So many messages wait at most between two pictures."""
         return limits.DISPLAY_WAITING.value
 
+    @property
+    def rests(self) -> Rests:
+        """Whether its messages may wait until somebody looks."""
+        is_large = any(meaning.is_large for meaning in self.meanings)
+        return "always" if is_large else "where recorded"
+
     def other_topics(self) -> Sequence[str]:
         """Return what it listens to beside its topic."""
         return ()
@@ -209,6 +216,7 @@ class TopicDisplay(Display):
             size=self.most_waiting,
             base=self.base_topic,
             minds_older=self.minds_older,
+            rests=self.rests,
         )
         self.begin()
         self._take()

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Literal
 
 from sambot_viz.displays.robot_display import WantedQos
-from sambot_viz.displays.topic_messages import TopicDoubt, topics_of
+from sambot_viz.displays.topic_messages import Rests, TopicDoubt, topics_of
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.feed import Feed
@@ -22,6 +22,8 @@ from sambot_viz.topics.subscription import Subscription
 
 class DisplayTopics:
     """Keeps what displays have subscribed to.
+
+    While nobody looks, what may rest is neither asked for nor decoded.
 
     Args:
         moved_by: decodes the messages.
@@ -42,7 +44,9 @@ class DisplayTopics:
         self._wake = wake
         self._report = report
         self._decoding = moved_by.new_decoding()
-        self._subscriptions: list[Subscription] = []
+        self._subscriptions: dict[Subscription, Rests] = {}
+        self._asleep: set[Subscription] = set()
+        self._is_seen = True
         self._types: tuple[object, Mapping[str, str]] = (None, {})
 
     def subscribe(
@@ -54,8 +58,9 @@ class DisplayTopics:
         size: int,
         base: str = "",
         minds_older: bool = False,
+        rests: Rests = "never",
     ) -> Subscription:
-        """Ask for the messages of some topics."""
+        """Ask for the messages of some topics; see `TopicMessages`."""
         made = Subscription(
             topics,
             self._decoding.in_turn(),
@@ -65,14 +70,42 @@ class DisplayTopics:
             base=base,
             minds_older=minds_older,
         )
-        self._subscriptions.append(made)
-        self._feed.add(made, partial(self._receive, made))
+        self._subscriptions[made] = rests
+        if self._is_seen or not self._rests(made):
+            self._feed.add(made, partial(self._receive, made))
+        else:
+            self._asleep.add(made)
         return made
 
     def unsubscribe(self, subscription: Subscription) -> None:
         """Ask for them no longer."""
-        self._subscriptions.remove(subscription)
-        self._feed.remove(subscription)
+        del self._subscriptions[subscription]
+        if subscription in self._asleep:
+            self._asleep.remove(subscription)
+        else:
+            self._feed.remove(subscription)
+
+    def rest(self) -> None:
+        """Ask for what may rest no longer: nobody looks."""
+        self._is_seen = False
+        for one in self._subscriptions.keys() - self._asleep:
+            if self._rests(one):
+                self._asleep.add(one)
+                self._feed.remove(one)
+
+    def wake(self) -> None:
+        """Ask for all again: somebody looks. Recorded messages of now wait at once."""
+        self._is_seen = True
+        for one in self._asleep:
+            one.clear()
+            self._feed.add(one, partial(self._receive, one))
+        self._asleep.clear()
+
+    def _rests(self, subscription: Subscription) -> bool:
+        rests = self._subscriptions[subscription]
+        if rests == "where recorded":
+            return any(map(self._feed.is_recorded, subscription.topics))
+        return rests == "always"
 
     @property
     def has_news(self) -> bool:
@@ -82,7 +115,7 @@ class DisplayTopics:
     def deliver(self) -> None:
         """Let those draw for whom something has come, or who wait for a transform."""
         for one in list(self._subscriptions):
-            if one.has_news:
+            if one.has_news and one not in self._asleep:
                 try:
                     one.came()
                 except Exception as error:

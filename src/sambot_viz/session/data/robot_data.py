@@ -28,6 +28,8 @@ from sambot_viz.topics.transforms import problems_of_transforms
 
 AGEING_PERIOD = 0.5
 """So often frames grow older [s]."""
+RESTS_AFTER = 10.0
+"""So long after the last page data are still drawn, which may be loaded again [s]."""
 
 
 class RobotData:
@@ -85,6 +87,8 @@ class RobotData:
         self._renamed = 0
         self._looked = float("-inf")
         self._closed = False
+        self._viewers: set[object] = set()
+        self._left = 0.0
         source = self.source = moved_by.source.of_session()
         self.player: Player | None = None
         if source.playback is not None:
@@ -133,6 +137,32 @@ class RobotData:
         """Play a recording when the first page is there, unless it was stopped."""
         if self.player is not None:
             self.player.begin()
+
+    # Who looks
+
+    def rest(self) -> None:
+        """Decode no data until somebody looks; the robot and its frames move on."""
+        self.messages.rest()
+
+    def look(self, viewer: object) -> None:
+        """Show what is there now to one more viewer."""
+        if not self._viewers:
+            with self._change():
+                self.messages.wake()
+                self._robot.messages_came()
+            self._look_at_time(jumped=True)
+        self._viewers.add(viewer)
+
+    def leave(self, viewer: object) -> None:
+        """Take note that one looks no longer; after the last one data rest, later."""
+        self._viewers.discard(viewer)
+        self._left = self._worker.clock.now()
+        self._worker.post_later(RESTS_AFTER, self._rest_alone)
+
+    def _rest_alone(self) -> None:
+        alone_s = self._worker.clock.now() - self._left
+        if not self._viewers and not self._closed and alone_s >= RESTS_AFTER:
+            self.rest()
 
     def resume(self) -> None:
         """Show what messages say now, after another robot is shown."""
