@@ -65,6 +65,7 @@ def _live(given: GivenSource) -> Source:
     from sambot_viz.sources.registry import open_source
 
     source = open_source(given.uri)
+    source.uri = given.name or source.uri
     return PrefixedSource(source, given.prefix) if given.prefix else source
 
 

@@ -14,6 +14,8 @@ from sambot_viz import Visualizer
 
 pytestmark = pytest.mark.browser
 
+PALETTE = "Go to a display, joint, frame or command"
+
 
 @pytest.fixture
 def viz(make_viz: Callable[..., Visualizer], repository: Path) -> Visualizer:
@@ -43,6 +45,15 @@ def test_a_topic_is_found_by_a_search_and_a_display_is_added_for_it(
     user.row("Displays", "LaserScan", "Topic")
     added = session_of(viz).document.config.displays[-1]
     assert added.get("Topic") == "/scan"
+
+
+def test_a_topic_is_gone_to_from_anywhere(user: User) -> None:
+    user.keys("Control+k")
+    user.until(lambda: user.find("combobox", PALETTE).state("focused"))
+    user.type("/scan")
+    user.keys("Enter")
+    # The panel was not open before.
+    user.until(lambda: user.row("Topics", "/scan").state("focused"))
 
 
 TREE = "Topics and their displays"

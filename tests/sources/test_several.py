@@ -12,6 +12,7 @@ from made_recording import START, described, write_recording
 from robot_peer import RobotPeer, square_peer
 
 from sambot_viz import UsageError, Visualizer
+from sambot_viz.cli import main
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.panels.sources.source import SourcePanel
@@ -98,16 +99,17 @@ def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
         # A jump of the recording is none of the robot, which has said nothing since.
         assert x(viz, "base_link") == pytest.approx(1.0, abs=0.03)
         # What can seek is played, and of the robot is told how it is.
+        assert session.data is not None
         panel = SourcePanel(session.data)
         assert [row.id for row in panel.rows()][:2] == ["player/time", "player/playing"]
         told = {one.id: one.value for one in panel.data()}
         assert told["player/name"] == "before"
         assert told["source/status"]["connected"]
+        assert told["source/status"]["name"] == "now"
         assert panel.values()["player/time"] == 2.0
         # The robot goes on by itself.
         eventually(lambda: is_at(0.0, peer, 14.0, viz, "base_link"))
         assert x(viz, "old/base_link") == 2.0
-        assert session.data is not None
         topics = session.data.topics
         assert {"/tf", "/old/tf"} <= set(topics.names)
         # The recording stands still while the robot's clock goes on.
@@ -130,9 +132,17 @@ def test_two_robots_are_told_apart_by_a_prefix(
                 eventually(lambda one=one: "/tf" in one.subscribed())
             eventually(lambda: is_at(0.5, peer, 2.0, viz, "base_link"))
             eventually(lambda: is_at(1.0, other, 4.0, viz, "b/base_link"))
+            data = session_of(viz).data
+            assert data is not None
+            assert data.moved_by.source.status.is_whole
             other.stop()
-            sentence = session_of(viz).data.moved_by.source.status.sentence
-            assert sentence.count(";") >= 1
+            eventually(lambda: not data.moved_by.source.status.is_whole)
+            # Which one is missing is said first, and by its name.
+            told = {one.id: one.value for one in SourcePanel(data).data()}
+            status = told["source/status"]
+            assert (status["name"], status["connected"]) == ("a and b", False)
+            assert status["sentence"].startswith("b: ")
+            assert "; a: Connected to 127.0.0.1" in status["sentence"]
 
 
 @pytest.mark.parametrize(
@@ -149,3 +159,29 @@ def test_names_and_prefixes_that_cannot_be_are_refused(
 ) -> None:
     with pytest.raises(UsageError, match=words):
         Options(source=source, source_prefix=prefixes)
+
+
+@pytest.mark.parametrize("command", ["topics", "frames", "snapshot", "export", "echo"])
+@pytest.mark.parametrize(
+    "sources",
+    [
+        ["assets/square.mcap", "foxglove://127.0.0.1:1"],
+        ["foxglove://127.0.0.1:1", "foxglove://127.0.0.1:2"],
+        ["a=foxglove://127.0.0.1:1"],
+    ],
+)
+def test_a_command_that_looks_once_listens_to_one_robot(
+    command: str, sources: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [word for source in sources for word in ("--source", source)]
+    if len(sources) == 1:
+        words += ["--source-prefix", "a=robot1"]
+    words += {
+        "snapshot": ["-o", str(tmp_path / "a.png")],
+        "export": ["-o", str(tmp_path / "a.html")],
+        "echo": ["odom", "base_link"],
+    }.get(command, [])
+    assert main([command, *words]) == 2
+    error = capsys.readouterr().err
+    assert "listens to one robot, without a prefix: name one source" in error
+    assert not list(tmp_path.iterdir())

@@ -72,19 +72,29 @@ class JoinedSources:
 
     @property
     def status(self) -> SourceStatus:
-        """How all of them are: connected when one of those is that can be lost."""
-        every = [part.status for part in self.parts if part.live is not None]
-        every = every or [part.status for part in self.parts]
+        """How all of them are: connected when one of those is that can be lost.
+
+        What is missing is said first.
+        """
+        parts = [part for part in self.parts if part.live is not None] or self.parts
+        named = [(part.uri, part.status) for part in parts]
+        every = [status for _, status in named]
+        said = [
+            f"{name}: {status.sentence}" if len(named) > 1 else status.sentence
+            for name, status in sorted(named, key=lambda one: one[1].is_connected)
+            if status.sentence
+        ]
         pauses = [one.retry_s for one in every if one.retry_s is not None]
         lags = [one.lag_s for one in every if one.lag_s is not None]
         return SourceStatus(
             any(one.is_connected for one in every),
-            "; ".join(one.sentence for one in every if one.sentence),
+            "; ".join(said),
             min(pauses, default=None),
             max(lags, default=None),
             sum(one.dropped for one in every),
             sum(one.unreadable for one in every),
             sum(one.session for one in every),
+            all(one.is_connected for one in every),
         )
 
     @property

@@ -37,6 +37,7 @@ class SourceStatus:
         dropped: messages that came and were dropped, since callbacks were too slow.
         unreadable: frames of the peer that made no sense.
         session: grows when the peer starts again; what came before is of another run.
+        is_whole: of several sources each one is connected.
     """
 
     is_connected: bool = False
@@ -46,6 +47,7 @@ class SourceStatus:
     dropped: int = 0
     unreadable: int = 0
     session: int = 0
+    is_whole: bool = True
 
 
 Capability = Literal[
@@ -74,7 +76,7 @@ class Source(Protocol):
     """A recording, or a connection to a robot that is made again when it is lost.
 
     Attributes:
-        uri: as the user wrote it.
+        uri: what the user calls it: its name, or as it was written.
         on_topics: called when `topics` has changed.
         on_status: called when `status` has changed; counters at most twice a second.
     """

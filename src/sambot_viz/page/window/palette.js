@@ -112,8 +112,8 @@ function commands() {
 export const GO_TO = "Ctrl+K";
 /** Rows that name nothing. */
 const UNNAMED = new Set(["note", "lines"]);
-/** Panels whose rows are not listed: what is wrong is a sentence, and frames have a list. */
-const NOT_BY_ROWS = new Set(["problems", "frames"]);
+/** Panels whose rows are not listed: what is wrong is a sentence, and frames and topics have lists. */
+const NOT_BY_ROWS = new Set(["problems", "frames", "topics"]);
 
 /** The rows of the panels, and the frames. @returns {Target[]} */
 function places() {
@@ -148,6 +148,17 @@ function places() {
         openPanel("frames");
         fold("frames/all", true);
         reveal("frames", `frame/${name}`);
+      },
+    })),
+    ...(rows.data("names/topics") || []).map((/** @type {string} */ name) => ({
+      kind: "topic",
+      icon: "",
+      name,
+      where: "Topics",
+      does: () => {
+        openPanel("topics");
+        // Its row comes with the panel.
+        reveal("topics", `topic:${name}`);
       },
     })),
   ];

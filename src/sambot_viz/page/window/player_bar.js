@@ -171,6 +171,7 @@ function Controls({ time }) {
   const rate = useRow("player/rate")?.value ?? 1;
   const loop = Boolean(useRow("player/loop")?.value);
   const begin = useData("player/begin") || 0;
+  const name = useData("player/name");
   const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
   /** What was told of the time, and when. @type {{current: {value: number, at: number}}} */
   const told = useRef({ value: time.value, at: performance.now() });
@@ -198,6 +199,7 @@ function Controls({ time }) {
   const short = clocks(shown, most, playing);
   const words = `${clock(shown)} of ${clock(most)}`;
   return html`
+    <${CutText} is="recording-name" text=${name} />
     <button class="play needs-control" aria-keyshortcuts="Space" title=${`${playing ? "Pause" : "Play"} (space bar)`}
       onClick=${play}><${Icon} name=${playing ? "pause" : "play"} />${playing ? "Pause" : "Play"}</button>
     <button class="flat needs-control" aria-label="To the beginning" title="To the beginning (Home)"

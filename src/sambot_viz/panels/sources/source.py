@@ -34,7 +34,7 @@ class SourcePanel(Panel):
     period = 1.0
 
     def __init__(self, data: RobotData, offers_recording: bool = False) -> None:
-        self.remade_by = (data.status,)
+        self.remade_by = (data.status, data.topics.looked)
         self.changed_by = () if data.player is None else (data.player.playback,)
         self._data = data
         self._player = data.player
@@ -50,8 +50,11 @@ class SourcePanel(Panel):
         return (*steps, self._data.clock.state) if self._is_live else steps
 
     def data(self) -> Sequence[Data]:
-        """Return name and begin [s since 1970] of what is played; how robots are."""
-        found: list[Data] = []
+        """Return the topics, what is played (from when [s since 1970]), and robots."""
+        # Those that have rows in the Topics panel; its search finds the others.
+        found = [
+            Data("names/topics", [*self._data.topics.names[: limits.TOPIC_ROWS.value]])
+        ]
         if (player := self._player) is not None:
             found.append(Data("player/name", player.source.uri))
             found.append(Data("player/begin", player.start_ns * 1e-9))
@@ -152,7 +155,8 @@ class SourcePanel(Panel):
         """Return the sentence of the robots, and whether messages can come."""
         robot = self._data.moved_by
         status, sentence = robot.source.status, robot.sentence
-        if status.retry_s is not None and not status.is_connected:
+        is_connected = status.is_connected and status.is_whole
+        if status.retry_s is not None and not is_connected:
             sentence += f"; next attempt in {max(1, round(status.retry_s))} s"
         if self._data.doubt is not None:
             sentence += f"; {self._data.doubt.text}"
@@ -162,7 +166,7 @@ class SourcePanel(Panel):
         live = self._data.source.live
         return {
             "name": robot.name if live is None else live.uri,
-            "connected": status.is_connected,
+            "connected": is_connected,
             "sentence": sentence,
             "recording": self._recording(),
         }
