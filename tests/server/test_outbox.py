@@ -96,6 +96,25 @@ def test_nothing_goes_out_while_changes_belong_together(
     assert len(set(frames)) == 1
 
 
+def test_all_parts_of_a_change_but_the_last_say_that_more_follows(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    client = protocol(server.get_port())
+    mark = client.mark()
+    with server.atomic():
+        for number in range(300):
+            server.scene.add_frame(f"/{number}")
+    client.settle(server)
+    late = protocol(server.get_port())
+    late.settle(server)
+    said = client.since(mark)
+    parts = list(dict.fromkeys(m.frame for m in said if m.type == "FrameMessage"))
+    unfinished = [m.frame for m in said if m.fields.get("name") == "~more"]
+    assert len(parts) > 2
+    assert unfinished == parts[:-1]
+    assert not [m for m in late.messages if m.fields.get("name") == "~more"]
+
+
 def test_messages_are_collected_once_for_all_clients(
     server: viser.ViserServer, protocol: Connect
 ) -> None:

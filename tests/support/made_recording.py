@@ -127,11 +127,10 @@ def write_recording(
 def transforms_message(store: Any, seconds: float, frames: Mapping[str, str]) -> object:
     """Return a TFMessage with the transforms of some frames, child → parent."""
     types = store.types
-    stamp = _stamp(store, seconds)
     return types["tf2_msgs/msg/TFMessage"](
         [
             types["geometry_msgs/msg/TransformStamped"](
-                types["std_msgs/msg/Header"](stamp, parent),
+                header(store, seconds, parent),
                 child,
                 types["geometry_msgs/msg/Transform"](
                     types["geometry_msgs/msg/Vector3"](seconds, 0.0, 0.0),
@@ -146,13 +145,15 @@ def transforms_message(store: Any, seconds: float, frames: Mapping[str, str]) ->
 def scan_message(store: Any, seconds: float) -> object:
     """Return a LaserScan of one ray."""
     types = store.types
-    header = types["std_msgs/msg/Header"](_stamp(store, seconds), "base")
+    base = header(store, seconds, "base")
     ranges = np.array([1.0], dtype=np.float32)
     numbers = (0.0, 0.0, 0.1, 0.0, 0.0, 0.1, 10.0)
-    return types["sensor_msgs/msg/LaserScan"](header, *numbers, ranges, ranges)
+    return types["sensor_msgs/msg/LaserScan"](base, *numbers, ranges, ranges)
 
 
-def _stamp(store: Any, seconds: float) -> Any:
+def header(store: Any, seconds: float, frame: str) -> Any:
+    """Return the header of a message in a frame, with its stamp [s from the start]."""
     whole = int(seconds // 1)
     nanoseconds = round((seconds - whole) * 1e9)
-    return store.types["builtin_interfaces/msg/Time"](START + whole, nanoseconds)
+    stamp = store.types["builtin_interfaces/msg/Time"](START + whole, nanoseconds)
+    return store.types["std_msgs/msg/Header"](stamp, frame)

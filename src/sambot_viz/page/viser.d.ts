@@ -6,6 +6,9 @@ interface Window {
     requestRender?(): void;
     canvas: HTMLCanvasElement;
     messageQueue: any[];
+    /** Has viser take what is in the queue. */
+    drainMessageQueue: (() => void) | null;
+    firstMessageBatch: boolean;
     /** Objects of three.js and camera-controls have no types here. */
     scene: any;
     camera: any;

@@ -14,6 +14,7 @@ from collections.abc import (
 from typing import Any, Protocol, cast
 
 import viser
+from viser import _messages  # pyright: ignore[reportPrivateUsage]
 from viser.infra import (
     _infra,  # pyright: ignore[reportPrivateUsage]
 )
@@ -76,6 +77,15 @@ def own_buffer(server: viser.ViserServer, client_id: int) -> Any:
         ._websock_server._client_state_from_id[client_id]
         .message_buffer
     )
+
+
+def more_follows() -> Any:
+    """Return what says that the next messages belong to those before it.
+
+    The page takes it out (messages.js). To viser it is the pose of a node that is not
+    there.
+    """
+    return _messages.SetPositionMessage("~more", (0.0, 0.0, 0.0))
 
 
 class WindowLoop(Protocol):

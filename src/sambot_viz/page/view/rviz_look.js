@@ -18,6 +18,7 @@ import { moveCamera } from "./camera.js";
 import { others } from "./cameras.js";
 import { dressDrawn } from "./drawn.js";
 import { currentLook } from "./look.js";
+import { drawTogether } from "./messages.js";
 import { keepSharp } from "./sharp.js";
 import { eye, farFirst, lookFrom, sortBatch } from "./sorting.js";
 import { reportWindow } from "./window_size.js";
@@ -254,6 +255,7 @@ const hook = () => {
     look.geometries = renderer.info.memory.geometries;
     look.frames += 1;
   };
+  drawTogether(scene);
   const store = scene.__r3f?.root;
   store?.getState().internal.subscribe({ current: () => prepare(scene) }, PRIORITY, store);
   if (mutable.requestRender) mutable.requestRender();

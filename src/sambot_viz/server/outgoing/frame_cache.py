@@ -19,8 +19,9 @@ HEAVY = 256 * 1024
 """More than that is packed in a thread, and is not kept once it is sent [bytes]."""
 RECENT = 32
 """So many light frames are kept for the clients that are a little behind."""
-MARKER = -1
-"""The number of a message that is in no buffer."""
+MARKER, MORE = -1, -2
+"""The numbers of messages that are in no buffer: viser's marker, and that more of what
+belongs together follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +38,9 @@ class Batch:
     messages: Sequence[Any]
     weight: int
 
-    def with_marker(self, marker: Any) -> Batch:
+    def with_marker(self, marker: Any, number: int = MARKER) -> Batch:
         """This batch with a message behind it that is in no buffer."""
-        numbers = (*self.numbers, MARKER)
+        numbers = (*self.numbers, number)
         return Batch(numbers, (*self.messages, marker), self.weight)
 
 

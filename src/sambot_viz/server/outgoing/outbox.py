@@ -18,7 +18,13 @@ import viser
 
 from sambot_viz import viser_private
 from sambot_viz.server.connections.connection import Connection
-from sambot_viz.server.outgoing.frame_cache import HEAVY, Batch, FrameCache, weight
+from sambot_viz.server.outgoing.frame_cache import (
+    HEAVY,
+    MORE,
+    Batch,
+    FrameCache,
+    weight,
+)
 from sambot_viz.server.outgoing.news import News
 
 
@@ -129,6 +135,9 @@ async def batches(
             if marker is not None and not is_behind and not cursor.held:
                 batch = batch.with_marker(marker)
                 marker = None
+            elif is_behind and batch.messages and cursor.last > backlog_end:
+                # All of a change belongs in one picture.
+                batch = batch.with_marker(viser_private.more_follows(), MORE)
             if batch.messages:
                 yield batch
             elif not news.may_go_on(is_behind or marker is not None):
