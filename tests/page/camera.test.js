@@ -179,3 +179,23 @@ test("a drag goes on from a camera that the server asks for in the middle of it"
   assert.equal(report.camera, 2);
   near(numbers(), [2, 1.1, 0, 0, 0]);
 });
+
+for (const speed of [0, 0.03])
+  test(`a hand between what was asked for and its picture counts, beside ${speed} m a picture`, () => {
+    const picture = begin(speed);
+    ask(2, 1.2);
+    controls.rotate(-0.1);
+    controls.dollyTo(controls.distance * 0.9);
+    picture();
+    assert.equal(report.camera, 2);
+    near(numbers(), [1.8, 1.1, 0, 0, 0]);
+  });
+
+test("of cameras that come before a picture the last one is shown", () => {
+  const picture = begin(0.03);
+  ask(2, 1.2);
+  ask(3, 0.7);
+  picture();
+  assert.equal(report.camera, 3);
+  near(numbers(), [2, 0.7, 0, 0, 0]);
+});

@@ -62,6 +62,9 @@ export function takeCamera(message) {
   }
   told = message;
   shown.reported = false;
+  // What a hand does from now on it does to this camera. The first one waits for a picture: before
+  // it, viser puts a camera of its own.
+  if (shown.number !== null) place();
   page()?.requestRender?.();
 }
 
@@ -217,8 +220,8 @@ function tell() {
   report(now);
 }
 
-/** Called before each picture, when viser has placed the nodes in it. */
-export function moveCamera() {
+/** Show the camera that was asked for, if it is new; else go with the followed frame. */
+function place() {
   const viser = page();
   const root = viser?.nodeRefFromName?.[""];
   if (!viser?.cameraControl || !root || !told) return;
@@ -230,6 +233,12 @@ export function moveCamera() {
     last = pose;
   } else follow(root, pose);
   isNew = false;
+}
+
+/** Called before each picture, when viser has placed the nodes in it. */
+export function moveCamera() {
+  if (!told || !page()?.cameraControl) return;
+  place();
   keepScale();
   tell();
 }
