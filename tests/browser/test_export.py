@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -85,6 +86,51 @@ def test_the_file_shows_the_same_picture_as_the_page_and_plays_the_motion(
     user.until(lambda: user.find("slider", "Time").value in ("0", 0))
     viewer.page.keyboard.press(" ")
     user.find("button", "Pause")
+
+
+SEEN = """(() => {
+  const { camera, cameraControl, nodeRefFromName } = __viserMutable;
+  const at = camera.position.clone();
+  const target = cameraControl.getTarget(at.clone());
+  const eye = cameraControl.getPosition(at.clone()).sub(target);
+  const place = nodeRefFromName[NODE].getWorldPosition(at);
+  return [target.sub(place).toArray(), eye.toArray(), place.toArray()];
+})()"""
+"""What is looked at and from where, beside a node, and where that is."""
+
+
+def test_wheel_and_drag_turn_the_camera_beside_a_robot_that_moves(
+    open_file: Open, tmp_path: Path, repository: Path
+) -> None:
+    file = tmp_path / "square.html"
+    with Visualizer(repository / "assets" / "square.mcap", port=0) as viz:
+        viz.player.pause()
+        viz.player.jump(0.0)
+        viz.camera.view("Orbit", {"Distance": 3.0, "Target Frame": "base_link"})
+        node = node_of(viz, "base_link")
+        viz.export(file)
+    viewer = open_file(file)
+    viewer.wait_for_nodes(node)
+
+    def seen() -> list[list[float]]:
+        return viewer.page.evaluate(SEEN.replace("NODE", repr(node)))
+
+    def level(eye: list[float]) -> float:
+        """The distance of the camera along the ground, which a turn keeps [m]."""
+        return math.hypot(eye[0], eye[2])
+
+    beside, eye, start = seen()
+    viewer.user.click("button", "Play")
+    viewer.user.until(lambda: np.abs(np.subtract(seen()[2], start)).max() > 0.3, 30.0)
+    viewer.page.mouse.wheel(400.0, 150.0, dy=-100.0)
+    viewer.user.until(lambda: level(seen()[1]) < 0.9 * level(eye))
+    viewer.page.mouse.drag((400.0, 150.0), (300.0, 150.0))
+    viewer.wait_for_frames()
+    beside_now, eye_now, _ = seen()
+    assert beside_now == pytest.approx(beside, abs=1e-3)
+    assert level(eye_now) == pytest.approx(0.88 * level(eye), rel=1e-3)
+    turn = math.atan2(eye_now[2], eye_now[0]) - math.atan2(eye[2], eye[0])
+    assert abs(math.remainder(turn, math.tau)) == pytest.approx(0.5, abs=1e-3)
 
 
 def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from inside import session_of
+from inside import node_of, session_of
 
 from sambot_viz import Visualizer
 from sambot_viz.export.page_file import ViewState, page_file
@@ -63,19 +63,25 @@ def test_a_sweep_moves_the_joints_of_a_recorded_robot(viz: Visualizer) -> None:
     assert session_of(viz).robot.followed.value == "square.mcap"
 
 
-def test_the_camera_of_a_page_goes_with_the_frame_that_the_view_follows(
+def test_the_camera_of_a_page_follows_the_frame_of_the_view_from_where_it_is_seen(
     viz: Visualizer,
 ) -> None:
-    viz.player.jump(1.0)
-    way = exported(viz, "recording")["way"]
-    times = [time for time, *_ in way]
-    assert times == sorted(set(times)) and times[0] == 0
-    assert len(way) > 100
-    for seconds in (9.0, 1.5):
-        viz.player.jump(seconds)
-        x, y, _ = viz.frames.lookup("odom", "base_link").translation
-        shown = [at for time, *at in way if time <= 1000 * (seconds - 1.0)][-1]
-        assert shown[:2] == pytest.approx([x, y], abs=0.02)
+    def cameras() -> list[Any]:
+        found: list[Any] = []
+        for seconds in (1.0, 9.0):
+            viz.player.jump(seconds)
+            found.append(exported(viz, "recording")["camera"])
+        return found
+
+    viz.camera.view("Orbit", {"Distance": 3.0, "Target Frame": "base_link"})
+    one, two = cameras()
+    assert one["follows"]["node"] == node_of(viz, "base_link")
+    x, y, _ = viz.frames.lookup("odom", "base_link").translation
+    assert two["follows"]["at"][:2] == pytest.approx([x, y], abs=1e-6)
+    assert one["follows"]["at"] != two["follows"]["at"]
+    # Relative to the frame it is the same.
+    for end in ("position", "look_at"):
+        assert one["camera"][end] == pytest.approx(two["camera"][end], abs=1e-6)
 
 
 def test_a_page_from_the_begin_waits_for_nothing_and_has_all_links(
@@ -89,7 +95,3 @@ def test_a_page_from_the_begin_waits_for_nothing_and_has_all_links(
     pose = session_of(viz).scene.context.pose
     for link in copy.robot.links if copy.robot else ():
         assert pose(link) is not None
-
-
-def test_a_page_without_a_recording_has_no_way(make_viz: Any) -> None:
-    assert exported(make_viz(), "sweep")["way"] == []

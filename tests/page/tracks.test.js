@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { at, read, unpack, placeAt } from "../../src/sambot_viz/page/player/tracks.js";
+import { at, read, unpack } from "../../src/sambot_viz/page/player/tracks.js";
 
 const turning = {
   type: "SetOrientationMessage",
@@ -82,15 +82,4 @@ test("arrays are arrays again", async () => {
       updates: { points: new Float32Array([1.5, -2]) },
     },
   ]);
-});
-
-test("a frame is where it was last", () => {
-  const way = [
-    [0, 1, 2, 0],
-    [500, 2, 2, 0],
-  ];
-  assert.deepEqual(placeAt(way, 0), [1, 2, 0]);
-  assert.deepEqual(placeAt(way, 499), [1, 2, 0]);
-  assert.deepEqual(placeAt(way, 9000), [2, 2, 0]);
-  assert.deepEqual(placeAt([], 10), []);
 });

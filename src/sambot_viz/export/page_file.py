@@ -6,7 +6,7 @@ Files that browsers ask for are made one after the other, beside all other work.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Coroutine, Iterable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from sambot_viz import limits, page
 from sambot_viz.errors import SambotVizError, UsageError
-from sambot_viz.export.recorded_scene import PERIOD, recorded
+from sambot_viz.export.recorded_scene import PERIOD, RelativeCamera, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import sweep
 from sambot_viz.server.connections.page_files import page_of_viser
@@ -29,7 +29,7 @@ from sambot_viz.session.robot.motion_recorder import MotionSample, Past
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.text import text
 from sambot_viz.views.camera import Camera
-from sambot_viz.views.view import View
+from sambot_viz.views.view import Target, View
 
 Motion = Literal["sweep", "past", "none", "recording"]
 REST = 0.5
@@ -53,27 +53,27 @@ class ViewState:
         camera: where from.
         size: width and height of the picture [pixels]; in a narrower one the camera
             is farther away.
-        mouse: what the page has to know of the view (see `mouse_facts`).
-        target: the frame that the view follows, or that which all is drawn in.
+        view: the type of view, and the frame that it follows.
+        target: where that is.
     """
 
     camera: Camera
     size: Size
-    mouse: Mapping[str, Any]
-    target: str
+    view: View
+    target: Target
 
     @classmethod
     def of(cls, client: Client) -> ViewState:
         """Return the view of a client now."""
         view, size = client.view, window_of(client.client)
-        return cls(view.camera, size, mouse_facts(view.view), _target(view.view))
+        return cls(view.camera, size, view.view, view.target)
 
     @classmethod
     def at_first(cls, first: DocumentView, has_robot: bool) -> ViewState:
         """Return the view of a page that was just opened."""
-        view = first.view
+        view, target = first.view, first.target
         if view.gives_nearness or not has_robot:
-            return cls(first.camera, USUAL_SIZE, mouse_facts(view), _target(view))
+            return cls(first.camera, USUAL_SIZE, view, target)
         width, height = USUAL_SIZE
         camera = first.camera_on_robot(width, height)
         # How narrow a picture may be until the robot is cut at its sides.
@@ -82,11 +82,7 @@ class ViewState:
             if nearer.distance > camera.distance + 1e-6:
                 break
             width -= STEP
-        return cls(camera, (width, height), mouse_facts(view), _target(view))
-
-
-def _target(view: View) -> str:
-    return str(view.config.get("Target Frame"))
+        return cls(camera, (width, height), view, target)
 
 
 def page_file(
@@ -112,17 +108,16 @@ def page_file(
     elif motion == "past" and past is not None:
         before, since = past
         scene, steps = scene.before(before), lambda joints: _with_rest(since)
-    made = recorded(
-        scene, view.camera, view.size[1], steps, _played(scene, motion), view.target
-    )
+    camera = RelativeCamera(view.camera, view.view, view.target)
+    made = recorded(scene, camera, view.size[1], steps, _played(scene, motion))
     robot = "no robot" if scene.robot is None else scene.robot.name
     title = text(robot, LONGEST_NAME) or "robot"
     about = {
         "title": title,
         "duration": made.duration,
         "size": view.size,
-        "view": dict(view.mouse),
-        "way": made.way,
+        "view": mouse_facts(view.view),
+        "camera": made.camera,
     }
     return page.standing_alone(
         page_of_viser(), title, made.first, about, made.tracks.packed(), look

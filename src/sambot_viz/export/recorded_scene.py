@@ -10,7 +10,7 @@ import base64
 import gzip
 import json
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -21,11 +21,14 @@ from sambot_viz.joints import JointState
 from sambot_viz.server.server import prepare_scene
 from sambot_viz.session import Session
 from sambot_viz.session.clients import viser_camera
+from sambot_viz.session.clients.client_camera import camera_message, followed_of
+from sambot_viz.session.document.document_view import target_of
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.robot_drive import ODOM
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.worker import Action, Worker
-from sambot_viz.views.camera import Camera, Vector
+from sambot_viz.views.camera import Camera
+from sambot_viz.views.view import Target, View
 from sambot_viz.viser_private import Recorder
 
 PERIOD = 1.0 / 30.0
@@ -42,23 +45,44 @@ class MadeScene:
         first: the first picture as viser's page reads it.
         tracks: all that changes.
         duration: how long the motion is [s].
-        way: of the camera, with the frame that the view follows: time [ms], x, y and z
-            of that frame in the fixed frame [m]; the last one before a time holds.
+        camera: what a page of a server is told of its camera.
     """
 
     first: bytes
     tracks: Tracks
     duration: float
-    way: Sequence[Sequence[float]] = ()
+    camera: Mapping[str, object]
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeCamera:
+    """A camera beside the frame that its view follows.
+
+    Attributes:
+        camera: in the fixed frame.
+        view: the type of view, and the frame that it follows.
+        target: where that was for the camera.
+    """
+
+    camera: Camera
+    view: View
+    target: Target
+
+    def told(self, session: Session) -> tuple[Camera, Mapping[str, object]]:
+        """Return the camera beside the frame now, and what a page is told of it."""
+        target = target_of(session.scene, self.view, self.target)
+        beside = self.view.in_target(self.camera, self.target)
+        followed = followed_of(session.scene, self.view, target)
+        message = camera_message(1, followed, beside)
+        return self.view.in_fixed(beside, target), message
 
 
 def recorded(
     scene: SessionCopy,
-    camera: Camera,
+    camera: RelativeCamera,
     height: int,
     motion: Callable[[JointState], Iterable[MotionSample]],
     played: tuple[int, int] | None = None,
-    target: str = "",
 ) -> MadeScene:
     """Draw what was shown, then move it.
 
@@ -69,21 +93,16 @@ def recorded(
         motion: what is to move, given the joints where they are.
         played: the log times of a recording between which it moves the robot [ns],
             instead of the motion.
-        target: the frame that the view follows while a recording is played; "" for
-            none.
     """
     recorder, tracks = Recorder(height), Tracks()
     recorder.listen(tracks.take)
     prepare_scene(recorder.scene)
     session = _drawn(scene, recorder)
     player = None if session.data is None else session.data.player
-    way = _FollowedFrame(session, target)
     if played is not None and player is not None:
-        before = way.place()
         player.jump(played[0])
-        camera = _moved(camera, before, way.place())
-        way.note(0.0)
-    viser_camera.point(cast(Any, recorder), camera)
+    at_first, told = camera.told(session)
+    viser_camera.point(cast(Any, recorder), at_first)
     first = recorder.bytes()
     duration = 0.0
     if played is not None and player is not None:
@@ -91,7 +110,6 @@ def recorded(
             left = (played[1] - player.time_ns) * 1e-9
             tracks.time = duration = duration + min(PERIOD, left)
             player.advance(min(PERIOD, left))
-            way.note(duration)
     elif session.robot.joints is not None:
         if session.data is not None:
             session.data.follow(False)
@@ -101,38 +119,7 @@ def recorded(
             session.robot.move(step.positions, there)
             session.robot.draw_moved()
     session.close()
-    return MadeScene(first, tracks, duration, way.steps if len(way.steps) > 1 else ())
-
-
-class _FollowedFrame:
-    """Notes where the frame is that a view follows."""
-
-    def __init__(self, session: Session, target: str) -> None:
-        self.steps: list[list[float]] = []
-        self._context = session.scene.context
-        self._target = self._context.frame(target) if target else None
-
-    def place(self) -> Vector | None:
-        """Return where it is in the fixed frame [m]; None while it has no place."""
-        T = self._context.pose(self._target)
-        return None if T is None else T[:3, 3]
-
-    def note(self, time: float) -> None:
-        """Note where it is at a time [s], if it has moved."""
-        place = self.place()
-        if place is None:
-            return
-        rounded = [round(float(part), 4) for part in place]
-        if not self.steps or self.steps[-1][1:] != rounded:
-            self.steps.append([round(1000 * time), *rounded])
-
-
-def _moved(camera: Camera, before: Vector | None, after: Vector | None) -> Camera:
-    """Return a camera that has gone as far as the frame that it follows."""
-    if before is None or after is None:
-        return camera
-    by = after - before
-    return replace(camera, position=camera.position + by, look_at=camera.look_at + by)
+    return MadeScene(first, tracks, duration, told)
 
 
 def _drawn(scene: SessionCopy, recorder: Recorder) -> Session:

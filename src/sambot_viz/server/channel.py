@@ -6,10 +6,10 @@ page's.
 
 The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
 text or, when long, compressed in a binary frame, and the camera that it is asked for
-(`session.clients.camera`). The page sends JSON lists: an edit, or what a button does
-(`panels.validation`); and objects: where its camera is. It may ask ``"ping"`` at any
-time and is answered ``"pong"`` behind everything that its edits before have changed so
-far; a page that gets no answer knows that its connection is lost.
+(`session.clients.client_camera`). The page sends JSON lists: an edit, or what a button
+does (`panels.validation`); and objects: where its camera is. It may ask ``"ping"`` at
+any time and is answered ``"pong"`` behind everything that its edits before have changed
+so far; a page that gets no answer knows that its connection is lost.
 
 A patch is made when the connection can take one. So a slow page gets the newest state,
 and no queue.

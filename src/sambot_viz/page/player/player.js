@@ -3,12 +3,13 @@
 
 import "../view/rviz_look.js";
 import "../view/rviz_mouse.js";
-import { at, placeAt, read } from "./tracks.js";
+import { moveCamera, takeCamera } from "../view/camera.js";
+import { at, read } from "./tracks.js";
 
 /** @typedef {{title: string, duration: number, view: {kind: string}, size: [number, number],
- *   way: number[][]}} About
+ *   camera: import("../view/camera.js").Told}} About
  *   size: width and height of the picture that the camera was set for [px]
- *   way: the time [ms] and the place of the frame that the camera follows */
+ *   camera: what a server says of it */
 
 /** viser's objects have no types here. @type {any} */
 const globals = window;
@@ -48,33 +49,6 @@ function makeRoom() {
   requestRender();
 }
 
-/** As many pixels per metre as before, in a window of another size. */
-function followHeight() {
-  let [, height] = about.size;
-  setInterval(() => {
-    const { canvas, cameraControl, requestRender } = globals.__viserMutable;
-    const now = canvas.clientHeight;
-    if (about.view.kind !== "TopDownOrtho" || !now || now === height) return;
-    cameraControl.dollyTo((cameraControl.distance * now) / height, false);
-    height = now;
-    requestRender();
-  }, 100);
-}
-
-/** Move the camera as the frame that it follows has moved. @param {number[]} from @param {number[]} to */
-function follow(from, to) {
-  if (from.every((part, n) => part === to[n])) return;
-  const { cameraControl, camera, nodeRefFromName } = globals.__viserMutable;
-  const world = nodeRefFromName[""];
-  /** @param {number[]} place */
-  const shown = (place) => world.localToWorld(camera.position.clone().fromArray(place));
-  const by = shown(to).sub(shown(from));
-  const [eye, target] = ["getPosition", "getTarget"].map((end) =>
-    cameraControl[end](camera.position.clone()).add(by),
-  );
-  cameraControl.setLookAt(...eye.toArray(), ...target.toArray(), false);
-}
-
 class Player {
   /** @param {import("./tracks.js").Track[]} tracks */
   constructor(tracks) {
@@ -83,7 +57,6 @@ class Player {
     this.playing = false;
     this.loop = true;
     this.last = 0;
-    this.place = placeAt(about.way, 0);
     this.changed = () => {};
   }
 
@@ -91,9 +64,6 @@ class Player {
   go(time) {
     this.time = Math.max(0, Math.min(about.duration, time));
     const page = globals.__viserMutable;
-    const place = placeAt(about.way, this.time * 1000);
-    follow(this.place, place);
-    this.place = place;
     const messages = at(this.tracks, this.time * 1000);
     if (messages.length) {
       page.messageQueue.push(...messages);
@@ -202,8 +172,9 @@ async function start() {
   // Only browsers before 2023 cannot read it: they show the robot at rest.
   const tracks = about.duration > 0 ? await read(written("sambot-motion")).catch(() => null) : [];
   whenReady(() => {
+    takeCamera(about.camera);
+    moveCamera();
     makeRoom();
-    followHeight();
     if (!tracks)
       line.append(element("p", { role: "status" }, "This browser is too old to play the motion."));
     else if (tracks.length) line.append(bar(new Player(tracks)));

@@ -63,15 +63,6 @@ function last(times, time) {
   return low;
 }
 
-/** Where a frame is at a time [m]. @param {number[][]} way @param {number} time [ms] */
-export function placeAt(way, time) {
-  const before = last(
-    way.map(([at]) => at),
-    time,
-  );
-  return (way[Math.max(0, before)] || []).slice(1);
-}
-
 /**
  * The messages of viser that bring all nodes to a time, from where they are.
  * @param {Track[]} tracks they take note of it @param {number} time [ms] @returns {any[]}

@@ -149,22 +149,33 @@ class ClientCamera:
 
     def _tell(self) -> None:
         self.version += 1
-        camera = None if self._asked is None else _as_sent(self._asked)
-        followed = self._followed
-        message = {
-            "of": "camera",
-            "number": self.number,
-            "follows": {
-                "node": followed.node,
-                "place": followed.has_place,
-                "turns": followed.turns,
-                "at": followed.at,
-            },
-            "camera": camera,
-        }
+        message = camera_message(self.number, self._followed, self._asked)
         self._message = self.version, json.dumps(message)
         for listener in tuple(self.listeners):
             listener()
+
+
+def camera_message(
+    number: int, followed: Followed, asked: Camera | None
+) -> dict[str, object]:
+    """Return what a page is told of its camera (page/view/camera.js).
+
+    Args:
+        number: of the camera that was asked for last.
+        followed: the frame that it moves with.
+        asked: that camera, relative to the frame; None before the first.
+    """
+    return {
+        "of": "camera",
+        "number": number,
+        "follows": {
+            "node": followed.node,
+            "place": followed.has_place,
+            "turns": followed.turns,
+            "at": followed.at,
+        },
+        "camera": None if asked is None else _as_sent(asked),
+    }
 
 
 def _as_sent(camera: Camera) -> dict[str, object]:

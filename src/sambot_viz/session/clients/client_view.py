@@ -177,7 +177,7 @@ class ClientView:
     @property
     def camera(self) -> Camera:
         """The camera as it is now, in the fixed frame."""
-        return self.view.in_fixed(self.shown.camera, self._target)
+        return self.view.in_fixed(self.shown.camera, self.target)
 
     @property
     def waits_for_robot(self) -> bool:
@@ -193,7 +193,7 @@ class ClientView:
             UsageError: there is no such value, or it cannot be that.
         """
         with self._edit(f"View: {path}", merge=("view", path)):
-            before = self._target
+            before = self.target
             self.view.config.set(path, value)
             if path == "Target Frame":
                 now = target_of(self._scene, self.view)
@@ -252,7 +252,7 @@ class ClientView:
 
     def look_at(self, point: Vector) -> None:
         """Look at a point of the fixed frame, (3,) [m]."""
-        self._move(lambda: self.view.look_at(point, self._target))
+        self._move(lambda: self.view.look_at(point, self.target))
 
     def fit(self, box: Corners | None = None) -> None:
         """Show a box whole, from the same direction.
@@ -311,21 +311,21 @@ class ClientView:
                 self._point()
 
     def _values_for(self, box: Corners, names: Sequence[Name] = ()) -> Values:
-        return self.view.fit(*box, *window_of(self._client), self._target, names)
+        return self.view.fit(*box, *window_of(self._client), self.target, names)
 
     def _take(self, config: ViewConfig) -> None:
         self._config = config
         self.view = view_of(config)
 
     @property
-    def _target(self) -> Target:
+    def target(self) -> Target:
         """The target frame now; where it was, while it has no place."""
         self._last_target = target_of(self._scene, self.view, self._last_target)
         return self._last_target
 
     @property
     def _followed(self) -> Followed:
-        return followed_of(self._scene, self.view, self._target)
+        return followed_of(self._scene, self.view, self.target)
 
     def _keep(self, camera: Camera) -> None:
         """Take over the camera of a page that came back, given in the fixed frame."""
@@ -335,7 +335,7 @@ class ClientView:
         if ORTHOGRAPHIC in self.view.config.declared:
             self.view.config.set(ORTHOGRAPHIC, camera.is_parallel)
         self.shown = ClientCamera(
-            self.view.in_target(camera, self._target), self._followed
+            self.view.in_target(camera, self.target), self._followed
         )
         self._take_camera()
 

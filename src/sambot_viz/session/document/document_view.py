@@ -44,7 +44,12 @@ class DocumentView:
     def camera(self) -> Camera:
         """The camera of the view, in the fixed frame."""
         view = view_of(self._document.config.view)
-        return view.camera(target_of(self._scene, view))
+        return view.camera(self._target(view))
+
+    @property
+    def target(self) -> Target:
+        """Where the frame is that it follows."""
+        return self._target(view_of(self._document.config.view))
 
     def camera_on_robot(self, width: int, height: int) -> Camera:
         """Return that camera, moved to where it shows what is seen at first.
@@ -54,7 +59,7 @@ class DocumentView:
             height: of the picture [pixels].
         """
         view = self.view
-        target = target_of(self._scene, view)
+        target = self._target(view)
         box = first_box(self._document, self._picker)
         if box is not None:
             for path, value in view.fit(*box, width, height, target).items():
