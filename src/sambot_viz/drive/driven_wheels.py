@@ -122,8 +122,9 @@ def _best_pair(wheels: list[_Wheel]) -> tuple[_Wheel, _Wheel]:
     level = [wheel for wheel in wheels if abs(wheel.axis[2]) <= _PARALLEL]
     if len(level) > limits.WHEELS.value:
         raise JointError(
-            f"{len(level)} continuous joints turn about level axes, too many to guess "
-            "which are the driven wheels; name the left and the right one"
+            f"{len(level)} continuous joints turn about level axes, more than the "
+            f"{limits.WHEELS.value} among which the driven wheels are guessed; name "
+            "the left and the right one"
         )
     pairs = [pair for pair in combinations(level, 2) if _is_pair(*pair)]
     if not pairs:

@@ -65,7 +65,7 @@ class MeshBudget:
             raise mesh_error(
                 self._path,
                 "mesh-too-large",
-                f"the mesh has more than {most} {what}, too many for a browser",
+                f"the mesh has more than {most:,} {what}, too many for a browser",
                 "reduce its triangles",
             )
 

@@ -42,7 +42,7 @@ def read_mesh(
     path: Path,
     *,
     images: TextureStore | None = None,
-    largest: int = limits.MESH.value,
+    largest: int | None = None,
     roots: Sequence[Path] | None = None,
 ) -> Mesh:
     """Read a mesh file: STL, COLLADA, OBJ, glTF, GLB or PLY.
@@ -89,7 +89,8 @@ def read_mesh(
         raise mesh_error(path, "mesh-other-content", *other) from error
 
 
-def _read_bytes(path: Path, largest: int) -> bytes:
+def _read_bytes(path: Path, largest: int | None) -> bytes:
+    largest = limits.MESH.value if largest is None else largest
     try:
         data = read_limited(path, largest)
     except FileNotFoundError as error:

@@ -100,7 +100,8 @@ def encode_texture(
         image = Image.open(io.BytesIO(data), formats=_FORMATS)
         if image.width * image.height > limits.TEXTURE_PIXELS.value:
             raise TextureError(
-                f"it has {image.width} × {image.height} pixels, too many"
+                f"it has {image.width:,} × {image.height:,} pixels, more than the "
+                f"{limits.TEXTURE_PIXELS.value:,} that are read"
             )
         if max(image.size) <= longest_side and _ready(image, data):
             return Texture(data, _MIME[image.format or ""], *image.size)

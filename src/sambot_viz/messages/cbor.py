@@ -47,6 +47,10 @@ class CborError(ValueError):
     """Bytes that are not CBOR, or not as many as they announce."""
 
 
+class CborTooDeep(CborError):
+    """More values are in values than are read."""
+
+
 def read_cbor(frame: bytes | memoryview) -> Value:
     """Return the value that a frame holds; arrays of bytes are views of it.
 
@@ -75,7 +79,8 @@ class _CborReader:
 
     def value(self, depth: int) -> Value:
         if depth > limits.FIELDS_DEPTH.value:
-            raise CborError("values are nested too deeply")
+            most = limits.FIELDS_DEPTH.value
+            raise CborTooDeep(f"with values in values, more than {most} deep")
         first = self.take(1)[0]
         major, short = first >> 5, first & 31
         if major == 7:

@@ -94,7 +94,7 @@ def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
                 pending.append(part.what)
     if sum(map(len, needed.values())) > limits.DEFINITION_FIELDS.value:
         raise DecodeError(
-            f"the definition has more than {limits.DEFINITION_FIELDS.value} fields"
+            f"the definition has more than {limits.DEFINITION_FIELDS.value:,} fields"
         )
     for one, fields in needed.items():
         _check(one, fields)
@@ -155,7 +155,10 @@ class _Size:
         if name in self._open:
             raise DecodeError(f"{name} contains itself")
         if len(self._open) == limits.DEFINITION_DEPTH.value:
-            raise DecodeError("the definition has types in types in types")
+            raise DecodeError(
+                "the definition has types in types, more than "
+                f"{limits.DEFINITION_DEPTH.value} deep"
+            )
         self._open.append(name)
         values, size, lines = 1, 0, 0
         for part in _parts(self._types[name]):
@@ -166,10 +169,13 @@ class _Size:
             if part.kind == NAME or part.what == "string":
                 lines += part.times
             values, size = values + part.times * inner[0], size + part.times * inner[1]
-        if lines > limits.DEFINITION_ARRAYS.value or (
-            size == 0 and values > limits.DEFINITION_EMPTY.value
+        for row, found in (
+            (limits.DEFINITION_ARRAYS, lines),
+            (limits.DEFINITION_EMPTY, 0 if size else values),
         ):
-            raise DecodeError(f"the definition of {name} has too large an array")
+            if found > row.value:
+                said = f"with {row.said(found)}"
+                raise DecodeError(f"the definition of {name} has an array {said}")
         self._open.pop()
         self._done[name] = values, size
         return values, size

@@ -135,7 +135,8 @@ class _Type:
         reading.take(len(self.fields))
         reading.depth += 1
         if reading.depth > limits.FIELDS_DEPTH.value:
-            raise DecodeError("its fields are nested too deeply")
+            most = limits.FIELDS_DEPTH.value
+            raise DecodeError(f"its fields are nested too deeply: more than {most}")
         found: dict[str, Any] = {}
         for name, place, read, default in self.fields:
             where = at + place if self.size else reading.place(at, place)

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
-from sambot_viz.messages.cbor import read_cbor
+from sambot_viz.messages.cbor import CborTooDeep, read_cbor
 from sambot_viz.messages.decoder import Decoder, Payload
 from sambot_viz.messages.kept_elements import KeptElements
 
@@ -28,6 +28,8 @@ class PlainFieldsDecoder(Decoder):
         name, read = PLAIN_ENCODINGS[self.encoding]
         try:
             found = read(within_limit(payload))
+        except CborTooDeep as error:
+            raise DecodeError(f"it is {name}, {error}") from None
         except (ValueError, RecursionError, MemoryError):
             # msgspec's errors are ValueErrors, as are those of json and ours.
             raise DecodeError(f"it is not {name}") from None

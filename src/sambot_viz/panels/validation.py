@@ -198,9 +198,10 @@ def _argument(name: str, argument: Argument, part: Json) -> Any:
     if not isinstance(part, list):
         return _scalar(name, part, argument.least, argument.most)
     listed = cast("list[Any]", part)
-    if len(listed) > limits.PAGE_LIST.value or any(
-        not isinstance(p, str | int | float | None) for p in listed
-    ):
+    most = limits.PAGE_LIST.value
+    if len(listed) > most:
+        raise UsageError(f"'{name}' takes a list of {most:,} at most")
+    if any(not isinstance(p, str | int | float | None) for p in listed):
         raise UsageError(f"'{name}' does not take such a list")
     return [_scalar(name, p, argument.least, argument.most) for p in listed]
 

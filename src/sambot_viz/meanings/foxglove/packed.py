@@ -75,7 +75,8 @@ class _Packed:
 def _stride(fields: Fields, name: str) -> int:
     stride = whole_number(fields.get(name))
     if not 0 < stride <= limits.POINT_BYTES.value:
-        raise DecodeError(f"{name} is {stride}")
+        most = limits.POINT_BYTES.value
+        raise DecodeError(f"{name} is {stride:,}: it may be 1 to {most:,} bytes")
     return stride
 
 

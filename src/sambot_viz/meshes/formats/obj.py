@@ -56,6 +56,8 @@ class _Lines:
 def read_obj(source: MeshSource) -> list[Submesh]:
     """Return the triangles of an OBJ file."""
     lines = _sort(source.data)
+    faces = sum(len(group.lines) for group in lines.groups)
+    source.budget.spend_triangles(faces, len(lines.positions))
     looks = read_libraries(lines.libraries, source)
     tables = (
         _table(lines.positions, 3, source),

@@ -35,8 +35,10 @@ def read_ply(source: MeshSource) -> list[Submesh]:
         MeshError: broken, cut off, or written in a way that is not read.
     """
     try:
-        if _check(source.data) == 0:
+        faces = _check(source.data)
+        if faces == 0:
             return []
+        source.budget.spend_triangles(faces, 0)
         data = io.BytesIO(source.data)
         loaded = call_trimesh(
             "ply", "load_ply", data, skip_materials=True, fix_texture=False

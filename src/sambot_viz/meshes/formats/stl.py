@@ -41,6 +41,7 @@ def read_stl(source: MeshSource) -> list[Submesh]:
     count = int.from_bytes(data[80:_HEADER], "little")
     expected = _HEADER + count * _FACET.itemsize
     if len(data) >= _HEADER and len(data) == expected:
+        source.budget.spend_triangles(count, 3 * count)
         corners = np.frombuffer(data, _FACET, count, _HEADER)["corners"]
         return [Submesh(np.reshape(corners, (-1, 3)), triples(count))]
     if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data[:1024]:
@@ -59,6 +60,7 @@ def _ascii(source: MeshSource) -> Submesh:
     # Names may contain the keywords too.
     text = _FREE_TEXT.sub(b"", source.data.lower().replace(b"\r", b"\n"))
     corners, facets = text.count(b"vertex"), text.count(b"endfacet")
+    source.budget.spend_triangles(facets, corners)
     if not corners:
         raise mesh_error(
             source.path,

@@ -21,21 +21,20 @@ _AMPLIFIED = "limit on input amplification by entities"
 _NOTHING = frozenset[str]()
 
 
-def parse_xml(
-    text: str, file: str, *, most_elements: int = limits.XML_ELEMENTS.value
-) -> Element:
+def parse_xml(text: str, file: str, *, most_elements: int | None = None) -> Element:
     """Read a document strictly.
 
     Args:
         text: the document; an encoding that it declares is ignored.
         file: the name for places, as the user wrote it.
-        most_elements: a document with more is refused.
+        most_elements: a document with more is refused; by default that of a model.
 
     Raises:
         XmlFault: it is not well-formed, it refers to something outside itself, or it
             is far larger or deeper than any robot.
     """
-    return _TreeBuilder(text, file, most_elements).build()
+    most = limits.XML_ELEMENTS.value if most_elements is None else most_elements
+    return _TreeBuilder(text, file, most).build()
 
 
 class _TreeBuilder:
@@ -46,7 +45,7 @@ class _TreeBuilder:
         self._stack: list[Element] = []
         self._pieces: list[list[str]] = []
         self._root: Element | None = None
-        self._elements_left = most_elements
+        self._elements_left = self._most_elements = most_elements
         self._has_entities = False
         self._characters_left = limits.MODEL.value
         parser = expat.ParserCreate("utf-8")
@@ -110,9 +109,11 @@ class _TreeBuilder:
     def _check_limits(self, attributes: dict[str, str]) -> None:
         self._elements_left -= 1
         if self._elements_left < 0:
-            raise self._fault("too many elements")
-        if len(self._stack) > limits.XML_DEPTH.value:
-            raise self._fault("nested too deeply")
+            raise self._fault(f"too many elements: more than {self._most_elements:,}")
+        if len(self._stack) >= limits.XML_DEPTH.value:
+            raise self._fault(
+                f"nested too deeply: more than {limits.XML_DEPTH.value:,}"
+            )
         if self._has_entities:
             self._spend(sum(len(value) for value in attributes.values()))
 

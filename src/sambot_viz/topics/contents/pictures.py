@@ -57,7 +57,7 @@ def size_fault(width: int, height: int) -> str:
         return f"The image has {size}: look at what publishes it"
     most = limits.IMAGE.value
     if width * height > most:
-        return f"The image has {size}: at most {most / 1e6:.0f} million are shown"
+        return f"The image has {size}: at most {most:,} are shown"
     return ""
 
 

@@ -166,7 +166,10 @@ def _call(name: str, *arguments: ast.expr) -> ast.Call:
 def _power(base: Any, exponent: Any) -> Any:
     if isinstance(base, int) and isinstance(exponent, int):
         if abs(base).bit_length() * abs(exponent) > limits.XACRO_BITS.value:
-            raise Refused("the power is too large for an untrusted model")
+            raise Refused(
+                f"the power has more than {limits.XACRO_BITS.value:,} bits, too many "
+                "for an untrusted model"
+            )
     return base**exponent
 
 
@@ -174,5 +177,8 @@ def _times(left: Any, right: Any) -> Any:
     for many, count in ((left, right), (right, left)):
         if isinstance(count, int) and hasattr(many, "__len__"):
             if len(many) * count > limits.XACRO_TEXT.value:
-                raise Refused("the repetition is too long for an untrusted model")
+                raise Refused(
+                    f"the repetition is longer than {limits.XACRO_TEXT.value:,}, too "
+                    "long for an untrusted model"
+                )
     return left * right

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from sambot_viz import limits
+
 ELEMENT = "the element that xacro was working on"
 EXPRESSION = "the expression that failed"
 CALL = "the macro call that failed"
@@ -208,21 +210,24 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     (
         r"^Timeout",
         "xacro-timeout",
-        "expanding takes too long and was stopped{x.trail}",
+        f"expanding takes longer than {limits.XACRO_TIME.value} s and was stopped"
+        "{x.trail}",
         "look for a macro or an include that calls itself, or a very long loop",
         ELEMENT,
     ),
     (
         r"^OutputLimit",
         "xacro-too-large",
-        "the expanded robot is too large and was stopped{x.trail}",
+        f"the expanded robot has more than {limits.XACRO_OUTPUT.value:,} characters, "
+        "and was stopped{x.trail}",
         "look for a macro that calls itself, or a very long text in ${{…}}",
         ELEMENT,
     ),
     (
         r"^MemoryError",
         "xacro-too-large",
-        "expanding needs too much memory and was stopped{x.trail}",
+        f"expanding needs more than {limits.XACRO_MEMORY.value:,} MB of memory and was "
+        "stopped{x.trail}",
         "look for a very large number or text in ${{…}}",
         ELEMENT,
     ),

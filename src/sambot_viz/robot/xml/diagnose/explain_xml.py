@@ -109,13 +109,13 @@ _FROM_EXPAT = (
     (
         "nested too deeply",
         "xml-not-well-formed",
-        "the tags are nested more deeply than in any robot",
+        "the tags are {0}",
         "look for a tag that is opened repeatedly and never closed",
     ),
     (
         "too many elements",
         "model-too-large",
-        "the model has more elements than can be shown",
+        "the model has {0}",
         "open the model file itself",
     ),
 )
