@@ -105,12 +105,21 @@ def page(
 
 def test_a_clicked_point_has_its_rows_and_a_box(page: Callable[..., Page]) -> None:
     made = cloud2(SQUARE, intensity=FIVE)
-    one = page("PointCloud2", made)
+
+    def stamped(types: Any) -> Any:
+        topic, name, message = made(types)
+        message.header.stamp.sec, message.header.stamp.nanosec = 12, 34
+        return topic, name, message
+
+    one = page("PointCloud2", stamped)
     assert "Nothing is selected" in one.rows()[""]
     one.click(0.5, -0.5)
     assert one.numbers == [2]
     assert one.rows() == {
         "Point 2 [PointCloud2]": None,
+        # Which message it is of.
+        "Topic": one.shown.display.config.get("Topic"),
+        "Stamp": "12.000000034 s",
         "Frame": "map",
         "Position": "0.5; -0.5; 0 m",
         "3: intensity": "3",

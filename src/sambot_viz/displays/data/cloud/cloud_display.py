@@ -24,7 +24,11 @@ from sambot_viz.displays.data.cloud.colors import (
     transformer_of,
     transformers_of,
 )
-from sambot_viz.displays.data.cloud.selected_points import DOT, SelectedPoints
+from sambot_viz.displays.data.cloud.selected_points import (
+    DOT,
+    SelectedPoints,
+    stamp_text,
+)
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
@@ -57,6 +61,7 @@ class _Shown:
         colors: of each point.
         item: what they are to a selection.
         frame: in which the points are given.
+        stamp_ns: of their message [ns]; None for the latest time.
         drawn: the colours and the style that they were drawn with last.
     """
 
@@ -67,6 +72,7 @@ class _Shown:
     colors: Colors
     item: Selectable
     frame: str
+    stamp_ns: int | None
     drawn: tuple[Colors, PointStyle] | None = None
 
     def draw(self, style: PointStyle) -> None:
@@ -138,10 +144,12 @@ class CloudDisplay(MessageFilterDisplay[None]):
         colors = colors_of(cloud, color_options(self.config), T_fixed_cloud)
         self._taken += 1
         item = Selectable("points", self.config.name, f"{self.key}/{self._taken}")
-        frame = self.context.fixed_frame
-        if not self.in_fixed_frame:
-            frame = frame_and_stamp(message)[0]
-        shown = _Shown(cloud, T_fixed_cloud, came.log_ns, node, colors, item, frame)
+        frame, stamp_ns = frame_and_stamp(message)
+        if self.in_fixed_frame:
+            frame = self.context.fixed_frame
+        shown = _Shown(
+            cloud, T_fixed_cloud, came.log_ns, node, colors, item, frame, stamp_ns
+        )
         self._clouds.append(shown)
 
     def _choose_transformers(self, cloud: Cloud) -> None:
@@ -179,6 +187,7 @@ class CloudDisplay(MessageFilterDisplay[None]):
                     shown.T_fixed_cloud,
                     self.config.name,
                     shown.frame,
+                    (("Topic", self.topic), ("Stamp", stamp_text(shown.stamp_ns))),
                     DOT if is_dot else style.size[0],
                     style.is_by_depth and not is_dot,
                 )

@@ -33,6 +33,7 @@ class SelectedPoints(SelectedData):
         T_fixed_cloud: (4, 4), where they are drawn.
         name: of their display.
         frame: in which their positions are shown.
+        message: which one it is.
         edge: of the box around each [m].
         is_by_depth: whether that is at z = 1 m, and grows with z.
     """
@@ -41,6 +42,7 @@ class SelectedPoints(SelectedData):
     T_fixed_cloud: Matrix
     name: str
     frame: str
+    message: Sequence[Fact]
     edge: float
     is_by_depth: bool = False
 
@@ -73,6 +75,7 @@ class SelectedPoints(SelectedData):
         return found
 
     def _rows(self, row: int) -> Iterator[Fact]:
+        yield from self.message
         yield "Frame", self.frame
         yield "Position", position_text(self.cloud.points[row].tolist())
         for name, values in self.cloud.fields.items():
@@ -85,6 +88,12 @@ class SelectedPoints(SelectedData):
                 yield label, str(value)
             else:
                 yield label, f"{value:.6g}"
+
+
+def stamp_text(stamp_ns: int | None) -> str:
+    """Return a stamp [ns] in seconds, all digits of it; None is the latest time."""
+    seconds, rest = divmod(stamp_ns or 0, 1_000_000_000)
+    return f"{seconds}.{rest:09d} s"
 
 
 def _channels(value: Values) -> tuple[int, int, int, int]:
