@@ -109,6 +109,14 @@ def test_a_private_copy_and_back(
     teacher.user.until(lambda: "private copy" not in teacher.user.see().text)
     user.until(lambda: user.row("Joints", LEFT).one("textbox").value == "1")
     assert viz.joint_positions[LEFT] == 1.0
+    # Control that was given is kept on the way there and back.
+    user.click("button", "View only · Request control")
+    teacher.user.click("button", "Give control to Viewer 2")
+    user.reads("You and Presenter control the robot")
+    people(user, "Make my own copy")
+    user.reads("Private copy")
+    user.click("button", "Private copy · Back to the shared robot")
+    user.reads("You and Presenter control the robot")
 
 
 def session_of(viz: Visualizer) -> Session:
