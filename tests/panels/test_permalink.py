@@ -16,7 +16,7 @@ from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
 from sambot_viz.panels.rows.row import Answer
-from sambot_viz.panels.sources.source import SourcePanel
+from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client

@@ -10,7 +10,7 @@ import pytest
 from inside import session_of
 
 from sambot_viz import Visualizer
-from sambot_viz.panels.sources.source import SourcePanel
+from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.data.robot_data import RobotData
 

@@ -17,7 +17,7 @@ from robot_peer import BusyPeer, square_peer
 
 from sambot_viz import Visualizer, bundled, limits
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.sources.topics import TopicsPanel
+from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.data import source_topics
 from sambot_viz.session.signals import connect

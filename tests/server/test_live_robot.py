@@ -18,7 +18,7 @@ from protocol_client import CAMERA, ProtocolClient, wait_for_workers
 from robot_peer import RobotPeer
 
 from sambot_viz import JointError, UsageError, Visualizer, bundled, load_robot
-from sambot_viz.panels.sources.source import SourcePanel
+from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.robot.load import expand
 from sambot_viz.session.clients.client import Client

@@ -15,7 +15,7 @@ from sambot_viz import UsageError, Visualizer
 from sambot_viz.cli import main
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
-from sambot_viz.panels.sources.source import SourcePanel
+from sambot_viz.panels.sources.source_panel import SourcePanel
 
 NS = 10**9
 

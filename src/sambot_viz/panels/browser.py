@@ -17,8 +17,8 @@ from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row import Answer, Data, Json, Level, LongText, Row
 from sambot_viz.panels.saved_pictures import AskPage, PicturesPanel
 from sambot_viz.panels.selection.selection import SelectionPanel
-from sambot_viz.panels.sources.images import ImagesPanel
-from sambot_viz.panels.sources.topics import TopicsPanel
+from sambot_viz.panels.sources.images_panel import ImagesPanel
+from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.undo_panel import UndoPanel
 from sambot_viz.panels.views import ViewsPanel

@@ -21,7 +21,7 @@ from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
-from sambot_viz.panels.sources.source import SourcePanel
+from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.scene.joint_arrow import JointArrow

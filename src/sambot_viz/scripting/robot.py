@@ -16,7 +16,7 @@ from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.scripting.camera_control import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
-from sambot_viz.scripting.links import FrameControl, LinkControl, Links
+from sambot_viz.scripting.link_control import FrameControl, LinkControl, Links
 from sambot_viz.scripting.outputs import Motion, page_of, picture_of
 from sambot_viz.scripting.player_control import PlayerControl
 from sambot_viz.scripting.robots import AddedRobot, Robots

@@ -5,9 +5,9 @@ changes by signals: document, scene, robot, people, clients, undo, problems.
 """
 
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.problems import Reloaded
 from sambot_viz.session.scene.scene import walk
 from sambot_viz.session.session import Session
+from sambot_viz.session.shown_problems import Reloaded
 from sambot_viz.session.signals import Audience
 
 __all__ = ["Audience", "Client", "Reloaded", "Session", "walk"]

@@ -36,7 +36,6 @@ from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.own_config import SizeOfRobot
 from sambot_viz.session.people.roles import Roles
-from sambot_viz.session.problems import Checks, Problems
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
 from sambot_viz.session.robot.robot_state import RobotState
@@ -45,6 +44,7 @@ from sambot_viz.session.robot.user_frames import UserFrames
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.shown_problems import Checks, Problems
 from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker

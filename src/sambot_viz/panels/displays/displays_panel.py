@@ -32,9 +32,9 @@ from sambot_viz.rviz.declarations import GROUP, row_text
 from sambot_viz.rviz.other_packages import about_other
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
-from sambot_viz.session.problems import Problems
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.shown_problems import Problems
 from sambot_viz.session.signals import Signal, connect
 
 OPTIONS = "options"

@@ -27,7 +27,7 @@ from sambot_viz.panels.permalink.permalink_parts import (
 )
 from sambot_viz.panels.rows.property_rows import property_rows
 from sambot_viz.panels.rows.row import Answer, Data, Json, Row
-from sambot_viz.panels.sources.source import PLAYING, TIME
+from sambot_viz.panels.sources.source_panel import PLAYING, TIME
 from sambot_viz.panels.validation import validate
 from sambot_viz.panels.views import CURRENT, ViewsPanel
 from sambot_viz.rviz import FIXED_FRAME, ConfigItem

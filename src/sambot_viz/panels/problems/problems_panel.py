@@ -18,7 +18,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
-from sambot_viz.session.problems import Problems
+from sambot_viz.session.shown_problems import Problems
 from sambot_viz.text import text
 
 LINES_AROUND = 2
