@@ -13,8 +13,6 @@ from sambot_viz import commands
 from sambot_viz.commands.command_line import Parser
 from sambot_viz.outlet import write_lines
 
-_NO_COMMANDS = ("command_line", "show")
-"""Modules of `commands` that have no name on the command line."""
 _FOLDERS, _FILES = ("DIR",), ("FILE", "PATH", "MODEL")
 """How the placeholders of values begin for which files are offered."""
 
@@ -43,11 +41,16 @@ def parser() -> Parser:
 def _all_parsers() -> dict[str, Parser]:
     """Return the parser of each command; that of "show", which has no name, first."""
     names = sorted(found.name for found in pkgutil.iter_modules(commands.__path__))
-    names = ["show", *(name for name in names if name not in _NO_COMMANDS)]
     modules = {
-        name: importlib.import_module(f"sambot_viz.commands.{name}") for name in names
+        name: importlib.import_module(f"sambot_viz.commands.{name}")
+        for name in sorted(names, key=lambda name: name != "show")
     }
-    return {name: module.parser() for name, module in modules.items()}
+    # Some modules are used by commands, and are none.
+    return {
+        name: module.parser()
+        for name, module in modules.items()
+        if hasattr(module, "parser")
+    }
 
 
 def _flags(parser: Parser) -> list[argparse.Action]:
