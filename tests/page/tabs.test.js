@@ -11,7 +11,7 @@ Object.assign(globalThis, {
   innerHeight: 844,
 });
 const { rows } = await import("../../src/sambot_viz/page/wire/channel.js");
-const { SHEET, tabNames } = await import("../../src/sambot_viz/page/window/panels.js");
+const { SHEET, shownTab, tabNames } = await import("../../src/sambot_viz/page/window/panels.js");
 
 /** @param {string[]} names */
 const panels = (names) =>
@@ -34,4 +34,21 @@ test("tabs come all at once, whichever part of the window comes first", () => {
       ["joints", "displays", "views", "frames", "selection", "problems"],
     ]);
   }
+});
+
+test("pictures are in front, else joints, or topics where there is no joint", () => {
+  const none = [{ id: "joints/none", in: "", kind: "note" }];
+  /** @param {string[]} names @param {any} more */
+  const front = (names, more = {}) => {
+    rows.names.clear();
+    rows.panels.clear();
+    for (const [scope, of] of PARTS)
+      rows.take(scope, { all: true, panels: { ...panels(of), ...panels(names), ...more } });
+    return shownTab(SHEET);
+  };
+  assert.equal(front([]), "joints");
+  assert.equal(front(["topics"]), "joints");
+  assert.equal(front(["topics"], { joints: none }), "topics");
+  assert.equal(front(["topics", "images"]), "images");
+  assert.equal(front(["topics", "images"], { joints: none }), "images");
 });

@@ -15,6 +15,7 @@ from patience import patience
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
+from sambot_viz.displays.data.poses.odometry_display import OdometryDisplay
 from sambot_viz.displays.scene_size import round_size
 from sambot_viz.displays.tf.tf import AXES_LENGTH
 from sambot_viz.inputs import load_config
@@ -226,6 +227,36 @@ def test_a_live_robot_has_it_as_soon_as_it_comes() -> None:
             assert session.scene.displays[2].shown
     finally:
         peer.stop()
+
+
+def arrow(viz: Visualizer) -> list[float]:
+    (odometry,) = (
+        display
+        for display in session_of(viz).document.config.displays
+        if display.kind == OdometryDisplay.kind
+    )
+    parts = ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius")
+    return [float(odometry.get(f"Shape/{part}")) for part in parts]
+
+
+def test_arrows_of_data_are_as_long_as_the_robot_where_no_config_says_it(
+    repository: Path, tmp_path: Path
+) -> None:
+    """Also where the robot is the tutorial's, whose frames keep their size."""
+    square = repository / "assets" / "square.mcap"
+    with Visualizer(source=str(square), port=0) as viz:
+        viz.server.sessions.wait_for_meshes(20)
+        assert arrow(viz) == pytest.approx([0.5, 0.025, 0.15, 0.05])
+        assert shown(session_of(viz)) == TUTORIAL
+        assert not session_of(viz).history.modified.value
+    config = tmp_path / "own.rviz"
+    config.write_text(
+        "Visualization Manager:\n  Displays:\n    - Class: "
+        f"{OdometryDisplay.kind}\n      Name: Odometry\n      Topic: {{Value: /odom}}\n"
+    )
+    with Visualizer(source=str(square), config=config, port=0) as viz:
+        viz.server.sessions.wait_for_meshes(20)
+        assert arrow(viz) == [1.0, 0.05, 0.3, 0.1]
 
 
 @pytest.mark.parametrize(

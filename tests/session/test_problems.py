@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from sambot_viz import Problem, Visualizer
+from sambot_viz import Problem, Visualizer, bundled
+from sambot_viz.inputs import load_config
 from sambot_viz.session import Session
 
 MISTAKE = Problem("error", "e", "it is broken")
@@ -53,3 +54,15 @@ def test_a_note_says_what_is_shown_instead(session: Session) -> None:
     assert "config has an error" in session.problems.shown.value.note
     session.problems.set_saves("model", [])
     assert session.problems.shown.value.note.startswith("The config has an error")
+
+
+def test_tools_of_a_config_that_do_not_exist_here_are_listed(tmp_path: Path) -> None:
+    config = tmp_path / "own.rviz"
+    text = bundled.config_path().read_text()
+    tool = "rviz_default_plugins/"
+    config.write_text(text.replace(f"{tool}Measure", f"{tool}SetGoal"))
+    with Visualizer(config=config) as viz:
+        session = viz.server.sessions.all()[0]
+        assert "config-tools" in codes(session)
+        session.document.replace(load_config(bundled.config_path()))
+        assert "config-tools" not in codes(session)

@@ -38,7 +38,7 @@ _IN_FILE = {
     (GridDisplay.kind, "Cell Size"): 1.0,
     (TfDisplay.kind, "Marker Scale"): 0.3,
 }
-"""What follows the size of the robot, and its value in the file."""
+"""Values of the file that follow the size of the robot; of others, RViz's default."""
 
 
 def take_root(document: RvizConfig, robot: Robot) -> None:
@@ -75,8 +75,9 @@ def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
 class SizeOfRobot:
     """Gives displays the size of the robot, where nobody has given them one.
 
-    Those of the config get it once the meshes are read; those that are added have it
-    from the start. That is in a config that is no user's.
+    Those of the config get it once the meshes are read, those that show the data of a
+    source too; those that are added have it from the start. That is in a config that
+    is not a user's.
 
     Args:
         document: what is shown.
@@ -102,23 +103,24 @@ class SizeOfRobot:
         self._picker = picker
         self._edits = edits
         self._history = history
-        self._fitted: tuple[RvizConfig, Robot] | None = None
+        self._fitted: tuple[RvizConfig, Robot, int] | None = None
         self._given = dict(_IN_FILE)
         connect([robot.changed, scene.statuses], self._fit)
         edits.sizes_of = self._sizes_of
 
     def _fit(self) -> None:
         config, robot = self._document.config, self._robot.model
-        if not config.fits_robot or robot is None or (config, robot) == self._fitted:
+        if robot is None or not (config.fits_robot or config.unasked):
             return
-        size = None
-        if self._scene.context.assets.progress is None:
-            size = self._size()
+        shown = (config, robot, len(config.unasked))
+        if shown == self._fitted or self._scene.context.assets.progress is not None:
+            return
+        size = self._size()
         if size is None:
             return
         if self._fitted is None or self._fitted[0] is not config:
             self._given = dict(_IN_FILE)
-        self._fitted = (config, robot)
+        self._fitted = shown
         self._set(size)
 
     def _size(self) -> SceneSize | None:
@@ -139,16 +141,19 @@ class SizeOfRobot:
         return {} if size is None else DISPLAYS[kind].size_values(size)
 
     def _set(self, size: SceneSize) -> None:
-        sizes = {
-            (kind, path): value
-            for kind in {kind for kind, _ in _IN_FILE}
-            for path, value in DISPLAYS[kind].size_values(size).items()
-        }
+        config, given = self._document.config, dict(self._given)
         with self._history.unrecorded():
             for display in self._scene.displays:
-                for (kind, path), value in sizes.items():
-                    if display.config.kind != kind:
-                        continue
-                    if display.config.get(path) == self._given[kind, path]:
+                unasked = display.config in config.unasked
+                if not (config.fits_robot or unasked):
+                    continue
+                kind, declared = display.config.kind, display.config.declared
+                for path, value in display.size_values(size).items():
+                    default = declared[path].property.default
+                    olds = [given.get((kind, path), default)]
+                    if unasked:
+                        # It may have come after others of its kind.
+                        olds.append(default)
+                    self._given[kind, path] = value
+                    if display.config.get(path) in olds:
                         self._edits.set_property(display, path, value)
-        self._given = sizes

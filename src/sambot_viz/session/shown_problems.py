@@ -18,6 +18,7 @@ from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.problems import in_order
 from sambot_viz.robot.model import Robot
+from sambot_viz.rviz.not_here import tools_not_here
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
@@ -145,7 +146,9 @@ class Problems:
         saved = self.of_saves
         shapes = (p for d in robot_displays(self._scene.displays) for p in d.problems)
         model = _also(saved.get("model", ()), (*self.of_model, *shapes))
-        config = _also(saved.get("config", ()), self._document.config.problems)
+        shown = self._document.config
+        of_config = (*shown.problems, *tools_not_here(shown))
+        config = _also(saved.get("config", ()), of_config)
         others = (*saved.get("fault", ()), *saved.get("watch", ()))
         played = [problem for told in self._of_data for problem in told.value]
         return in_order((*_also(model, played), *config, *others))

@@ -129,10 +129,11 @@ export function tabNames(of) {
   );
 }
 
-/** What is in front until somebody chooses: data, where there is no joint to move. */
+/** What is in front until somebody chooses: pictures, which RViz docks in sight, then joints; data,
+ * where there is no joint to move. */
 function firstTab() {
-  if (!rows.get("joints/none")) return "joints";
-  return rows.panels.get("images")?.length ? "images" : "topics";
+  if (rows.panels.get("images")?.length) return "images";
+  return rows.get("joints/none") ? "topics" : "joints";
 }
 
 /** @param {Record<string, any>} of */

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     AXES,
     PoseShapes,
     arrow_properties,
+    arrow_sizes,
     axes_properties,
     color_property,
     look_of,
@@ -37,6 +38,7 @@ from sambot_viz.displays.data.topic_display import TOPIC, topic_property
 from sambot_viz.displays.scene.covariance import CovarianceLook, covariance_solids
 from sambot_viz.displays.scene.frame_nodes import position_of
 from sambot_viz.displays.scene.solid_nodes import Solid, SolidsNode
+from sambot_viz.displays.scene_size import SceneSize
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import (
     Matrix,
@@ -133,6 +135,11 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
     )
     _shapes = DisplayNode(PoseShapes, "")
     _solids = DisplayNode(SolidsNode, "c")
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return arrows as long as the robot."""
+        return arrow_sizes(size, "Shape/")
 
     @property
     def most(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from sambot_viz.displays.data.poses.pose_shapes import (
     AXES,
     PoseShapes,
     arrow_properties,
+    arrow_sizes,
     axes_properties,
     color_property,
     look_of,
@@ -37,6 +38,7 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import Fact, SelectedData
 from sambot_viz.displays.scene.covariance import covariance_solids
 from sambot_viz.displays.scene.solid_nodes import SolidsNode
+from sambot_viz.displays.scene_size import SceneSize
 from sambot_viz.geometry import Vector3, Wxyz
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import EnumProperty
@@ -66,6 +68,11 @@ class PoseDisplay(MessageFilterDisplay[PoseRead]):
     meanings = frozenset({Meaning.POSE})
     properties = POSE_PROPERTIES
     _shapes = DisplayNode(PoseShapes, "")
+
+    @classmethod
+    def size_values(cls, size: SceneSize) -> Mapping[str, float]:
+        """Return an arrow as long as the robot."""
+        return arrow_sizes(size)
 
     def read(self, message: Any) -> PoseRead:
         """Return the pose."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,12 +17,16 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode, rotated
 from sambot_viz.displays.scene.solids import Rgb
+from sambot_viz.displays.scene_size import SceneSize, round_size
 from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
 from sambot_viz.rviz import ColorProperty, ConfigItem, EnumProperty, Property
 
 Floats = npt.NDArray[np.float64]
 ARROW, AXES = "Arrow", "Axes"
 FLAT_ARROW, SOLID_ARROW = "Arrow (Flat)", "Arrow (3D)"
+ARROW_LENGTHS = (1.0, 0.05, 0.3, 0.1)
+"""RViz's length and diameter of a shaft, then of a head [m]."""
+_ARROW_PARTS = ("Shaft Length", "Shaft Radius", "Head Length", "Head Radius")
 COLOR = (255, 25, 0)
 _FLAT = np.array([(1.0, 0.0, 0.0), (0.75, 0.2, 0.0), (0.75, -0.2, 0.0)])
 """The tip of a flat arrow of length 1, and the ends of the lines that go back."""
@@ -125,7 +129,7 @@ class PoseShapes:
 
 def arrow_properties(
     shape: Any,
-    lengths: tuple[float, float, float, float] = (1.0, 0.05, 0.3, 0.1),
+    lengths: tuple[float, float, float, float] = ARROW_LENGTHS,
     order: tuple[int, ...] = (0, 1, 2, 3),
 ) -> tuple[Property, ...]:
     """Return the sizes of an arrow.
@@ -152,6 +156,18 @@ def axes_properties(
         metres("Axes Length", length, "Length of each axis.", shape),
         metres("Axes Radius", radius, "Diameter of each axis, as RViz.", shape),
     )
+
+
+def arrow_sizes(size: SceneSize, path: str = "") -> Mapping[str, float]:
+    """Return an arrow whose shaft is as long as the robot, in RViz's proportions.
+
+    Args:
+        size: of the robot.
+        path: as for `look_of`.
+    """
+    length = round_size(size.length)
+    lengths = zip(_ARROW_PARTS, ARROW_LENGTHS, strict=True)
+    return {f"{path}{name}": round(length * part, 6) for name, part in lengths}
 
 
 def color_property(default: Rgb = COLOR, shape: Any = None) -> ColorProperty:
