@@ -92,13 +92,17 @@ def test_the_last_finite_number_of_each_joint_counts(seed: int) -> None:
     assert taker.topics.changed() == changed
 
 
-def test_what_was_not_asked_for_is_forgotten_and_still_the_last() -> None:
+def test_a_jump_forgets_what_was_taken_and_knows_which_joints_are_gone() -> None:
     taker = Taker()
     taker.take(payload(["left"], [1.0]))
     taker.take(payload(["left"], [2.0]))
     taker.topics.clear()
     assert taker.topics.changed() == {}
-    assert taker.topics.last == {"left": 2.0}
+    assert taker.topics.last == {}
+    taker.take(payload(["right"], [1.0]))
+    assert set(taker.topics.gone()) == {"left"}
+    taker.take(payload(["left"], [3.0]))
+    assert not taker.topics.gone()
 
 
 def test_a_message_that_is_cut_is_not_read_by_the_one_before() -> None:

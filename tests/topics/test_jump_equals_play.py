@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import made_recording
+import numpy as np
 import pytest
+from inside import session_of
+from protocol_client import wait_for_workers
 
+from sambot_viz import Visualizer
 from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
@@ -124,6 +129,89 @@ def test_a_jump_leaves_the_frames_as_playing_to_it_does(
         assert start is not None and end is not None
         for at_ns in (end, *(chance.randint(start, end) for _ in range(5))):
             assert jumped(recorded, at_ns) == played(recorded, at_ns)
+
+
+JOINTS = ("wheel", "arm", "hand", "lid")
+JOINT_STATE = "sensor_msgs/msg/JointState"
+Positions = dict[str, float]
+
+
+def any_joints(seed: int) -> list[tuple[str, float, Positions]]:
+    """Publishers of some joints each, which begin late, fall silent, and send NaN."""
+    chance = random.Random(seed)
+    sent: list[tuple[str, float, Positions]] = []
+    for _ in range(chance.randint(1, 4)):
+        topic = chance.choice(("/joint_states", "/arm/joint_states"))
+        names = chance.sample(JOINTS, chance.randint(1, 3))
+        period = chance.choice((0.1, 0.5, 5.0, 40.0))
+        log, end = chance.uniform(0, 40), chance.choice((SECONDS, SECONDS / 3))
+        while log < end:
+            values = (chance.choice((chance.random(), math.nan)) for _ in names)
+            sent.append((topic, round(log, 1), dict(zip(names, values, strict=True))))
+            log += period
+    return sorted(sent, key=lambda one: one[1])
+
+
+def with_joints(path: Path, sent: list[tuple[str, float, Positions]]) -> Path:
+    store, start = made_recording.store_of_all(), made_recording.START
+    kind, none = store.types[JOINT_STATE], np.zeros(0)
+    time = store.types["builtin_interfaces/msg/Time"](0, 0)
+    header = store.types["std_msgs/msg/Header"](time, "")
+    beat = (("/joint_states", 0.0, {"lid": 0.5}), ("/joint_states", SECONDS, {}))
+    return made_recording.write_messages(
+        path,
+        [
+            (
+                topic,
+                JOINT_STATE,
+                round((start + log) * 1e9),
+                kind(header, list(names), np.array([*names.values()]), none, none),
+            )
+            for topic, log, names in (beat[0], *sent, beat[1])
+        ],
+    )
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_a_jump_leaves_the_joints_as_playing_to_it_does(
+    tmp_path: Path, seed: int
+) -> None:
+    path = with_joints(tmp_path / "any.mcap", any_joints(seed))
+    chance = random.Random(seed)
+    with Inputs(Options(path)) as inputs:
+        recorded = inputs.moved_by
+        assert recorded is not None
+        recording, jumped = recorded.recording, recorded.joint_states()
+        assert recording is not None
+        start, end = recording.start_ns, recording.end_ns
+        assert start is not None and end is not None and jumped.topics
+        for at_ns in (end, *(chance.randint(start, end) for _ in range(5))):
+            played = recorded.joint_states()
+            for message in recording.messages(None, at_ns, played.topics):
+                played.take(message)
+            jump(recording, at_ns, (jumped,))
+            assert jumped.last == played.last
+
+
+def test_a_joint_that_has_not_been_told_of_goes_back_to_its_start(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "r.urdf"
+    joint = '<joint name="{0}" type="continuous"><parent link="b"/><child link="{0}"/>'
+    joints = "".join(f'<link name="{n}"/>{joint.format(n)}</joint>' for n in JOINTS)
+    model.write_text(f'<robot name="r"><link name="b"/>{joints}</robot>')
+    sent = [
+        ("/joint_states", 10.0, {"arm": 1.0}),
+        ("/joint_states", 40.0, {"lid": 2.0}),
+    ]
+    path = with_joints(tmp_path / "late.mcap", sent)
+    with Visualizer(model, source=str(path), port=0) as viz:
+        player = session_of(viz).data.player
+        for at, expected in ((50.0, (1.0, 2.0)), (5.0, (0.0, 0.5)), (20.0, (1.0, 0.5))):
+            player.jump(player.start_ns + round(at * 1e9))
+            wait_for_workers()
+            positions = viz.joint_positions
+            assert (positions["arm"], positions["lid"]) == pytest.approx(expected)
 
 
 def test_a_second_jump_reads_only_what_holds(

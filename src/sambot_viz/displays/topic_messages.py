@@ -75,6 +75,7 @@ class TopicMessages(Protocol):
         base: str = "",
         minds_older: bool = False,
         rests: Rests = "never",
+        joints: bool = False,
     ) -> Subscription:
         """Ask for the messages of some topics (see `Subscription` for the others).
 
@@ -88,6 +89,7 @@ class TopicMessages(Protocol):
             base: what changes are made to.
             minds_older: whether older ones matter.
             rests: whether they are left alone while nobody looks.
+            joints: they are joint states: the last one of each joint counts.
         """
         ...
 

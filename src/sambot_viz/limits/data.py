@@ -211,10 +211,10 @@ SURVEYED_LATE = LimitRow(
     "of the others nothing is said",
 )
 SEARCHED = LimitRow(
-    "messages of transforms that are looked at to find a frame that must be there",
+    "messages that are looked at to find a frame, or a joint, that must be there",
     20_000,
     "",
-    "the frame is not there at that time; displays say so",
+    "a frame is not there, and displays say so; a joint is at its start",
 )
 REPAIRED = LimitRow(
     "places in a damaged mcap file that look like a record",

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages import JointStateTemplate
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.sources.subscriber import newest_until
+from sambot_viz.topics.joint_index import JointIndex
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:
@@ -23,6 +23,24 @@ _MOST_TEMPLATES = 8
 """So many parts of a robot are known by their names, in each channel."""
 
 
+class JointNames:
+    """Reads which joints have a position in messages; most are not decoded.
+
+    Args:
+        decode: as for `JointStateTopics`.
+    """
+
+    def __init__(self, decode: Callable[[Recorded], Any]) -> None:
+        self._taker = JointStateTopics((), decode)
+
+    def __call__(self, message: Recorded) -> tuple[str, ...]:
+        """Return the joints; empty for a message that cannot be decoded."""
+        taker = self._taker
+        taker.clear()
+        taker.take(message)
+        return tuple(taker.changed())
+
+
 class JointStateTopics:
     """Takes sensor_msgs/JointState messages; several publishers name parts of a robot.
 
@@ -30,6 +48,7 @@ class JointStateTopics:
         topics: their names.
         decode: a message as an object with the lists name and position; raises
             DecodeError.
+        index: finds the messages that hold at a time of a recording.
 
     Attributes:
         topics: as given.
@@ -37,16 +56,20 @@ class JointStateTopics:
         uneven: topic → how many messages have more names than positions.
     """
 
-    depth_ns = 1_000_000_000
     always: Collection[str] = ()
 
     def __init__(
-        self, topics: Collection[str], decode: Callable[[Recorded], Any]
+        self,
+        topics: Collection[str],
+        decode: Callable[[Recorded], Any],
+        index: JointIndex | None = None,
     ) -> None:
         self.topics = tuple(topics)
         self.undecoded: Counter[str] = Counter()
         self.uneven: Counter[str] = Counter()
         self._decode = decode
+        self._index = index
+        self._named: set[str] = set()
         self._last: dict[str, float] = {}
         self._changed: dict[str, float] = {}
         self._templates: dict[TopicChannel, list[JointStateTemplate]] = {}
@@ -100,13 +123,21 @@ class JointStateTopics:
             self._set(template.names, positions.tolist())
 
     def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
-        """Return the messages of the last seconds, or the last one of a topic."""
-        return newest_until(recording, self.topics, at_ns, self.depth_ns)
+        """Return the messages that hold at a log time [ns], in their order."""
+        del recording
+        return () if self._index is None else self._index.holding(at_ns, self._named)
 
     def clear(self) -> None:
-        """Forget what was not asked for."""
+        """Forget what was taken."""
         self._spread()
+        self._named.update(self._last)
+        self._last.clear()
         self._changed.clear()
+
+    def gone(self) -> Collection[str]:
+        """Return the joints that messages have named, but none since the last jump."""
+        self._spread()
+        return self._named - self._last.keys()
 
     def changed(self) -> Mapping[str, float]:
         """Return joint → position since the last call [rad or m]."""

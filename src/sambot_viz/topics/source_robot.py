@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,8 @@ from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
 from sambot_viz.topics.first_messages import FirstMessages
 from sambot_viz.topics.first_topics import shown_at_first
-from sambot_viz.topics.joint_states import JointStateTopics
+from sambot_viz.topics.joint_index import JointIndex
+from sambot_viz.topics.joint_states import JointNames, JointStateTopics
 from sambot_viz.topics.name_spaces import NameSpaces, space_of
 from sambot_viz.topics.robot_topics import (
     STAND_IN_LINK,
@@ -114,6 +115,7 @@ class SourceRobot:
         self._seen = 0
         self._texts: dict[str, str] = {}
         self._index: TransformIndex | None = None
+        self._joint_indexes: dict[tuple[str, ...], JointIndex] = {}
         self.first_messages = FirstMessages(self.recording, self.decode)
         self._told = self._make_transforms(FrameHistory())
         source.on_topics = self._look
@@ -337,7 +339,17 @@ class SourceRobot:
 
     def joint_states(self) -> JointStateTopics:
         """Return what takes the positions of joints."""
-        return JointStateTopics(self.topics.joint_states, self.new_decoding().decode)
+        topics = self.topics.joint_states
+        decode, index = self.new_decoding().decode, self.joint_index(topics)
+        return JointStateTopics(topics, decode, index)
+
+    def joint_index(self, topics: Collection[str]) -> JointIndex | None:
+        """Return what finds joint states at a time; None without a recording."""
+        recording, key = self.recording, tuple(topics)
+        if recording is not None and key not in self._joint_indexes:
+            names_of = JointNames(self.new_decoding().decode)
+            self._joint_indexes[key] = JointIndex(recording, key, names_of)
+        return self._joint_indexes.get(key)
 
     def new_decoding(self) -> Decoding:
         """Return what decodes the messages for a session."""

@@ -34,6 +34,8 @@ class Subscription:
             has come since counts; "" for none.
         minds_older: whether to find out if there are older messages than those that
             count after a jump.
+        holding: finds those that count after a jump, by the log time [ns]; None for
+            those of the depth.
 
     Attributes:
         topics: as given.
@@ -59,6 +61,7 @@ class Subscription:
         size: int,
         base: str = "",
         minds_older: bool = False,
+        holding: Callable[[int], Sequence[Recorded]] | None = None,
     ) -> None:
         self.topics = topics
         self.decode = decode
@@ -71,6 +74,7 @@ class Subscription:
         self.has_older = False
         self.given_way = 0
         self._minds_older = minds_older
+        self._holding = holding
         self._waiting: deque[Recorded] = deque(maxlen=size)
         self._last: dict[str, Recorded] = {}
         self._begin_ns: int | None = None
@@ -102,6 +106,8 @@ class Subscription:
 
     def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
         """Return the messages of the display's depth, or the last one of a topic."""
+        if self._holding is not None:
+            return self._holding(at_ns)
         found = newest_until(recording, self.topics, at_ns, self.depth_ns, self.base)
         if self._minds_older:
             self.has_older = _is_any_older(recording, found)

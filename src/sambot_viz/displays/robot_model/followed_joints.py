@@ -42,7 +42,11 @@ class FollowedJoints:
         self._topics, self._subscription, self._states = topics, None, None
         if topics:
             self._subscription = messages.subscribe(
-                topics, self._take, depth_s=_DEPTH_S, size=limits.DISPLAY_WAITING.value
+                topics,
+                self._take,
+                depth_s=_DEPTH_S,
+                size=limits.DISPLAY_WAITING.value,
+                joints=True,
             )
             self._states = JointStateTopics(topics, self._subscription.decode)
             # Of a recording that stands still they wait already.
@@ -51,7 +55,10 @@ class FollowedJoints:
     def _take(self) -> None:
         if self._subscription is None or self._states is None:
             return
+        has_jumped = self._subscription.is_outdated
+        if has_jumped:
+            self._states.clear()
         for message in self._subscription.drain():
             self._states.take(message)
-        if self._states.changed():
+        if self._states.changed() or has_jumped:
             self._moved()

@@ -59,8 +59,10 @@ class DisplayTopics:
         base: str = "",
         minds_older: bool = False,
         rests: Rests = "never",
+        joints: bool = False,
     ) -> Subscription:
         """Ask for the messages of some topics; see `TopicMessages`."""
+        index = self._moved_by.joint_index(topics) if joints else None
         made = Subscription(
             topics,
             self._decoding.in_turn(),
@@ -69,6 +71,7 @@ class DisplayTopics:
             size=size,
             base=base,
             minds_older=minds_older,
+            holding=None if index is None else index.holding,
         )
         self._subscriptions[made] = rests
         if self._is_seen or not self._rests(made):

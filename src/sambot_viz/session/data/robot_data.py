@@ -241,7 +241,7 @@ class RobotData:
             self._tell_problems()
         if self._renamed != self.transforms.renamed:
             self._renamed, jumped = self.transforms.renamed, True
-        self._robot.note_followed(self._joint_states.changed())
+        self._note_joints(jumped)
         self._frames.waiting = True
         # One picture is one change.
         with self._change():
@@ -251,6 +251,14 @@ class RobotData:
                 self._robot.draw_moved()
             self._robot.messages_came()
         self._look_at_time(jumped)
+
+    def _note_joints(self, jumped: bool) -> None:
+        changed = self._joint_states.changed()
+        if jumped and self.source.live is None:
+            # Played from its begin, they would not have moved yet.
+            starts = self._robot.starts(self._joint_states.gone())
+            changed = {**starts, **changed}
+        self._robot.note_followed(changed)
 
     def _look_at_time(self, jumped: bool = False) -> None:
         now = self._worker.clock.now()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import partial
 
 from sambot_viz.errors import JointError, Problem
@@ -299,6 +299,13 @@ class RobotState:
                     if joints.joints[name].endless:
                         known[name] = wrap_angle(known[name])
                 self._note(known, {})
+
+    def starts(self, names: Collection[str]) -> dict[str, float]:
+        """Return joint → start value of those that are free joints [rad or m]."""
+        joints = self.joints
+        if joints is None:
+            return {}
+        return {name: joints.start(name) for name in names if name in joints.free}
 
     def after_jump(self) -> None:
         """Draw what messages say after a jump in time; some frames may be gone."""

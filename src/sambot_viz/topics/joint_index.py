@@ -1,0 +1,111 @@
+"""Which messages of a recording say where its joints are at a time.
+
+Of each joint the last message that names it counts, however long ago it came, and each
+publisher names other joints. So a recording is looked through once, a second at a time
+and from the time that is asked for back to the start; of each second it is kept which
+joints were named last, and when.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Collection, Iterable
+from typing import TYPE_CHECKING
+
+from sambot_viz import limits
+from sambot_viz.errors import DecodeError
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.transform_index import BLOCK, FEW
+
+# A page without a recording does without what opens one.
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
+
+_Names = tuple[str, ...]
+_Block = dict[_Names, int]
+"""The joints that one message names → the log time of the last such message [ns]."""
+
+
+class JointIndex:
+    """Finds the messages that hold at a time. Threads may share it.
+
+    Args:
+        recording: its messages.
+        topics: those of joint states; some may not be in the recording.
+        names_of: the joints that a message gives a position; raises DecodeError.
+    """
+
+    def __init__(
+        self,
+        recording: Bag,
+        topics: Collection[str],
+        names_of: Callable[[Recorded], _Names],
+    ) -> None:
+        self._recording = recording
+        self._topics = tuple(name for name in topics if name in recording.topics)
+        self._names_of = names_of
+        self._blocks: dict[int, tuple[_Block, int]] = {}
+        self._lock = threading.Lock()
+
+    def holding(self, at_ns: int, expected: Iterable[str] = ()) -> list[Recorded]:
+        """Return the messages that hold at a log time, in their order.
+
+        Taken one after the other, they leave the joints where all messages up to that
+        time do. The last one of each topic is among them.
+
+        Args:
+            at_ns: the log time [ns].
+            expected: joints for which it is looked further back.
+        """
+        recording, topics = self._recording, self._topics
+        with self._lock:
+            times = self._times(at_ns, set(expected))
+        for topic in topics:
+            last = recording.last(topic, at_ns)
+            if last is not None:
+                times.add(last.log_ns)
+        return [
+            message
+            for time in sorted(times)
+            for message in recording.messages(time, time, topics)
+        ]
+
+    def _times(self, at_ns: int, missing: set[str]) -> set[int]:
+        """Return the log times of the last message that names each joint [ns]."""
+        start = self._recording.start_ns
+        if start is None or not self._topics:
+            return set()
+        times, seen, looked = set[int](), set[str](), 0
+        last = (at_ns - start) // BLOCK
+        for number in range(last, -1, -1):
+            known = self._blocks.get(number)
+            if known is None:
+                if looked >= (limits.SEARCHED.value if missing else FEW):
+                    break
+                begin = start + number * BLOCK
+                known = self._look(begin, min(begin + BLOCK - 1, at_ns))
+                if begin + BLOCK - 1 <= at_ns:
+                    self._blocks[number] = known
+                looked += known[1]
+            elif number == last:
+                known = self._look(start + number * BLOCK, at_ns)
+            for names, time in sorted(known[0].items(), key=lambda one: -one[1]):
+                if not seen.issuperset(names):
+                    seen.update(names)
+                    times.add(time)
+            missing -= seen
+        return times
+
+    def _look(self, begin: int, end: int) -> tuple[_Block, int]:
+        """Return what the messages of a time name, and how many there are."""
+        block: _Block = {}
+        count = 0
+        for message in self._recording.messages(begin, end, self._topics):
+            count += 1
+            try:
+                names = self._names_of(message)
+            except DecodeError:
+                continue
+            if names in block or len(block) < limits.FRAMES.value:
+                block[names] = message.log_ns
+        return block, count
