@@ -9,12 +9,19 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import TypeDefinition
 from sambot_viz.messages.functions import Functions
 from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.reason import Reason
 
+Edges = tuple[tuple[str, str], ...]
+"""(parent, child) of each transform."""
+ReadTransforms = tuple[list[int], Edges, npt.NDArray[np.float64]]
+"""The stamps of transforms [ns], their frames, and their (N, 7) poses."""
 Payload = bytes | bytearray | memoryview
 _XCDR2 = tuple(bytes((0, number)) for number in range(6, 12))
 """How messages in the newer CDR of DDS begin."""
@@ -63,6 +70,11 @@ class Decoder:
             DecodeError: the bytes are no such message; a short cause.
         """
         raise DecodeError(self.reason.text if self.reason else "it cannot be read")
+
+    def transforms(self, payload: Payload) -> ReadTransforms | None:
+        """Return transforms that need no objects; None for what is to be decoded."""
+        del payload
+        return None
 
 
 class _Store:

@@ -12,9 +12,10 @@ import numpy as np
 
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
-from sambot_viz.messages.decoder import Decoder, Payload
+from sambot_viz.messages.decoder import Decoder, Payload, ReadTransforms
 from sambot_viz.messages.kept_elements import KeptElements
 from sambot_viz.messages.plain_fields import within_limit
+from sambot_viz.messages.protobuf_transforms import ProtobufTransforms
 from sambot_viz.messages.schema import Schema
 
 if TYPE_CHECKING:
@@ -51,6 +52,11 @@ class ProtobufDecoder(Decoder):
         self._class: Any = GetMessageClass(descriptor)
         self._readers: dict[str, list[tuple[str, Get]]] = {}
         self._type = descriptor
+        self._transforms = ProtobufTransforms(descriptor)
+
+    def transforms(self, payload: Payload) -> ReadTransforms | None:
+        """Return transforms as they usually come; None for what is to be decoded."""
+        return self._transforms.read(within_limit(payload))
 
     def decode(
         self, payload: Payload, kept: KeptElements | None = None

@@ -18,13 +18,10 @@ from numpy.typing import NDArray
 
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.cdr import CdrReader
-from sambot_viz.messages.decoder import Payload
+from sambot_viz.messages.decoder import Edges, Payload, ReadTransforms
 
-Edges = tuple[tuple[str, str], ...]
-"""(parent, child) of each transform."""
 Transforms = tuple[int, Edges, NDArray[np.float64]]
 """Stamp [ns], the frames, and their (N, 7) poses: x, y, z and quaternion x, y, z, w."""
-
 _MOST_KEPT = 20_000
 """So many transforms are kept in lists of frames; each publisher has one or two."""
 _MOST_TEMPLATES = 32
@@ -103,6 +100,11 @@ class TransformDecoder:
         ]
         poses = [_NUMBERS(one.transform) for one in transforms]
         return self._split(stamps, edges, np.array(poses, np.float64))
+
+    def rows(self, read: ReadTransforms) -> list[Transforms]:
+        """Return transforms that were read elsewhere, an entry for each stamp."""
+        stamps, edges, poses = read
+        return self._split(stamps, self._one(edges), poses)
 
     def _keep(self, key: tuple[int, int], template: _TransformTemplate) -> None:
         held = self._templates_size

@@ -102,14 +102,21 @@ class Decoding:
         decoder = self._transforms.get(encoding)
         if decoder is None:
             decoder = self._transforms[encoding] = TransformDecoder(encoding)
-        prefix = message.channel.frame_prefix
-        if decoder.is_fast and has_ros_look(message.channel.schema.name):
-            found = decoder.decode(message.payload)
-            if prefix:
-                found = self._with_prefix(found, prefix)
-        else:
+        found = self._quick(message, decoder)
+        if found is None:
             found = decoder.sorted(self._read(message).transforms)
+        elif message.channel.frame_prefix:
+            found = self._with_prefix(found, message.channel.frame_prefix)
         return self.spaces.transforms(message.topic, found) if self.spaces else found
+
+    def _quick(self, message: Recorded, made: TransformDecoder) -> Transforms | None:
+        """Return the transforms of a message that needs no objects for its fields."""
+        channel = message.channel
+        if made.is_fast and has_ros_look(channel.schema.name):
+            return made.decode(message.payload)
+        decoder = self.types.decoder(channel.schema, channel.message_encoding)
+        read = decoder.transforms(message.payload)
+        return None if read is None else made.rows(read)
 
     def _with_prefix(self, transforms: Transforms, prefix: str) -> Transforms:
         """Return transforms with other names, the same tuple for the same frames."""
