@@ -144,7 +144,7 @@ ROOMS: Mapping[str, Row] = {
     ),
     # What programs and people start it with.
     "scripting": Row(
-        "displays export frames joints options robot rviz server session views",
+        "displays export frames joints options robot rviz server session topics views",
         "numpy viser",
     ),
     "commands": Row(

@@ -352,13 +352,13 @@ class Inputs:
             SourceError: it says nothing.
         """
         from sambot_viz.listened import Listened
-        from sambot_viz.topics.live_reasons import nothing_came
+        from sambot_viz.topics.reasons import nothing_came
 
         listened = Listened(live, seconds, self._options.at)
         if listened.recorded is None:
             listened.close()
-            lost = [problem.message for problem in listened.lost]
-            raise SourceError(f"{live.name}: {''.join(lost) or nothing_came(seconds)}")
+            lost = "".join(problem.message for problem in listened.lost)
+            raise SourceError(f"{live.name}: {lost or nothing_came(seconds).text}")
         self._listened, self.moved_by = listened, listened.recorded
 
     def _load_opened(self, opened: OpenedModel) -> Robot:

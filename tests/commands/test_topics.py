@@ -150,5 +150,5 @@ def test_two_parents_have_one_remedy(made: Path, capsys: Capture) -> None:
     out, err = capsys.readouterr()
     assert "publish odom -> base_link" in err
     (row,) = (line for line in out.splitlines() if line.startswith("/odom "))
-    assert "publish odom -> base_link" in row
+    assert "Publish odom -> base_link" in row
     assert "static_transform_publisher" not in row

@@ -28,7 +28,7 @@ def reasons_of(name: str) -> dict[str, TopicReason | None]:
         assert inputs.moved_by is not None
         survey = Survey(inputs.moved_by)
         survey.finish()
-        rows = TopicReport(survey).statuses()
+        rows = TopicReport(survey).accounts()
         return {row.name: row.reason for row in rows}
 
 

@@ -19,8 +19,8 @@ from sambot_viz import Visualizer, bundled, limits
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.session import Session
-from sambot_viz.session.data import source_topics
 from sambot_viz.session.signals import connect
+from sambot_viz.topics import live_evidence
 
 
 class Opened:
@@ -33,7 +33,7 @@ class Opened:
         if self.data.player is not None:
             self.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
         self.remade = 0
-        self.panel = TopicsPanel(self.data.topics, session.scene, self._remake)
+        self.panel = TopicsPanel(self.data.topics, session.scene.statuses, self._remake)
         connect(self.data.topics.remade_by, lambda: self._remake(self.panel))
 
     def _remake(self, panel: Panel) -> None:
@@ -295,7 +295,7 @@ def test_large_messages_come_when_their_row_is_chosen(
 def test_why_nothing_of_a_live_topic_is_seen(
     live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(source_topics, "SILENT_AFTER", 0.0)
+    monkeypatch.setattr(live_evidence, "SILENT_AFTER", 0.0)
     peer.advertise("/silent")
     peer.advertise("/odd", schema="nobody_msgs/msg/Nothing")
     live.look()
@@ -311,18 +311,18 @@ def test_why_nothing_of_a_live_topic_is_seen(
     live.until_shown(lambda shown: "topic:/broken" in shown)
     until(lambda: "/broken" in peer.subscribed(), WAIT)
     peer.log("/broken", b"\0\1\0\0\xff\xff\xff\xff")
-    live.until_shown(lambda shown: "cannot be decoded" in shown["topic:/broken/reason"])
+    live.until_shown(lambda shown: "be decoded" in shown["topic:/broken/reason"])
     # Nothing was recorded.
     assert "look at what publishes it" in live.values()["topic:/broken/reason"]
     with live.session.lock:
         live.session.document.set_option("Fixed Frame", "nowhere")
-    live.until_shown(lambda shown: "to [nowhere]" in shown["topic:/scan/reason"])
+    live.until_shown(lambda shown: "Frame [nowhere]" in shown["topic:/scan/reason"])
 
 
 def test_while_the_connection_is_lost_topics_are_not_to_blame(
     live: LiveOpened, peer: BusyPeer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(source_topics, "SILENT_AFTER", 0.0)
+    monkeypatch.setattr(live_evidence, "SILENT_AFTER", 0.0)
     peer.advertise("/silent")
     live.look()
     live.until_shown(lambda shown: "has come yet" in shown["topic:/silent/reason"])
@@ -339,15 +339,16 @@ def test_however_many_look_a_topic_is_looked_at_once_a_second(
     live.look()
     scene = live.session.scene
     others = [
-        TopicsPanel(live.data.topics, scene, lambda panel: None) for _ in range(2)
+        TopicsPanel(live.data.topics, scene.statuses, lambda panel: None)
+        for _ in range(2)
     ]
     with live.session.lock:
         live.panel.rows()
         for panel in others:
             {one.id: one for one in panel.commands()}["topics/show"].run(True)
             panel.rows()
-        status = topics.status
-        monkeypatch.setattr(topics, "status", lambda n: asked.append(n) or status(n))
+        account = topics.account
+        monkeypatch.setattr(topics, "account", lambda n: asked.append(n) or account(n))
         topics._tick()  # pyright: ignore[reportPrivateUsage]
         for panel in (live.panel, *others):
             panel.values()

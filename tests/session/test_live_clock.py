@@ -9,10 +9,9 @@ from typing import Any, cast
 
 import pytest
 
-from sambot_viz.session.data.live_clock import ClockState, LiveClock
+from sambot_viz.session.data.live_clock import ClockState, LiveClock, wrong_clock
 from sambot_viz.session.signals import Change, connect
 from sambot_viz.session.worker import Worker
-from sambot_viz.topics.live_reasons import wrong_clock
 
 WALL = 1_750_000_000.0
 

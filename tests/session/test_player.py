@@ -129,12 +129,13 @@ def test_a_jump_to_before_the_first_transform_says_so(tmp_path: Path) -> None:
     with Visualizer(path, port=0, at=3.6) as viz:
         topics = session_of(viz).data.topics
         assert topics is not None
+        session_of(viz).document.set_option("Fixed Frame", "odom")
         topics.follow(None, ["/scan"])
         until(lambda: topics.is_complete)
         codes = list[str]()
         for seconds in (3.6, 1.0, 3.6):
             viz.player.jump(seconds)
-            reason = topics.status("/scan").reason
+            reason = topics.account("/scan").reason
             codes.append("" if reason is None else reason.code)
         assert codes == ["", "no-transform", ""]
 

@@ -36,7 +36,8 @@ def topics(path: Path, at: float | None) -> str:
             assert recording.topics[name].name == name
             report.last_ns(name, recording.end_ns or 0)
         assert recorded.problems is not None
-        return topics_text(report.statuses(recorded.at_ns))
+        report.at_ns = recorded.at_ns
+        return topics_text(report.accounts())
 
 
 @pytest.mark.parametrize(

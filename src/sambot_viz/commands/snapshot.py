@@ -46,6 +46,7 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
     """Draw what a page would show."""
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import LONGEST_WAIT, snapshot
+    from sambot_viz.session.problems import problems_of_topics
     from sambot_viz.visualizer import Visualizer
 
     options, (width, height) = inputs.options, size
@@ -60,6 +61,7 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
             viz.player.pause()
             viz.player.jump(viz.player.duration if options.at is None else options.at)
         write_problems(session.document.config.problems)
+        write_problems([*problems_of_topics(session.scene.displays)])
         _report_fixed_frame(session.scene)
         # A browser takes seconds to start: what is wrong has been reported by now.
         with Chromium() as chromium:

@@ -17,8 +17,9 @@ from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
 from sambot_viz.problems import write_problems
 from sambot_viz.text import text
-from sambot_viz.topics.live_reasons import silent_topics
-from sambot_viz.topics.report import TopicReport, TopicStatus
+from sambot_viz.topics import reasons
+from sambot_viz.topics.account import Account
+from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
@@ -44,9 +45,7 @@ def run(words: list[str]) -> int:
     return int(any(problem.severity == "error" for problem in found))
 
 
-def _looked_at(
-    options: Options, seconds: float
-) -> tuple[list[TopicStatus], list[Problem]]:
+def _looked_at(options: Options, seconds: float) -> tuple[list[Account], list[Problem]]:
     """Return what is to be said of each topic, and what is wrong with all of it."""
     refuse_time_of_live(options)
     refuse_mixture(options)
@@ -86,28 +85,32 @@ def _no_recording(options: Options) -> str:
 
 
 def _of_recording(
-    recorded: SourceRobot, at_ns: int | None, *, is_live: bool = False
-) -> tuple[list[TopicStatus], list[Problem]]:
+    recorded: SourceRobot, at_ns: int | None
+) -> tuple[list[Account], list[Problem]]:
     survey = Survey(recorded)
     survey.finish()
-    statuses = list(TopicReport(survey, is_live=is_live).statuses(at_ns))
+    report = TopicReport(survey)
+    report.at_ns = at_ns
     of_frames = problems_of_transforms(survey.transforms, recorded.name)
-    return statuses, [*recorded.problems, *of_frames]
+    found = dict.fromkeys((*recorded.problems, *of_frames))
+    return list(report.accounts()), [*found]
 
 
-def _of_live(listened: Listened) -> tuple[list[TopicStatus], list[Problem]]:
+def _of_live(listened: Listened) -> tuple[list[Account], list[Problem]]:
     """Return the same for a live robot: with topics of which no message came."""
-    came: dict[str, TopicStatus] = {}
-    found: list[Problem] = []
+    rows, found = list[Account](), list[Problem]()
     recorded = listened.recorded
     if recorded is not None:
         # At its end nothing is still to come.
         end_ns = None if recorded.recording is None else recorded.recording.end_ns
-        rows, found = _of_recording(recorded, end_ns, is_live=True)
-        came = {row.name: row for row in rows}
-    silent = silent_topics(listened.topics, came, listened.seconds)
-    rows = sorted([*came.values(), *silent], key=attrgetter("name"))
-    return rows, [*listened.lost, *found]
+        rows, found = _of_recording(recorded, end_ns)
+    came = {row.name for row in rows}
+    for name in sorted(listened.topics.keys() - came):
+        topic = listened.topics[name]
+        why = reasons.unreceived(topic) or reasons.nothing_came(listened.seconds)
+        readable = topic.reason is None
+        rows.append(Account(name, topic.schema.name, 0, None, readable, why))
+    return sorted(rows, key=attrgetter("name")), [*listened.lost, *found]
 
 
 def parser() -> Parser:
@@ -128,7 +131,7 @@ def parser() -> Parser:
     return made
 
 
-def topic_json(row: TopicStatus) -> dict[str, Any]:
+def topic_json(row: Account) -> dict[str, Any]:
     """Return the fields of ``topics --format json``."""
     reason = row.reason
     return {
@@ -142,14 +145,14 @@ def topic_json(row: TopicStatus) -> dict[str, Any]:
     }
 
 
-def topics_text(rows: Iterable[TopicStatus]) -> str:
+def topics_text(rows: Iterable[Account]) -> str:
     """Return a table, without a line break at the end."""
     cells = [_HEAD, *(_cells(row) for row in rows)]
     widths = [max(len(line[column]) for line in cells) for column in range(4)]
     return "\n".join(_line(line, widths) for line in cells)
 
 
-def _cells(row: TopicStatus) -> tuple[str, str, str, str, str]:
+def _cells(row: Account) -> tuple[str, str, str, str, str]:
     reason = row.reason
     return (
         text(row.name, _WIDEST),

@@ -39,6 +39,7 @@ from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, EntryItem, Property
+from sambot_viz.topics.reasons import TopicReason
 
 HIGHLIGHT: Rgb = (255, 224, 0)
 Level = Literal["Ok", "Warn", "Error"]
@@ -49,10 +50,17 @@ _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """One row of a status: a level and a sentence."""
+    """One row of a status.
+
+    Attributes:
+        level: how bad it is.
+        text: a sentence.
+        code: of the reason, where a topic is not seen for it; "" for none of its own.
+    """
 
     level: Level
     text: str
+    code: str = ""
 
 
 class StatusList:
@@ -79,11 +87,11 @@ class StatusList:
                 worst = row.level
         return worst
 
-    def set(self, key: str, level: Level, text: str) -> None:
+    def set(self, key: str, level: Level, text: str, code: str = "") -> None:
         """Set one row."""
         key, status = (
             key[: limits.KEY.value],
-            Status(level, text[: limits.STATUS_TEXT.value]),
+            Status(level, text[: limits.STATUS_TEXT.value], code),
         )
         if self._rows.get(key) != status:
             self._rows[key] = status
@@ -233,6 +241,17 @@ class DisplayContext:
         if self.tree.is_ahead(frame):
             return Status("Ok", AHEAD)
         return Status("Ok", "Transform OK")
+
+    def unplaced(self, topic: str, refused: LookupRefused) -> TopicReason:
+        """Return why a message has no place, and what brings it one.
+
+        Args:
+            topic: of the message.
+            refused: tf2's answer.
+        """
+        messages = self.messages
+        why = None if messages is None else messages.unplaced(topic, refused)
+        return why or TopicReason("no-transform", refused.rviz_text)
 
     def lookup_problem(self, frame: str) -> str | None:
         """RViz's long text when the frame cannot be placed, None when it can."""

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
 
 from sambot_viz.displays.robot_display import WantedQos
+from sambot_viz.frames import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.text import capitalized
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.subscription import Subscription
 
 Rests: TypeAlias = Literal["never", "where recorded", "always"]
@@ -24,15 +27,20 @@ class TopicDoubt:
 
     Attributes:
         level: of the status.
-        sentence: the cause and the remedy.
+        reason: the cause and the remedy.
         instead: a topic to use in place of this one; empty when none is meant.
         is_other_type: its messages mean something that the display does not draw.
     """
 
     level: Literal["Warn", "Error"]
-    sentence: str
+    reason: TopicReason
     instead: str = ""
     is_other_type: bool = False
+
+    @property
+    def sentence(self) -> str:
+        """The cause and the remedy, as a status says it."""
+        return capitalized(self.reason.text)
 
 
 def topics_of(types: Mapping[str, str], wanted: Collection[Meaning]) -> Sequence[str]:
@@ -122,4 +130,17 @@ class TopicMessages(Protocol):
         self, topic: str, meanings: Collection[Meaning], qos: WantedQos
     ) -> TopicDoubt | None:
         """Return why a topic gives nothing to a display of some meanings, or None."""
+        ...
+
+    def unplaced(self, topic: str, refused: LookupRefused) -> TopicReason | None:
+        """Return why a message has no place; None where what comes next brings it.
+
+        Args:
+            topic: of the message.
+            refused: tf2's answer.
+        """
+        ...
+
+    def is_recorded(self, topic: str) -> bool:
+        """Return whether all that there is of a topic up to now has come."""
         ...

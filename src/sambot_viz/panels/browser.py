@@ -86,7 +86,7 @@ class BrowserPanels:
         found = None if session.data is None else session.data.topics
         topics: list[Panel] = [AddByTopicPanel(found, scene, remake)]
         if found is not None:
-            topics.append(TopicsPanel(found, scene, remake))
+            topics.append(TopicsPanel(found, scene.statuses, remake))
         person = roles.people.get(client.client_id)
         presents = roles.presented and person is not None and person.presenter
         paths = [PathsPanel(displays, document, scene)] if presents else []

@@ -22,6 +22,7 @@ from sambot_viz.scripting.player_control import PlayerControl
 from sambot_viz.scripting.robots import AddedRobot, Robots
 from sambot_viz.server.server import Server
 from sambot_viz.session.robot.session_frames import FrameView
+from sambot_viz.topics.account import Account
 
 _F = TypeVar("_F", bound=Moved)
 
@@ -80,6 +81,21 @@ class RobotControl:
     def displays(self) -> Displays:
         """The displays: ``viz.displays["TF"].set("Show Names", False)``."""
         return self._displays
+
+    @property
+    def topics(self) -> Mapping[str, Account]:
+        """Topic → what became of it, as the Topics panel says it: ``.reason.text``.
+
+        Some of the first messages of a recording are looked at. With private sessions,
+        what the browser that came first sees.
+        """
+        session = first(self._server.sessions)
+        with session.change():
+            topics = None if session.data is None else session.data.topics
+            if topics is None:
+                return MappingProxyType({})
+            topics.finish()
+            return MappingProxyType({n: topics.account(n) for n in topics.names})
 
     def link(self, name: str) -> LinkControl:
         """Return a link of the robot, to colour it or to hang nodes of viser below it.

@@ -120,7 +120,7 @@ class Session:
         self._descriptions: SourceDescriptions | None = None
         if moved_by is not None and frames is not None:
             self.data = RobotData(
-                moved_by, frames, data_frames, robot, change, worker, scene.fault_of
+                moved_by, frames, data_frames, robot, change, worker, scene
             )
             scene.context.now = self.data.time_s
             scene.context.is_paced = self.data.is_paced

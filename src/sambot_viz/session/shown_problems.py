@@ -6,13 +6,14 @@ they find joins what was found while loading.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
 
 from sambot_viz import limits
-from sambot_viz.displays.display import robot_displays
+from sambot_viz.displays.data.topic_display import TopicDisplay
+from sambot_viz.displays.display import Display, robot_displays
 from sambot_viz.errors import Problem, SambotVizError
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
@@ -24,6 +25,7 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import log_error
+from sambot_viz.topics.reasons import TopicReason
 
 Reloaded = Literal["model", "config", "watch", "fault"]
 """What a save failed to change (model, config), or why saves fail at all."""
@@ -151,6 +153,7 @@ class Problems:
         config = _also(saved.get("config", ()), of_config)
         others = (*saved.get("fault", ()), *saved.get("watch", ()))
         played = [problem for told in self._of_data for problem in told.value]
+        played += problems_of_topics(self._scene.displays)
         return in_order((*_also(model, played), *config, *others))
 
     def _note(self) -> str:
@@ -178,6 +181,24 @@ class Problems:
 
     def _has_error(self, of: Reloaded) -> bool:
         return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))
+
+
+def problems_of_topics(displays: Iterable[Display]) -> Iterator[Problem]:
+    """Yield why topics that displays are asked to show are not seen, each once.
+
+    Args:
+        displays: of a scene.
+    """
+    told: set[tuple[str, TopicReason]] = set()
+    for display in displays:
+        if not isinstance(display, TopicDisplay) or not display.shown:
+            continue
+        why = display.unseen()
+        if why is None or why.severity == "info" or (display.topic, why) in told:
+            continue
+        told.add((display.topic, why))
+        name = display.topic or f"the display {display.config.name}"
+        yield Problem(why.severity, why.code, f"{name}: {why.text}")
 
 
 class _State(NamedTuple):

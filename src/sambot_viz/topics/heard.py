@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Callable
+from typing import Any
 
-from sambot_viz.errors import DecodeError
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics import reasons
-from sambot_viz.topics.contents import content_reason
-from sambot_viz.topics.decoding import Decoding
-from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.looked import Looked
 
 WINDOW_NS = 5_000_000_000
 """The rate is that of the last seconds [ns]."""
@@ -35,17 +32,14 @@ class Heard:
         since: as given.
         count: so many messages have come.
         last: the newest message, None before the first one.
-        reason: what is wrong with the message that was looked at last.
-        frame: of its header; "" without.
     """
 
     def __init__(self, since: float = 0.0) -> None:
         self.since = since
         self.count = 0
         self.last: Recorded | None = None
-        self.reason: TopicReason | None = None
-        self.frame = ""
-        self._looked: Recorded | None = None
+        self._looked_at: Recorded | None = None
+        self._looked = Looked()
         self._times: deque[int] = deque(maxlen=_MOST_TIMES)
         # The thread of the source adds messages.
         self._lock = threading.Lock()
@@ -63,28 +57,13 @@ class Heard:
         self.count += 1
         self.last = message
 
-    def look(self, decoding: Decoding, is_placed: bool) -> None:
-        """Look at the last message, unless that has been done.
-
-        Args:
-            decoding: decodes it.
-            is_placed: whether it is drawn in the frame of its header.
-        """
+    def look(self, decode: Callable[[Recorded], Any]) -> Looked:
+        """Return what is seen of the last message."""
         message = self.last
-        if message is None or message is self._looked:
-            return
-        self._looked, self.reason, self.frame = message, None, ""
-        try:
-            decoded = decoding.decode(message)
-        except DecodeError as error:
-            self.reason = reasons.not_decodable(
-                1, 1, str(error), is_all=False, is_live=True
-            )
-            return
-        header = getattr(decoded, "header", None)
-        if header is not None and is_placed:
-            self.frame = plain_name(str(getattr(header, "frame_id", "")))
-        self.reason = content_reason(decoded)
+        if message is not None and message is not self._looked_at:
+            self._looked_at, self._looked = message, Looked()
+            self._looked.decode(message, decode)
+        return self._looked
 
     @property
     def period(self) -> float | None:

@@ -1,7 +1,7 @@
-"""Why a topic shows nothing: one short sentence, with the remedy.
+"""Why nothing of a topic is seen: one short sentence, with the remedy.
 
-Each function says one reason, or None where it does not hold. Which one is said when
-several hold is the order in `report.py`.
+Each function says one reason, or None where it does not hold; the same for recordings
+and live robots. Which one is said when several hold is the order in `account.py`.
 """
 
 from __future__ import annotations
@@ -10,14 +10,16 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.errors import Severity, did_you_mean, nearest
-from sambot_viz.frames.frame_errors import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.sources.message import SourceTopic
+from sambot_viz.sources.qos import Qos
 from sambot_viz.topics.robot_topics import describes_robot
 
 SEVERITIES: Mapping[str, Severity] = {
     "no-such-topic": "warning",
     "no-publisher": "warning",
     "no-message": "warning",
+    "not-connected": "info",
     "not-listened": "info",
     "qos": "warning",
     "encoding": "warning",
@@ -38,10 +40,17 @@ SEVERITIES: Mapping[str, Severity] = {
 }
 """All reasons of topics."""
 
-STALE = 5.0
-"""A topic that was silent for so long, and three of its periods, is said to be [s]."""
+QOS_WORDS = {
+    "reliable": "Reliable",
+    "best_effort": "Best Effort",
+    "transient_local": "Transient Local",
+    "volatile": "Volatile",
+}
+"""RViz's words for what ROS offers."""
+STALE, PERIODS = 5.0, 3
+"""A topic that was silent for so long [s], and so many of its periods, is stale."""
 _FIELDS = 6
-_HOUR = 3600.0
+_LOOK = "look at what publishes it"
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +72,9 @@ class TopicReason:
         return SEVERITIES.get(self.code, "warning")
 
 
+# What draws it
+
+
 def display_of(name: str, type_name: str) -> str | None:
     """Return the class of the display that draws a topic; None when there is none."""
     meaning = meaning_of(type_name)
@@ -79,6 +91,39 @@ def drawn_by(name: str, type_name: str) -> str | None:
     if meaning_of(type_name) is Meaning.GRID_UPDATE:
         return Meaning.GRID.display
     return display_of(name, type_name)
+
+
+def no_display(type_name: str, fields: Collection[str]) -> TopicReason:
+    """Say that nothing draws messages of a type, and what they have."""
+    if type_name.endswith("_Event") and "/srv/" in type_name:
+        return TopicReason(
+            "no-display", "events of a service: there is nothing to draw"
+        )
+    if meaning_of(type_name) is Meaning.GRID_UPDATE:
+        return TopicReason("no-display", "Map draws it with its map: add that topic")
+    named = type_name or "messages without a type"
+    listed = [*fields][:_FIELDS]
+    more = ", …" if len(fields) > len(listed) else ""
+    has = f"; its fields are {', '.join(listed)}{more}" if listed else ""
+    return TopicReason("no-display", f"nothing draws {named} yet{has}")
+
+
+def not_shown(display: str) -> TopicReason:
+    """Say that what would draw the topic is not there.
+
+    Args:
+        display: its kind, without the package.
+    """
+    article = "an" if display[0] in "AEIOU" else "a"
+    return TopicReason("no-display", f"not shown: add {article} {display} display")
+
+
+def off(display: str) -> TopicReason:
+    """Say that what draws the topic is switched off."""
+    return TopicReason("off", f"the display {display} is off: tick its box")
+
+
+# What is asked for
 
 
 def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:
@@ -101,23 +146,97 @@ def wrong_type(wanted: str, type_name: str) -> TopicReason:
     return TopicReason("wrong-type", text)
 
 
-def off(display: str) -> TopicReason:
-    """Say that what draws the topic is switched off."""
-    return TopicReason("off", f"the display {display} is off: tick its box")
+def qos_mismatch(offered: Qos | None, wanted: Qos) -> TopicReason | None:
+    """Say that publishers offer less than a display wants, so that nothing comes.
+
+    Args:
+        offered: by all publishers together, None when it is not known.
+        wanted: by the display; what is empty adapts, as System Default does.
+    """
+    if offered is None:
+        return None
+    pairs = (
+        ("Reliability", "best_effort", "reliable"),
+        ("Durability", "volatile", "transient_local"),
+    )
+    for policy, weak, strong in pairs:
+        field = policy.lower()
+        if (getattr(offered, field), getattr(wanted, field)) == (weak, strong):
+            return TopicReason(
+                "qos",
+                f"a publisher offers {QOS_WORDS[weak]}, the display wants "
+                f"{QOS_WORDS[strong]}: set its {policy} Policy to {QOS_WORDS[weak]} or "
+                "System Default",
+            )
+    return None
 
 
-def no_message(name: str) -> TopicReason:
-    """Say that a topic was recorded, and nothing came."""
+def transforms_qos(offered: Qos | None, *, is_static: bool) -> TopicReason | None:
+    """Say that publishers of transforms offer less than tf2's listeners want.
+
+    Args:
+        offered: by all publishers together, None when it is not known.
+        is_static: whether the transforms hold at all times.
+    """
+    wanted = Qos("reliable", "transient_local" if is_static else "volatile")
+    found = qos_mismatch(offered, wanted)
+    if found is None:
+        return None
+    differs = found.text.partition(":")[0].replace("the display wants", "tf2 wants")
+    remedy = "RViz and other nodes get nothing from it: change its QoS"
+    return TopicReason("qos", f"{differs}; {remedy}")
+
+
+def qos_words(qos: Qos) -> str:
+    """Return QoS in RViz's words, such as "Reliable, Transient Local"."""
+    policies = (qos.reliability, qos.durability)
+    return ", ".join(QOS_WORDS[policy] for policy in policies if policy in QOS_WORDS)
+
+
+# What comes
+
+
+def unreceived(topic: SourceTopic) -> TopicReason | None:
+    """Say why nothing comes of a topic, as far as its source knows."""
+    name = topic.name
+    if topic.reason is not None:
+        return TopicReason("encoding", topic.reason)
+    if topic.left_out:
+        return TopicReason("left-out", topic.left_out)
+    if topic.count == 0:
+        return TopicReason(
+            "no-message",
+            "no message was recorded: nothing was published, or with another QoS than "
+            f"the recorder wanted (ros2 topic info -v {name})",
+        )
+    if topic.publishers is None or topic.publishers:
+        return None
     return TopicReason(
-        "no-message",
-        "no message was recorded: nothing was published, or with another QoS than the "
-        f"recorder wanted (ros2 topic info -v {name})",
+        "no-publisher",
+        f"nobody publishes it: start the node that should (ros2 topic info {name})",
     )
 
 
-def left_out(what: str) -> TopicReason:
-    """Say what of a recorded topic is too large, or in a part that is damaged."""
-    return TopicReason("left-out", what)
+def no_message_yet(name: str) -> TopicReason:
+    """Say that a topic has a publisher, and nothing has come."""
+    return TopicReason(
+        "no-message",
+        "nothing has come yet: whatever publishes it is silent, or offers a QoS that "
+        f"the bridge does not ask for (ros2 topic info -v {name})",
+    )
+
+
+def nothing_came(seconds: float) -> TopicReason:
+    """Say that a topic or a robot was silent, and how to listen longer."""
+    text = f"nothing came within {seconds:g} s: listen longer with --for SECONDS"
+    return TopicReason("no-message", text)
+
+
+def not_listened() -> TopicReason:
+    """Say that messages are not asked for, as they would fill the network."""
+    return TopicReason(
+        "not-listened", "its messages are large: select this row to listen to them"
+    )
 
 
 def not_here_yet(begins: float, latched: bool) -> TopicReason:
@@ -135,9 +254,39 @@ def not_here_yet(begins: float, latched: bool) -> TopicReason:
     return TopicReason("not-here-yet", f"begins at {begins:.1f} s ({how})")
 
 
-def not_decodable(
-    bad: int, looked: int, cause: str, is_all: bool, *, is_live: bool = False
-) -> TopicReason:
+def stale(age: float, period: float | None) -> TopicReason | None:
+    """Say that messages came, and come no more.
+
+    Args:
+        age: of the last message, on the clock of its source [s].
+        period: between the messages [s]; None where that is not known.
+    """
+    if period is None or age <= max(STALE, PERIODS * period):
+        return None
+    return TopicReason("stale", f"its messages come no more: {_LOOK}")
+
+
+def lagging(dropped: int, where: str) -> TopicReason | None:
+    """Say that messages were dropped because they came too fast.
+
+    Args:
+        dropped: so many.
+        where: what could not keep up: "the network", "this program".
+    """
+    if dropped <= 0:
+        return None
+    messages = "message was" if dropped == 1 else "messages were"
+    return TopicReason(
+        "lagging",
+        f"{dropped:,} {messages} dropped, as {where} cannot keep up: "
+        "show less, or publish less often",
+    )
+
+
+# What is in them
+
+
+def not_decodable(bad: int, looked: int, cause: str, is_all: bool) -> TopicReason:
     """Say how many messages cannot be decoded.
 
     Args:
@@ -145,152 +294,19 @@ def not_decodable(
         looked: so many were looked at.
         cause: why, of the first of them.
         is_all: there are no more messages.
-        is_live: a robot sends them now.
     """
+    if bad == looked:
+        return TopicReason("not-decodable", f"cannot be decoded ({cause}): {_LOOK}")
     of = f"{looked}" if is_all else f"the first {looked}"
-    remedy = "look at what publishes it" if is_live else "record it again"
-    left = remedy if bad == looked else "they are left out"
-    are = "message" if looked == 1 else "messages"
-    text = f"{bad} of {of} {are} cannot be decoded ({cause}): {left}"
+    text = f"{bad} of {of} messages cannot be decoded ({cause}): they are left out"
     return TopicReason("not-decodable", text)
-
-
-def two_clocks(name: str, stamp: float, others: tuple[float, float]) -> TopicReason:
-    """Say that stamps are far from those of the transforms.
-
-    Args:
-        name: of the topic.
-        stamp: of a message [s].
-        others: the first and the last stamp of /tf [s].
-    """
-    first, last = others
-    return TopicReason(
-        "two-clocks",
-        f"{name} is stamped {stamp:.1f}, /tf between {first:.1f} and {last:.1f}: one "
-        "of the two nodes has the wrong use_sim_time",
-    )
-
-
-def are_two_clocks(stamp: float, others: tuple[float, float]) -> bool:
-    """Tell whether a stamp is of another clock: more than an hour from all of /tf."""
-    first, last = others
-    return stamp < first - _HOUR or stamp > last + _HOUR
-
-
-def no_transform(
-    frame: str,
-    fixed_frame: str,
-    refused: LookupRefused,
-    *,
-    lacks_static: bool = False,
-    remedy: str = "",
-) -> TopicReason:
-    """Say that the frame of the messages has no place.
-
-    Args:
-        frame: of the messages.
-        fixed_frame: where it was looked for.
-        refused: tf2's answer.
-        lacks_static: there are transforms, but the recording has no /tf_static.
-        remedy: what to do about the transforms, where that is known already.
-    """
-    if lacks_static and refused.times is None:
-        why = (
-            "/tf_static is not in this recording; record it too (ros2 bag record -a, "
-            "or name it)"
-        )
-    else:
-        why = f"{refused.tf2_text} ({remedy or _remedy(refused)})"
-    return TopicReason(
-        "no-transform", f"no transform from [{frame}] to [{fixed_frame}]: {why}"
-    )
-
-
-def transforms_begin(seconds: float, is_later: bool) -> str:
-    """Say what to do about a time before the first transform.
-
-    Args:
-        seconds: when that comes [s from the first message].
-        is_later: it is still to come.
-    """
-    begin = f"transforms begin at {seconds:.1f} s"
-    if is_later:
-        return f"{begin}: go there with the time bar or --at {seconds:.1f}"
-    return f"{begin}, and this message is from before: go on to the next one"
-
-
-def older_than_buffer(seconds: float, duration: float) -> str:
-    """Say what to do about a message that is older than all that tf2 keeps.
-
-    Args:
-        seconds: by how much [s].
-        duration: so much is kept [s].
-    """
-    return (
-        f"tf2 keeps {duration:.0f} s, and the message is {seconds:.1f} s older: what "
-        "publishes it is too slow, or stamps it with another clock"
-    )
-
-
-def behind(seconds: float, is_last: bool) -> str:
-    """Say what to do about a message after the last transform.
-
-    Args:
-        seconds: by how much [s].
-        is_last: no transform comes after that.
-    """
-    if is_last:
-        return (
-            f"the last transform is {seconds:.1f} s older than the message: what "
-            "publishes it had stopped, go back in time"
-        )
-    return (
-        f"the newest transform is {seconds:.1f} s older than the message: what "
-        "publishes it is late, or the clocks of the two nodes differ"
-    )
-
-
-def _remedy(refused: LookupRefused) -> str:
-    if refused.times is not None:
-        return (
-            "the transforms on the way have no time in common: one of their nodes had "
-            "stopped before another began, or their clocks differ"
-        )
-    if refused.reason == "ring":
-        return "two nodes publish against each other: see the Problems"
-    between = f"{refused.target} {refused.source}"
-    return (
-        "add it: --static-transform, or ros2 run tf2_ros static_transform_publisher "
-        f"0 0 0 0 0 0 {between}"
-    )
 
 
 def empty(what: str) -> TopicReason:
     """Say that messages come, and nothing is in them."""
-    return TopicReason("empty", f"{what}: look at what publishes it")
+    return TopicReason("empty", f"{what}: {_LOOK}")
 
 
 def not_drawn(why: str) -> TopicReason:
     """Say that messages come, and their display cannot draw them."""
-    return TopicReason("not-drawn", f"cannot be shown: {why}")
-
-
-def no_display(type_name: str, fields: Collection[str]) -> TopicReason:
-    """Say that nothing draws messages of a type, and what they have."""
-    if type_name.endswith("_Event") and "/srv/" in type_name:
-        return TopicReason(
-            "no-display", "events of a service: there is nothing to draw"
-        )
-    if meaning_of(type_name) is Meaning.GRID_UPDATE:
-        return TopicReason("no-display", "Map draws it with its map: add that topic")
-    named = type_name or "messages without a type"
-    listed = [*fields][:_FIELDS]
-    more = ", …" if len(fields) > len(listed) else ""
-    has = f"; its fields are {', '.join(listed)}{more}" if listed else ""
-    return TopicReason("no-display", f"nothing draws {named} yet{has}")
-
-
-def stale(age: float) -> TopicReason:
-    """Say that nothing has come for long, on the clock of the recording [s]."""
-    text = f"the last message came {age:.1f} s ago: whatever publishes it had stopped"
-    return TopicReason("stale", text)
+    return TopicReason("not-drawn", why)

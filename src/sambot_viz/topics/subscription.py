@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import newest_until
+from sambot_viz.topics.heard import Heard
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:
@@ -44,8 +45,9 @@ class Subscription:
         base: as given.
         waits: some that were taken wait for a transform; set by the display.
         is_outdated: the time has jumped: what was drawn is of another time.
-        count: so many messages have come, by topic.
+        heard: what has come, by topic.
         has_older: there are older messages than those that counted after the jump.
+        is_asleep: nobody looks, and nothing comes.
         given_way: so many messages waited no longer, as newer ones came.
     """
 
@@ -70,13 +72,13 @@ class Subscription:
         self.depth_ns = round(depth_s * _NS)
         self.waits = False
         self.is_outdated = False
-        self.count = dict.fromkeys(topics, 0)
+        self.heard = {topic: Heard() for topic in topics}
         self.has_older = False
+        self.is_asleep = False
         self.given_way = 0
         self._minds_older = minds_older
         self._holding = holding
         self._waiting: deque[Recorded] = deque(maxlen=size)
-        self._last: dict[str, Recorded] = {}
         self._begin_ns: int | None = None
         # The thread of a source adds, the worker takes.
         self._lock = threading.Lock()
@@ -89,14 +91,14 @@ class Subscription:
     def take(self, message: Recorded) -> None:
         """Keep a message; the oldest one that waits goes when there are too many."""
         with self._lock:
-            last = self._last.get(message.topic)
+            heard = self.heard[message.topic]
+            last = heard.last
             if last is not None and _is_same(last, message):
                 # A latched message comes once for that, and once as the last one.
                 return
             if self._begin_ns is None:
                 self._begin_ns = message.log_ns
-            self._last[message.topic] = message
-            self.count[message.topic] += 1
+            heard.take(message)
             if self._waiting.maxlen == len(self._waiting):
                 self.given_way += 1
                 if self.base:
@@ -117,9 +119,8 @@ class Subscription:
         """Forget all messages: the time has jumped."""
         with self._lock:
             self._waiting.clear()
-            self._last.clear()
             self._begin_ns = None
-            self.count = dict.fromkeys(self.topics, 0)
+            self.heard = {topic: Heard() for topic in self.topics}
             self.has_older = False
             self.is_outdated = True
 
@@ -140,7 +141,7 @@ class Subscription:
         """
         if self._begin_ns is None or now_ns <= self._begin_ns:
             return 0.0
-        return self.count[topic] * _NS / (now_ns - self._begin_ns)
+        return self.heard[topic].count * _NS / (now_ns - self._begin_ns)
 
 
 def _is_any_older(recording: Bag, found: Sequence[Recorded]) -> bool:

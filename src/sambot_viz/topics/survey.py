@@ -7,11 +7,9 @@ topic so many are decoded.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from typing import Any, cast
 
 from sambot_viz import limits
-from sambot_viz.errors import DecodeError, FrameError
+from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
 from sambot_viz.frames.frame_prefix import frame_prefix
 from sambot_viz.frames.hierarchy import plain_name
@@ -19,61 +17,10 @@ from sambot_viz.frames.transform import Transform
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.contents import content_reason
-from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.looked import Looked
 from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
-from sambot_viz.topics.transforms import Transforms, TransformTopics
-
-
-@dataclass(slots=True)
-class Looked:
-    """What was seen of a topic.
-
-    Attributes:
-        seen: so many messages were met.
-        first_ns: log time of the first one [ns]; None when none was met.
-        last_ns: log time of the last one that was met [ns].
-        decoded: it was tried with so many.
-        undecoded: so many of them cannot be decoded.
-        cause: why the first of them cannot.
-        frame: of the headers; empty when they have none.
-        stamps: the least and the greatest of the headers [ns]; None without.
-        fields: the names in a message.
-        nothing: why nothing of the messages is seen; None when something of one is.
-    """
-
-    seen: int = 0
-    first_ns: int | None = None
-    last_ns: int = 0
-    decoded: int = 0
-    undecoded: int = 0
-    cause: str = ""
-    frame: str = ""
-    stamps: tuple[int, int] | None = None
-    fields: tuple[str, ...] = ()
-    nothing: TopicReason | None = None
-    _has_content: bool = field(default=False)
-
-    def note(self, message: Any) -> None:
-        """Take a message that was decoded."""
-        if not self.fields:
-            self.fields = _fields_of(message)
-        header = getattr(message, "header", None)
-        if header is not None:
-            self._note_header(header)
-        if not self._has_content:
-            self.nothing = content_reason(message)
-            self._has_content = self.nothing is None
-
-    def _note_header(self, header: Any) -> None:
-        frame, stamp = getattr(header, "frame_id", ""), getattr(header, "stamp", None)
-        self.frame = self.frame or plain_name(str(frame))
-        time = getattr(stamp, "sec", 0) * 1_000_000_000 + getattr(stamp, "nanosec", 0)
-        # Without a stamp the newest transform is meant.
-        if time:
-            least, most = self.stamps or (time, time)
-            self.stamps = min(least, time), max(most, time)
+from sambot_viz.topics.transforms import TransformTopics
 
 
 class Survey:
@@ -86,8 +33,6 @@ class Survey:
         recording: its messages.
         topics: what was seen, by name.
         transforms: what /tf and /tf_static told.
-        stamps: the first and the last stamp of the moving transforms [ns]; None
-            without.
         is_all: every message was met.
         is_complete: nothing more is looked at.
     """
@@ -97,16 +42,14 @@ class Survey:
         assert recorded.recording is not None, "messages are looked at by their times"
         self.recording = recorded.recording
         self.topics: dict[str, Looked] = {}
-        self.stamps: tuple[int, int] | None = None
         self.is_all = False
         self.is_complete = False
         history = FrameHistory()
         own = recorded.topics
         self._moving = frozenset(own.moving)
         self.transforms = TransformTopics(
-            history, own.moving, own.static, self._transforms_of
+            history, own.moving, own.static, recorded.transform_decoder()
         )
-        self._decode_transforms = recorded.transform_decoder()
         self._steps = self._run()
         self._tree: tuple[FrameTree, str] | None = None
 
@@ -139,12 +82,6 @@ class Survey:
         """The frame at the top of the robot's tree; empty when there are no frames."""
         return self._looked_up()[1]
 
-    @property
-    def lacks_static(self) -> bool:
-        """There are transforms, but none that hold at all times."""
-        topics = self.recorded.topics
-        return bool(topics.moving) and not topics.static
-
     # Looking
 
     def _run(self) -> Iterator[bool]:
@@ -176,13 +113,6 @@ class Survey:
             if message is not None:
                 self._look(message)
             yield True
-        for name in self.recorded.topics.moving:
-            last = recording.last(name, recording.end_ns or 0)
-            if last is not None:
-                try:
-                    self._transforms_of(last)
-                except DecodeError:
-                    continue
 
     def _look(self, message: Recorded) -> None:
         looked = self.topics.setdefault(message.topic, Looked())
@@ -197,26 +127,7 @@ class Survey:
             looked.decoded += 1
             looked.undecoded += failed
         elif looked.decoded < limits.SURVEYED_DECODED.value:
-            self._decode(message, looked)
-
-    def _decode(self, message: Recorded, looked: Looked) -> None:
-        looked.decoded += 1
-        try:
-            looked.note(self.recorded.decode(message))
-        except DecodeError as error:
-            looked.undecoded += 1
-            looked.cause = looked.cause or str(error)
-        except Exception as error:
-            # A file may define a standard type with other fields.
-            looked.cause = looked.cause or f"{type(error).__name__} in its fields"
-
-    def _transforms_of(self, message: Recorded) -> Transforms:
-        found = self._decode_transforms(message)
-        if message.topic not in self.transforms.always:
-            for stamp, _, _ in found:
-                first, last = self.stamps or (stamp, stamp)
-                self.stamps = min(first, stamp), max(last, stamp)
-        return found
+            looked.decode(message, self.recorded.decode)
 
     # Frames
 
@@ -282,10 +193,3 @@ def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
 
 def _link(element: Element, attribute: str) -> str:
     return plain_name(element.attributes.get(attribute) or element.text.strip())
-
-
-def _fields_of(message: Any) -> tuple[str, ...]:
-    if isinstance(message, dict):
-        return tuple(str(name) for name in cast("dict[str, Any]", message))
-    names = cast("dict[str, Any]", getattr(message, "__dataclass_fields__", {}))
-    return tuple(name for name in names if not name.startswith("__"))

@@ -125,8 +125,9 @@ def test_a_map_that_cannot_be_is_refused(
 
 def test_a_map_in_a_frame_that_nobody_publishes_says_so(messages: Open) -> None:
     shown = messages("Map", grid(1, 1, [1], frame="nowhere"))
-    text = "No transform from [nowhere] to [map]"
-    assert shown.statuses["Transform"] == ("Error", text)
+    level, text = shown.statuses["Transform"]
+    assert level == "Error"
+    assert text.startswith("For frame [nowhere]: Fixed Frame [map] does not exist. ")
     assert shown.node_names() == []
 
 

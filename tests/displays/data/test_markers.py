@@ -289,7 +289,7 @@ def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
 ) -> None:
     shown = messages("Marker", marker(0), marker(1), frame="map")
     subscription = shown.display.subscription
-    (last,) = subscription._last.values()  # pyright: ignore[reportPrivateUsage]
+    last = subscription.heard["/a"].last
     with session_of(shown.viz).lock:
         for number in range(limits.MARKER_MESSAGES.value + 1):
             subscription.take(replace(last, log_ns=last.log_ns + 1 + number))
@@ -304,7 +304,7 @@ def test_of_large_messages_between_two_pictures_the_newest_are_drawn(
 ) -> None:
     shown = messages("Marker", marker(0), marker(1))
     subscription = shown.display.subscription
-    (last,) = subscription._last.values()  # pyright: ignore[reportPrivateUsage]
+    last = subscription.heard["/a"].last
     taken: list[bytes] = []
     with session_of(shown.viz).lock:
         for number in range(9):

@@ -59,8 +59,8 @@ def test_a_topic_says_what_its_display_says(
 ) -> None:
     shown = messages(kind, make)
     said = reason(tmp_path)
-    assert said.startswith("not-drawn: cannot be shown: ")
-    text = said.removeprefix("not-drawn: cannot be shown: ")
+    assert said.startswith("not-drawn: ")
+    text = said.removeprefix("not-drawn: ")
     assert text in shown.statuses[status][1]
 
 
@@ -82,10 +82,21 @@ def test_updates_that_a_map_draws_are_not_said_to_be_drawn_by_nothing(
     assert reason(tmp_path, "/a_updates") == ""
 
 
+def test_what_has_nothing_in_it_is_said_by_its_display(
+    messages: Open, tmp_path: Path
+) -> None:
+    kind = "visualization_msgs/msg/MarkerArray"
+    level, text = messages("MarkerArray", on_topic(kind)).statuses["Topic"]
+    assert level == "Warn"
+    said = "0 markers: look at what publishes it"
+    assert text.endswith(said)
+    assert reason(tmp_path) == f"empty: {said}"
+
+
 def reason(folder: Path, topic: str = "/a") -> str:
     with Inputs(Options(folder / "messages.mcap")) as inputs:
         assert inputs.moved_by is not None
         survey = Survey(inputs.moved_by)
         survey.finish()
-        found = TopicReport(survey).status(topic).reason
+        found = TopicReport(survey).account(topic).reason
     return "" if found is None else f"{found.code}: {found.text}"

@@ -51,7 +51,7 @@ def reasons(path: Path) -> dict[str, str]:
             SourceRobot(RecordingPlayback(recording, path.name), MessageTypes())
         )
         survey.finish()
-        rows = TopicReport(survey).statuses()
+        rows = TopicReport(survey).accounts()
         found = {row.name: (row.reason, row.count) for row in rows}
     return {n: f"{c} {r.code} {r.text}" if r else f"{c}" for n, (r, c) in found.items()}
 

@@ -89,7 +89,7 @@ class CameraInfoDisplay(MessageFilterDisplay[Floats]):
             found = corners_of(message)
             require_finite(single(found).ravel().tolist())
         except MessageRefused as refused:
-            self.status.set(STATUS, "Error", refused.text)
+            self.status.set(STATUS, "Error", refused.text, refused.code)
             return np.zeros((0, 3))
         self.status.set(STATUS, "Ok", "OK")
         return found

@@ -133,13 +133,11 @@ class MapDisplay(TopicDisplay):
         if self._cells is None:
             if self.context.messages is not None and self.topic:
                 if MESSAGE not in self.status.rows:
-                    self.status.set(MESSAGE, "Warn", _NONE_YET)
+                    self.status.set(MESSAGE, "Warn", _NONE_YET, "no-message")
             return
         place = self._place()
         if place is None:
-            fixed = self.context.fixed_frame
-            text = f"No transform from [{self._frame}] to [{fixed}]"
-            self.status.set(TRANSFORM, "Error", text)
+            self._say_unplaced()
             self._remove()
             return
         self.status.set(TRANSFORM, "Ok", "Transform OK")
@@ -199,6 +197,14 @@ class MapDisplay(TopicDisplay):
             return None
         return context.above(self._frame), self._T_frame_map
 
+    def _say_unplaced(self) -> None:
+        """Say why the map has no place, and what brings it one."""
+        try:
+            self.context.tree.lookup(self.context.fixed_frame, self._frame)
+        except LookupRefused as refused:
+            why = self.context.unplaced(self.topic, refused)
+            self.status.set(TRANSFORM, "Error", why.text, why.code)
+
     def _take_one(self, one: Recorded) -> None:
         assert self.subscription is not None
         is_map = one.topic == self.topic
@@ -211,7 +217,7 @@ class MapDisplay(TopicDisplay):
                 else:
                     self._take_update(message)
         except MessageRefused as refused:
-            self.status.set(key, "Error", refused.text)
+            self.status.set(key, "Error", refused.text, refused.code)
 
     def _take_map(self, message: Any) -> None:
         info, data = message.info, np.asarray(message.data, np.int8)

@@ -13,10 +13,11 @@ from sambot_viz.displays.data.topic_display import (
     TOPIC,
     TopicDisplay,
 )
-from sambot_viz.displays.display import DisplayContext
+from sambot_viz.displays.display import DisplayContext, Level
 from sambot_viz.frames import LookupRefused, Transform
 from sambot_viz.rviz import DisplayConfig
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.contents import content_reason
 from sambot_viz.topics.decoding import frame_and_stamp
 
 TRANSFORM = "Transform"
@@ -146,7 +147,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
         """Drop what is drawn and what waits."""
         self.held.clear()
         self._drawn_in = self.context.fixed_frame
-        self.refusal = ""
+        self.refusal, self.nothing = "", None
         self.drop()
         for key in (TRANSFORM, MESSAGE):
             self.status.remove(key)
@@ -201,8 +202,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
         if is_new:
             self.show_taken()
         for dropped in held.leave(self.most_held, last_only=last_only):
-            if dropped.refused is not None:
-                self.status.set(TRANSFORM, "Error", dropped.refused.rviz_text)
+            self._say_unplaced(dropped, "Error")
         if self.subscription is not None:
             self.subscription.waits = self.waits
         self._report_waiting()
@@ -218,11 +218,12 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
                 T_fixed_frame = self.place(one.message)
                 self.say_placed()
                 self.process(one.message, T_fixed_frame, one.recorded)
+                self.nothing = content_reason(one.message)
         except LookupRefused as refused:
+            one.refused = refused
             if is_final(refused):
-                self.status.set(TRANSFORM, "Error", refused.rviz_text)
-            else:
-                one.refused = refused
+                self._say_unplaced(one, "Error")
+                one.refused = None
             return False
         finally:
             one.forget()
@@ -237,7 +238,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
             self.refusal = refused.text
             self.report_topic()
         else:
-            self.status.set(refused.key, "Error", refused.text)
+            self.status.set(refused.key, "Error", refused.text, refused.code)
 
     def _say_fine(self) -> None:
         """Say nothing any longer of what was wrong with messages before."""
@@ -247,19 +248,29 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
         if MESSAGE in self.status.rows:
             self.status.set(MESSAGE, "Ok", "OK")
 
+    def _say_unplaced(self, one: Held, level: Level) -> None:
+        """Say why a message has no place, and what brings it one."""
+        if one.refused is not None:
+            why = self.context.unplaced(one.recorded.topic, one.refused)
+            self.status.set(TRANSFORM, level, why.text, why.code)
+
     def _report_waiting(self) -> None:
         """Say why nothing is shown; RViz says nothing for as long as there is room."""
         messages = self.context.messages
         if self.held.drawn or not self.held.waiting or messages is None:
             return
         said = self.status.rows.get(TRANSFORM)
-        if said is not None and said.level == "Error":
-            return
         oldest = self.held.waiting[0]
-        waited = messages.now_ns(oldest.recorded.topic) - oldest.recorded.log_ns
-        # That the fixed frame does not exist is no matter of a second, and while a
-        # recording is paused no time passes.
+        if oldest.refused is None or (said is not None and said.level == "Error"):
+            return
+        topic = oldest.recorded.topic
+        waited = messages.now_ns(topic) - oldest.recorded.log_ns
+        # That the fixed frame does not exist is no matter of a second, and what a
+        # recording had up to now is here.
         frames = self.context.tree.frames
         is_nowhere = bool(frames) and self.context.fixed_frame not in frames
-        if oldest.refused is not None and (is_nowhere or waited > LONGEST_WAIT_NS):
-            self.status.set(TRANSFORM, "Warn", oldest.refused.rviz_text)
+        is_sure = is_nowhere or waited > LONGEST_WAIT_NS
+        if not is_sure and messages.is_recorded(topic):
+            is_sure = messages.unplaced(topic, oldest.refused) is not None
+        if is_sure:
+            self._say_unplaced(oldest, "Warn")

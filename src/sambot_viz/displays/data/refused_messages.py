@@ -8,6 +8,8 @@ from contextlib import contextmanager
 import numpy as np
 
 from sambot_viz.errors import DecodeError
+from sambot_viz.text import capitalized
+from sambot_viz.topics.reasons import not_decodable
 
 MESSAGE = "Message"
 """The status that says so, where a display has no other one for it."""
@@ -22,11 +24,12 @@ class MessageRefused(Exception):
     Args:
         text: the sentence of the status, RViz's where it has one.
         key: of the status.
+        code: of the reason.
     """
 
-    def __init__(self, text: str, key: str = MESSAGE) -> None:
+    def __init__(self, text: str, key: str = MESSAGE, code: str = "not-drawn") -> None:
         super().__init__(text)
-        self.text, self.key = text, key
+        self.text, self.key, self.code = text, key, code
 
 
 @contextmanager
@@ -49,6 +52,7 @@ def refusing(
         with np.errstate(all="ignore"):
             yield
     except DecodeError as error:
-        raise MessageRefused(f"It cannot be decoded: {error}", key) from error
+        why = not_decodable(1, 1, str(error), True)
+        raise MessageRefused(capitalized(why.text), key, why.code) from error
     except (*_MALFORMED, *others) as error:
         raise MessageRefused(f"It cannot be {verb}: {error}", key) from error

@@ -21,6 +21,8 @@ from sambot_viz.displays.topic_messages import (
 )
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
+from sambot_viz.text import capitalized
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.subscription import Subscription
 
 TOPIC = "Topic"
@@ -60,6 +62,7 @@ class TopicDisplay(Display):
         subscription: its messages; None while it has none.
         refusal: what is wrong with the newest message, said in place of how many have
             come; empty for nothing.
+        nothing: that nothing is in that message; None where something is.
     """
 
     is_data = True
@@ -74,6 +77,7 @@ class TopicDisplay(Display):
         self.nodes = nodes_of(type(self), context.scene, key)
         self.subscription: Subscription | None = None
         self.refusal = ""
+        self.nothing: TopicReason | None = None
 
     @classmethod
     def topic_values(
@@ -149,6 +153,23 @@ class TopicDisplay(Display):
         return ()
 
     # What the others call
+
+    @property
+    def all_topics(self) -> Sequence[str]:
+        """What it listens to, or would."""
+        return (self.topic, *self.other_topics()) if self.topic else ()
+
+    @property
+    def is_awake(self) -> bool:
+        """Whether it looks at messages; else nobody looks at it."""
+        return self.subscription is None or not self.subscription.is_asleep
+
+    def unseen(self) -> TopicReason | None:
+        """Return why it shows nothing, or not all, of its topics; as its status."""
+        for row in self.status.rows.values():
+            if row.level != "Ok":
+                return TopicReason(row.code or "not-drawn", row.text)
+        return None
 
     def pick_geometry(self) -> PickGeometry:
         """Return what it shows now, for rays."""
@@ -240,7 +261,7 @@ class TopicDisplay(Display):
     def report_topic(self) -> None:
         """Set the status of the topic."""
         found = self._topic_status()
-        self.status.set(TOPIC, found.level, found.text)
+        self.status.set(TOPIC, found.level, found.text, found.code)
 
     def _topic_status(self) -> Status:
         messages = self.context.messages
@@ -254,15 +275,19 @@ class TopicDisplay(Display):
                 # A live topic may come later, or again with another type.
                 self._stop()
                 self.forget()
-            return Status(doubt.level, doubt.sentence)
+            return Status(doubt.level, doubt.sentence, doubt.reason.code)
         if self.refusal:
             return Status("Error", self.refusal)
         subscription = self.subscription
-        count = subscription.count[self.topic] if subscription is not None else 0
+        count = 0 if subscription is None else subscription.heard[self.topic].count
         if not count or subscription is None:
             return Status("Ok", "OK")
         rate = subscription.rate(self.topic, messages.now_ns(self.topic))
-        return Status("Ok", f"{count} messages received at {rate:.1f} hz.")
+        came = f"{count} messages received at {rate:.1f} hz."
+        if self.nothing is not None:
+            text = f"{came} {capitalized(self.nothing.text)}"
+            return Status("Warn", text, self.nothing.code)
+        return Status("Ok", came)
 
     def _doubt(self) -> TopicDoubt | None:
         messages = self.context.messages

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from sambot_viz.displays.camera_pictures import ClientPictures
+from sambot_viz.displays.data.topic_display import TopicDisplay
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Row
@@ -33,15 +34,13 @@ class ImagesPanel(Panel):
     def rows(self) -> Sequence[Row]:
         """Return the rows, each with what is wrong with its pictures."""
         made = list[Row]()
+        pictures = self._scene.context.pictures
         for display in self._scene.displays:
-            if display.key not in self._scene.context.pictures:
+            if display.key not in pictures or not isinstance(display, TopicDisplay):
                 continue
-            bad = [
-                one.text for one in display.status.rows.values() if one.level != "Ok"
-            ]
-            key = {"picture": display.key}
+            why, key = display.unseen(), {"picture": display.key}
             row_id, name = f"images/{display.key}", display.config.name
-            text = bad[0] if bad else ""
+            text = "" if why is None else why.text
             made.append(Row(row_id, "", "readonly", name, value=text, extra=key))
         return made
 

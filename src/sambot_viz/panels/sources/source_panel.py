@@ -12,7 +12,7 @@ from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.signals import Signal
-from sambot_viz.topics.live_reasons import lagging
+from sambot_viz.topics.reasons import lagging
 
 TIME, PLAYING, CLOCK = "player/time", "player/playing", "source/clock"
 ANY = "any"

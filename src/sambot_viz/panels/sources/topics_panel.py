@@ -11,12 +11,10 @@ from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.session.data.source_topics import SourceTopics
-from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Signal
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.reasons import TopicReason
-from sambot_viz.topics.report import TopicStatus
+from sambot_viz.topics.account import Account
 
 AGES = 50
 """Of so many topics the age is looked up at a time."""
@@ -31,7 +29,7 @@ class TopicsPanel(Panel):
 
     Args:
         topics: what is shown.
-        scene: has the displays that draw topics.
+        statuses: told when displays say something else of them.
         remake: called when other topics are shown.
     """
 
@@ -41,12 +39,11 @@ class TopicsPanel(Panel):
     def __init__(
         self,
         topics: SourceTopics,
-        scene: Scene,
+        statuses: Signal[Any],
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (*topics.remade_by, scene.statuses)
+        self.remade_by = (*topics.remade_by, statuses)
         self._topics = topics
-        self._scene = scene
         self._remake = remake
         self._shown = False
         self._words = ""
@@ -122,10 +119,9 @@ class TopicsPanel(Panel):
 
     def _rows_of(self, name: str) -> Iterator[Row]:
         row_id = _row_id(name)
-        status = self._topics.status(name)
-        display = reasons.display_of(name, status.type_name)
-        drawn_by = reasons.drawn_by(name, status.type_name)
-        reason = status.reason or self._of_displays(status, drawn_by)
+        account = self._topics.account(name)
+        display = reasons.display_of(name, account.type_name)
+        reason = account.reason
         level = None if reason is None else _LEVELS[reason.severity]
         yield Row(
             row_id,
@@ -140,31 +136,18 @@ class TopicsPanel(Panel):
         if reason is not None:
             text = f"{capitalized(reason.text)}."
             yield Row(f"{row_id}/reason", row_id, "note", value=text, level=level)
-        yield from self._facts(status)
+        yield from self._facts(account)
 
-    def _facts(self, status: TopicStatus) -> Iterator[Row]:
+    def _facts(self, account: Account) -> Iterator[Row]:
         """Yield the type and the number of the messages, and what else is known."""
-        name, row_id = status.name, _row_id(status.name)
-        kind = status.type_name or "not known"
+        name, row_id = account.name, _row_id(account.name)
+        kind = account.type_name or "not known"
         yield Row(f"{row_id}/type", row_id, "readonly", "Type", value=kind)
         count = self._counts.get(name, "not known yet")
         yield Row(_count_id(name), row_id, "readonly", "Messages", value=count)
         for label, words in self._topics.facts(name).items():
             fact_id = f"{row_id}/{label.lower()}"
             yield Row(fact_id, row_id, "readonly", label, value=words)
-
-    def _of_displays(self, status: TopicStatus, kind: str | None) -> TopicReason | None:
-        """Say that what draws a topic is not there, or off."""
-        if kind is None and status.readable:
-            return reasons.no_display(status.type_name, ())
-        drawn = [d.config for d in self._scene.displays if d.config.kind == kind]
-        if kind is None or any(config.enabled for config in drawn):
-            return None
-        if drawn:
-            return reasons.off(drawn[0].name)
-        short = kind.rpartition("/")[2]
-        article = "an" if short[0] in "AEIOU" else "a"
-        return TopicReason("no-display", f"not shown: add {article} {short} display")
 
     def _rate_and_age(self, name: str) -> str:
         rate, age = self._topics.rate(name), self._topics.age(name)

@@ -14,18 +14,12 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.live_reasons import (
-    QOS_WORDS,
-    no_publisher,
-    qos_mismatch,
-    transforms_qos,
-)
 from sambot_viz.topics.robot_topics import RobotTopics
 from sambot_viz.topics.source_robot import SourceRobot
 
 Level = Literal["Warn", "Error"]
 STRING = "std_msgs/msg/String"
-_OFFERED = {word: offered for offered, word in QOS_WORDS.items()}
+_OFFERED = {word: offered for offered, word in reasons.QOS_WORDS.items()}
 """RViz's word → that of ROS; System Default is not here: it adapts to publishers."""
 
 
@@ -88,7 +82,9 @@ class SourceDescriptions:
         for name in (*topics.moving, *topics.static):
             if name not in known or self._moved_by.has_recorded(name):
                 continue
-            doubt = transforms_qos(known[name].qos, is_static=name in topics.static)
+            doubt = reasons.transforms_qos(
+                known[name].qos, is_static=name in topics.static
+            )
             if doubt is not None:
                 doubts[name] = capitalized(doubt.text)
         return doubts
@@ -122,12 +118,12 @@ class SourceDescriptions:
             return _with(described, moved_by.refusal, "Error")
         if moved_by.has_recorded(topic):
             return described
-        refused = qos_mismatch(known.qos, wanted_qos(qos))
+        refused = reasons.qos_mismatch(known.qos, wanted_qos(qos))
         if refused is not None:
             return _with(described, refused.text)
         if described.is_opened or described.text is not None:
             return described
-        silent = no_publisher(topic, known.publishers)
+        silent = reasons.unreceived(known)
         why = "no message yet: wait for its publisher, or start it again"
         return _with(described, why if silent is None else silent.text)
 
@@ -146,9 +142,9 @@ class SourceDescriptions:
         text = moved_by.last_text(topic)
         if text is not None:
             return Description(topic, text, moved_by.label_of(topic))
-        if moved_by.source.topics()[topic].count == 0:
-            return _trouble(topic, reasons.no_message(topic).text)
-        return _trouble(topic, "none of its messages can be read: record it again")
+        none = reasons.unreceived(moved_by.source.topics()[topic])
+        why = "none of its messages can be read: record it again"
+        return _trouble(topic, why if none is None else none.text)
 
     def close(self) -> None:
         """Take nothing any more."""

@@ -8,16 +8,20 @@ from typing import Literal
 
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import Rests, TopicDoubt, topics_of
+from sambot_viz.frames import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.feed import Feed
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
-from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.live_reasons import QOS_WORDS, no_publisher, qos_mismatch
+from sambot_viz.topics.heard import Heard
+from sambot_viz.topics.placement import Placement
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.subscription import Subscription
+
+_UNREAD = ("encoding", "type-unknown", "not-decodable")
 
 
 class DisplayTopics:
@@ -28,25 +32,32 @@ class DisplayTopics:
     Args:
         moved_by: decodes the messages.
         feed: has them.
+        placement: says why a frame has no place.
         wake: called in the thread of a live source when something has come.
         report: tells an exception that no display should have raised.
+
+    Attributes:
+        unheard: returns why a topic gives nothing, whatever displays it.
     """
 
     def __init__(
         self,
         moved_by: SourceRobot,
         feed: Feed,
+        placement: Placement,
         wake: Callable[[], None],
         report: Callable[[Exception], None],
     ) -> None:
         self._moved_by = moved_by
         self._feed = feed
+        self._placement = placement
         self._wake = wake
         self._report = report
         self._decoding = moved_by.new_decoding()
         self._subscriptions: dict[Subscription, Rests] = {}
         self._asleep: set[Subscription] = set()
         self._is_seen = True
+        self.unheard: Callable[[str], TopicReason | None] = lambda topic: None
         self._types: tuple[object, Mapping[str, str]] = (None, {})
 
     def subscribe(
@@ -77,7 +88,7 @@ class DisplayTopics:
         if self._is_seen or not self._rests(made):
             self._feed.add(made, partial(self._receive, made))
         else:
-            self._asleep.add(made)
+            self._sleep(made)
         return made
 
     def unsubscribe(self, subscription: Subscription) -> None:
@@ -93,7 +104,7 @@ class DisplayTopics:
         self._is_seen = False
         for one in self._subscriptions.keys() - self._asleep:
             if self._rests(one):
-                self._asleep.add(one)
+                self._sleep(one)
                 self._feed.remove(one)
 
     def wake(self) -> None:
@@ -101,8 +112,13 @@ class DisplayTopics:
         self._is_seen = True
         for one in self._asleep:
             one.clear()
+            one.is_asleep = False
             self._feed.add(one, partial(self._receive, one))
         self._asleep.clear()
+
+    def _sleep(self, subscription: Subscription) -> None:
+        subscription.is_asleep = True
+        self._asleep.add(subscription)
 
     def _rests(self, subscription: Subscription) -> bool:
         rests = self._subscriptions[subscription]
@@ -165,22 +181,39 @@ class DisplayTopics:
         known = source.topics().get(topic)
         if known is None:
             if not source.status.is_connected:
-                return TopicDoubt("Warn", source.status.sentence)
+                sentence = source.status.sentence
+                return TopicDoubt("Warn", TopicReason("not-connected", sentence))
             # What is not published may come.
             level = "Warn" if "clock" in source.capabilities else "Error"
             return not_there(topic, meanings, self.types(), level)
-        if known.reason is not None:
-            return TopicDoubt("Error", capitalized(known.reason))
-        decoder = self._moved_by.decoder(known)
-        if meaning_of(decoder.type_name) not in meanings:
-            return wrong_type(meanings, decoder.type_name)
-        if decoder.reason is not None:
-            return TopicDoubt("Error", capitalized(decoder.reason.text))
-        why = reasons.no_message(topic) if known.count == 0 else None
-        if not self._feed.is_recorded(topic):
-            why = no_publisher(topic, known.publishers)
-            why = why or qos_mismatch(known.qos, wanted_qos(qos))
-        return None if why is None else TopicDoubt("Warn", capitalized(why.text))
+        type_name = self._moved_by.decoder(known).type_name
+        if known.reason is None and meaning_of(type_name) not in meanings:
+            wanted = " or ".join(sorted(one.value for one in meanings))
+            why = reasons.wrong_type(wanted, type_name)
+            return TopicDoubt("Error", why, is_other_type=True)
+        why = self.unheard(topic)
+        if why is None and not self._feed.is_recorded(topic):
+            why = reasons.qos_mismatch(known.qos, wanted_qos(qos))
+        if why is None:
+            return None
+        return TopicDoubt("Error" if why.code in _UNREAD else "Warn", why)
+
+    def heard(self, topic: str) -> Heard | None:
+        """Return what has come of a topic that a display listens to; None for none."""
+        awake = self._subscriptions.keys() - self._asleep
+        found = (one.heard[topic] for one in awake if topic in one.heard)
+        return next(found, None)
+
+    def unplaced(self, topic: str, refused: LookupRefused) -> TopicReason | None:
+        """Return why a message has no place; None where what comes next brings it."""
+        player = self._feed.player
+        is_recorded = player is not None and self._feed.is_recorded(topic)
+        at_ns = player.time_ns if player is not None and is_recorded else None
+        return self._placement.reason(topic, refused, at_ns)
+
+    def is_recorded(self, topic: str) -> bool:
+        """Return whether all that there is of a topic up to now has come."""
+        return self._feed.is_recorded(topic)
 
     def _receive(self, subscription: Subscription, message: Recorded) -> None:
         """Leave a message to the worker; runs in the thread of the source."""
@@ -190,7 +223,8 @@ class DisplayTopics:
 
 def _suiting(qos: Qos | None, is_latched: bool) -> WantedQos:
     """Return what a display should ask for, as RViz does for a topic from its list."""
-    reliability = "Reliable" if qos is None else QOS_WORDS.get(qos.reliability, "")
+    words = reasons.QOS_WORDS
+    reliability = "Reliable" if qos is None else words.get(qos.reliability, "")
     durability = "Transient Local" if is_latched else "Volatile"
     return WantedQos(reliability or "Reliable", durability)
 
@@ -210,12 +244,5 @@ def not_there(
         level: of the status.
     """
     fitting = topics_of(known, wanted)
-    text = reasons.no_such_topic(topic, fitting or known).text
-    return TopicDoubt(level, capitalized(text), reasons.meant_topic(topic, fitting))
-
-
-def wrong_type(meanings: Collection[Meaning], type_name: str) -> TopicDoubt:
-    """Say that a topic has messages that the display does not draw."""
-    wanted = " or ".join(sorted(one.value for one in meanings))
-    text = capitalized(reasons.wrong_type(wanted, type_name).text)
-    return TopicDoubt("Error", text, is_other_type=True)
+    why = reasons.no_such_topic(topic, fitting or known)
+    return TopicDoubt(level, why, reasons.meant_topic(topic, fitting))

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.sources.source import Source
+from sambot_viz.topics.reasons import TopicReason
 
 SAME = 0.2
 """The robot's clock is heard through the network: smaller changes are no news [s]."""
+_HOUR = 3600.0
+_SIMULATED = 100_000_000.0
+"""Simulations begin at 0: an earlier time is of none of today's clocks [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,3 +81,42 @@ class LiveClock:
     def _tell(self, state: ClockState) -> None:
         with self._change():
             self.state.set(state)
+
+
+def wrong_clock(
+    stamp: float, clock: float, has_topic: bool, is_told: bool
+) -> TopicReason | None:
+    """Say that the transforms are stamped by another clock than that of the robot.
+
+    Args:
+        stamp: the newest of /tf [s]; 0 without any.
+        clock: the time of the robot [s].
+        has_topic: whether /clock is published.
+        is_told: whether its messages come.
+    """
+    if stamp and abs(stamp - clock) > _HOUR:
+        if not is_told and stamp < _SIMULATED:
+            text = f"/tf is stamped {stamp:.1f} in simulation time, but no /clock comes"
+            why = "resume the simulation" if has_topic else "start the simulation"
+            return TopicReason(
+                "two-clocks",
+                f"{text}: {why}, or set use_sim_time of the nodes to false",
+            )
+        if not is_told:
+            return TopicReason(
+                "two-clocks",
+                f"/tf is stamped {stamp:.1f}, the robot's clock says {clock:.1f}: "
+                "playing a bag? Use ros2 bag play --clock",
+            )
+        return TopicReason(
+            "two-clocks",
+            f"/tf is stamped {stamp:.1f}, /clock says {clock:.1f}: one of the nodes "
+            "has the wrong use_sim_time",
+        )
+    if has_topic and not is_told:
+        return TopicReason(
+            "no-message",
+            "no message of /clock has come: is the simulation paused? Until then the "
+            "time is that of this computer",
+        )
+    return None

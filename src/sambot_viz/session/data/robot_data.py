@@ -13,17 +13,22 @@ from sambot_viz.frames.samples import Sample
 from sambot_viz.session.data.display_topics import DisplayTopics
 from sambot_viz.session.data.feed import Feed
 from sambot_viz.session.data.inbox import Inbox
-from sambot_viz.session.data.live_clock import LiveClock
+from sambot_viz.session.data.live_clock import LiveClock, wrong_clock
 from sambot_viz.session.data.player import Player
-from sambot_viz.session.data.source_topics import FaultOf, SourceTopics
+from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.robot.robot_state import RobotState
-from sambot_viz.session.signals import Change, Signal
+from sambot_viz.session.scene.drawings import drawing_of
+from sambot_viz.session.scene.scene import Scene
+from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.websocket.clock_topic import CLOCK
-from sambot_viz.topics.live_reasons import wrong_clock
+from sambot_viz.topics.live_evidence import LiveEvidence
+from sambot_viz.topics.placement import Placement
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
 
 AGEING_PERIOD = 0.5
@@ -44,7 +49,7 @@ class RobotData:
         robot: is moved.
         change: tells what is wrong, and how a live source is.
         worker: takes the messages.
-        fault_of: says why a frame has no place in the picture; None when it has one.
+        scene: what displays draw of them.
 
     Attributes:
         moved_by: as given.
@@ -68,7 +73,7 @@ class RobotData:
         robot: RobotState,
         change: Change,
         worker: Worker,
-        fault_of: FaultOf,
+        scene: Scene,
     ) -> None:
         self.moved_by = moved_by
         self.name = moved_by.name
@@ -99,12 +104,25 @@ class RobotData:
         )
         self.clock = LiveClock(source, change)
         self._feed = Feed(source, self.player)
-        self.messages = DisplayTopics(
-            moved_by, self._feed, self.inbox.wake, worker.report
+        placement = Placement(moved_by, self.transforms)
+        messages = self.messages = DisplayTopics(
+            moved_by, self._feed, placement, self.inbox.wake, worker.report
         )
+        live = LiveEvidence(
+            moved_by, placement, scene.fault_of, messages.heard, worker.clock.now
+        )
+        report = None
+        if self.player is not None:
+            report = TopicReport(
+                Survey(moved_by), frames.tree, lambda: scene.context.fixed_frame
+            )
+        drawing = partial(drawing_of, scene)
         self.topics = SourceTopics(
-            moved_by, frames.tree, self.player, fault_of, change, worker
+            moved_by, report, live, drawing, self.player, change, worker
         )
+        messages.unheard = self.topics.unheard
+        # What is known of topics is in the statuses of displays.
+        connect(self.topics.remade_by, partial(self._look_at_time, True))
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
         frames.prefix = lambda robot: moved_by.prefix_of(robot, self.transforms.pairs())

@@ -2,43 +2,32 @@
 
 from __future__ import annotations
 
-import re
+import sys
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from sambot_viz.frames import FrameTree, LookupRefused
 from sambot_viz.session.data.player import Player
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.topics import reasons
+from sambot_viz.topics.account import Account, DrawingOf, account_of, unheard
 from sambot_viz.topics.heard import Heard
-from sambot_viz.topics.live_reasons import (
-    no_publisher,
-    not_listened,
-    qos_words,
-    silent,
-    stopped,
-    unreadable,
-)
-from sambot_viz.topics.reasons import TopicReason, left_out
-from sambot_viz.topics.report import TopicReport, TopicStatus
+from sambot_viz.topics.live_evidence import LiveEvidence, is_large
+from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 PERIOD = 1.0
 """So often what is said of topics that are listened to is looked at again [s]."""
-SILENT_AFTER = 5.0
-"""A topic of which nothing has come for so long is said to be silent [s]."""
 SLICE = 0.01
 """So long messages of a recording are looked at before others get their turn [s]."""
 PAUSE = 0.01
 """The time that others get [s]."""
-FaultOf = Callable[[str], LookupRefused | None]
-_LARGE = re.compile(r"(Image|PointCloud2?|Video|Packet\w*)$")
-"""Types of messages that would fill a wireless network."""
+NEVER = sys.maxsize
 
 
 class SourceTopics:
@@ -51,9 +40,10 @@ class SourceTopics:
 
     Args:
         moved_by: the sources.
-        tree: the frames at the time of the player.
+        report: what is known of what can seek; None without that.
+        live: what is known of what comes by itself.
+        drawing_of: says what displays do with a topic.
         player: its time is that of the ages; None without what can seek.
-        fault_of: says why a frame has no place in the picture; None when it has one.
         change: tells what is said.
         worker: looks at the messages.
 
@@ -64,9 +54,10 @@ class SourceTopics:
     def __init__(
         self,
         moved_by: SourceRobot,
-        tree: FrameTree,
+        report: TopicReport | None,
+        live: LiveEvidence,
+        drawing_of: DrawingOf,
         player: Player | None,
-        fault_of: FaultOf,
         change: Change,
         worker: Worker,
     ) -> None:
@@ -75,22 +66,22 @@ class SourceTopics:
         self._moved_by = moved_by
         self._live = moved_by.source.live
         self._player = player
-        self._fault_of = fault_of
+        self._evidence = live
+        self._drawing_of = drawing_of
         self._worker = worker
         self._known: Mapping[str, SourceTopic] = {}
         self._names: Sequence[str] = ()
         self._viewers: dict[object, tuple[Collection[str], str]] = {}
-        self._heard: dict[str, Heard] = {}
+        self._heard = live.own
         self._said: dict[str, str] = {}
         self._is_ticking = False
-        self._begins: dict[str, int] = {}
+        # Topic → what was said of it, and the log time from which that may be wrong.
+        self._until: dict[str, tuple[TopicReason | None, int]] = {}
         self._is_surveyed = False
-        self._report: TopicReport | None = None
-        self._survey: Survey | None = None
+        self._report = report
+        self._survey = None if report is None else report.survey
         if player is not None:
-            self._survey = Survey(moved_by)
-            self._report = TopicReport(self._survey, tree)
-            connect([player.stepped, player.playback], self._look_at_begins)
+            connect([player.stepped, player.playback], self._look_at_until)
         self._tell = partial(worker.post, self.looked.touch)
         moved_by.on_topics.append(self._tell)
 
@@ -159,36 +150,32 @@ class SourceTopics:
         if self._survey is not None:
             self._survey.is_complete = True
 
-    def status(self, name: str) -> TopicStatus:
+    def finish(self) -> None:
+        """Look at once at all messages of what can seek that are looked at at all."""
+        if self._survey is not None and not self._survey.is_complete:
+            self._survey.finish()
+            self.looked.touch()
+
+    def account(self, name: str) -> Account:
         """Return what is to be said of a topic now."""
         if (recorded := self._recorded(name)) is not None:
-            report, player = recorded
-            status = report.status(name, player.time_ns, ages=False)
-            reason, begin = status.reason, report.first_ns(name)
-            if (
-                reason is not None
-                and reason.code == "not-here-yet"
-                and begin is not None
-            ):
-                self._begins[name] = begin
-            return status
-        topic = self._known[name]
-        decoder = self._moved_by.decoder(topic)
-        reason = unreadable(topic)
-        if reason is None and decoder.reason is not None:
-            reason = TopicReason(decoder.reason.code, decoder.reason.text)
-        readable = reason is None
-        if topic.left_out:
-            reason = reason or left_out(topic.left_out)
-        reason = reason or self._reason(topic, self._heard.get(name))
-        self._said[name] = "" if reason is None else reason.code
-        type_name = decoder.type_name or topic.schema.name
-        count, rate = self.count(name), self.rate(name)
-        return TopicStatus(name, type_name, count, rate, readable, reason)
+            made = recorded[0].account(name, self._drawing_of)
+            self._until[name] = made.reason, self._holds_until(made, *recorded)
+            return made
+        live, count, rate = self._evidence, self.count(name), self.rate(name)
+        drawing = self._drawing_of(name, live.decoder(name).type_name)
+        made = account_of(live, name, count, rate, drawing)
+        self._said[name] = "" if made.reason is None else made.reason.code
+        return made
+
+    def unheard(self, name: str) -> TopicReason | None:
+        """Return why a topic gives displays nothing, or not all that it should."""
+        recorded = self._recorded(name)
+        return unheard(self._evidence if recorded is None else recorded[0], name)
 
     def count(self, name: str) -> int | None:
         """Return how many messages there are, or came; None while not known."""
-        if (heard := self._heard.get(name)) is not None:
+        if (heard := self._any_heard(name)) is not None:
             return heard.count
         topic = self._known.get(name)
         return None if topic is None else topic.count
@@ -200,7 +187,7 @@ class SourceTopics:
         """
         if (recorded := self._recorded(name)) is not None:
             return recorded[0].rate(name)
-        heard, live = self._heard.get(name), self._live
+        heard, live = self._any_heard(name), self._live
         topic = self._known.get(name)
         if heard is None or live is None or topic is None or topic.is_latched:
             return None
@@ -215,7 +202,7 @@ class SourceTopics:
             report, player = recorded
             last = report.last_ns(name, player.time_ns)
             return None if last is None else max(0, player.time_ns - last) * 1e-9
-        heard, live = self._heard.get(name), self._live
+        heard, live = self._any_heard(name), self._live
         return None if heard is None or live is None else heard.age(live.clock_ns())
 
     def facts(self, name: str) -> Mapping[str, str]:
@@ -226,7 +213,7 @@ class SourceTopics:
             told["Publishers"] = (
                 str(names) if isinstance(names, int) else ", ".join(names) or "none"
             )
-        if topic.qos is not None and (words := qos_words(topic.qos)):
+        if topic.qos is not None and (words := reasons.qos_words(topic.qos)):
             told["QoS"] = words
         return told
 
@@ -237,13 +224,32 @@ class SourceTopics:
         report, player = self._report, self._player
         if report is None or player is None or name not in player.recording.topics:
             return None
+        report.at_ns = player.time_ns
         return report, player
 
-    def _look_at_begins(self) -> None:
-        """Tell when topics have begun of which it was said that they are to come."""
+    def _holds_until(
+        self, account: Account, report: TopicReport, player: Player
+    ) -> int:
+        """Return the log time until which nothing else is to be said of a topic."""
+        code, now = account.reason and account.reason.code, player.time_ns
+        name, rate = account.name, account.rate
+        if code == "not-here-yet":
+            return report.first_ns(name) or NEVER
+        if code == "stale":
+            coming = player.recording.next(name, now)
+            return NEVER if coming is None else coming.log_ns
+        last = report.last_ns(name, now)
+        if rate is None or last is None:
+            return NEVER
+        longest = max(reasons.STALE, reasons.PERIODS / rate)
+        return max(now, last) + round(longest * 1e9)
+
+    def _look_at_until(self) -> None:
+        """Tell when topics have begun, or have fallen silent."""
         now = 0 if self._player is None else self._player.time_ns
-        if any(begin <= now for begin in self._begins.values()):
-            self._begins.clear()
+        due = [n for n, (_, until) in self._until.items() if until <= now]
+        before = [self._until[name][0] for name in due]
+        if [self.account(name).reason for name in due] != before:
             self.looked.touch()
 
     def _step(self, survey: Survey) -> None:
@@ -275,7 +281,7 @@ class SourceTopics:
         self._listen()
         before = {name: self._said.get(name) for name in self._seen()}
         for name in before:
-            self.status(name)
+            self.account(name)
         if any(self._said[name] != code for name, code in before.items()):
             self.looked.touch()
 
@@ -295,7 +301,7 @@ class SourceTopics:
             name
             for name in self._seen()
             if known[name].reason is None
-            and (name in chosen or not _is_large(known[name]))
+            and (name in chosen or not is_large(known[name]))
         }
         for name in [name for name in self._heard if name not in wanted]:
             live.unsubscribe(name, self._heard.pop(name).take)
@@ -303,34 +309,8 @@ class SourceTopics:
             heard = self._heard[name] = Heard(self._worker.clock.now())
             live.subscribe(name, heard.take, heard.keep)
 
-    def _reason(self, topic: SourceTopic, heard: Heard | None) -> TopicReason | None:
-        """Return the first reason that holds for a topic that can be read."""
-        if self._live is None or not self._live.status.is_connected:
-            # The line below the view says it, for all of them.
+    def _any_heard(self, name: str) -> Heard | None:
+        """Return what has come by itself of a topic, whoever has listened."""
+        if self._moved_by.has_recorded(name):
             return None
-        if (nobody := no_publisher(topic.name, topic.publishers)) is not None:
-            return nobody
-        if heard is None:
-            return not_listened() if _is_large(topic) else None
-        if heard.last is None:
-            waited = self._worker.clock.now() - heard.since
-            return silent(topic.name) if waited > SILENT_AFTER else None
-        of_robot = topic.name in self._moved_by.topics.all
-        heard.look(self._moved_by.decoding, is_placed=not of_robot)
-        return heard.reason or self._of_frame(heard) or self._stale(topic, heard)
-
-    def _of_frame(self, heard: Heard) -> TopicReason | None:
-        refused = self._fault_of(heard.frame) if heard.frame else None
-        if refused is None:
-            return None
-        return reasons.no_transform(heard.frame, refused.target, refused)
-
-    def _stale(self, topic: SourceTopic, heard: Heard) -> TopicReason | None:
-        age, period = self.age(topic.name), heard.period
-        if topic.is_latched or age is None or period is None:
-            return None
-        return stopped() if age > max(reasons.STALE, 3 * period) else None
-
-
-def _is_large(topic: SourceTopic) -> bool:
-    return _LARGE.search(topic.schema.name) is not None
+        return self._evidence.heard(name)

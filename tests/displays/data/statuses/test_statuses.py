@@ -137,6 +137,8 @@ def without_numbers(rows: Rows) -> Rows:
         text = re.sub(r"(known: |did you mean ).*", "KNOWN", text)
         if key == "Points":
             text = re.sub(r"\d+", "N", text)
+        # The remedy follows RViz's sentence.
+        text = re.sub(r"(does not exist|\])\. (?!TF error).*", r"\1", text)
         found[key] = (level, text)
     return found
 

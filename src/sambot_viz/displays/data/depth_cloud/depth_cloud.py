@@ -139,7 +139,7 @@ class DepthCloudDisplay(CloudDisplay):
                 with refusing(key, "read"):
                     self._sort(one)
             except MessageRefused as refused:
-                self.status.set(refused.key, "Error", refused.text)
+                self.status.set(refused.key, "Error", refused.text, refused.code)
         ready = self._sync.ready()
         self._report_lacking()
         return ready

@@ -194,7 +194,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
         """Show the picture as it looks now; what is the same is not sent again."""
         if not self.kept:
             if self.context.messages is not None and self.topic:
-                self.status.set(IMAGE, "Warn", NONE_YET)
+                self.status.set(IMAGE, "Warn", NONE_YET, "no-message")
             return
         message, T_fixed_camera = self.kept[-1].read, self.kept[-1].T_fixed_frame
         camera = self._camera()
@@ -225,7 +225,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
             with refusing(IMAGE, "shown", OSError, SyntaxError):
                 look()
         except MessageRefused as refused:
-            self.status.set(IMAGE, "Error", refused.text)
+            self.status.set(IMAGE, "Error", refused.text, refused.code)
             return True
         self.status.remove(IMAGE)
         return False
@@ -249,7 +249,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
             with refusing(CAMERA_INFO, "read"):
                 camera = numbers_of(self.subscription.decode(self._info))
         except MessageRefused as refused:
-            self.status.set(CAMERA_INFO, "Error", refused.text)
+            self.status.set(CAMERA_INFO, "Error", refused.text, refused.code)
             return None
         image, doubt = self.kept[-1].read, None
         if hasattr(image, "width"):

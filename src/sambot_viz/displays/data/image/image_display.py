@@ -129,7 +129,7 @@ class ImageDisplay(TopicDisplay):
         pictures = self.context.pictures
         if self._newest is None:
             if self.context.messages is not None and self.topic:
-                self.status.set(IMAGE, "Warn", NONE_YET)
+                self.status.set(IMAGE, "Warn", NONE_YET, "no-message")
             return
         if not pictures.is_wanted(self.key):
             self._judge(self._newest)
@@ -145,7 +145,7 @@ class ImageDisplay(TopicDisplay):
             with refusing(IMAGE, "shown", OSError, SyntaxError):
                 self._show(self._newest)
         except MessageRefused as refused:
-            self._refuse(refused.text)
+            self._refuse(refused)
         else:
             self.status.remove(IMAGE)
 
@@ -166,15 +166,15 @@ class ImageDisplay(TopicDisplay):
             with refusing(IMAGE, "shown"):
                 require_shown(self.subscription.decode(newest))
         except MessageRefused as refused:
-            self._refuse(refused.text)
+            self._refuse(refused)
         else:
             self.status.remove(IMAGE)
 
     def _wake(self) -> None:
         self.redraw()
 
-    def _refuse(self, text: str) -> None:
-        self.status.set(IMAGE, "Error", text)
+    def _refuse(self, refused: MessageRefused) -> None:
+        self.status.set(IMAGE, "Error", refused.text, refused.code)
         self.context.pictures.put(self.key, NO_PICTURE)
 
     def _show(self, came: Recorded) -> None:

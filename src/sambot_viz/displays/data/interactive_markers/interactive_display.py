@@ -158,7 +158,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
                 elif int(message.type) != KEEP_ALIVE:
                     self._take_update(message)
         except MessageRefused as refused:
-            self.status.set(refused.key, "Error", refused.text)
+            self.status.set(refused.key, "Error", refused.text, refused.code)
         else:
             self.status.remove(MESSAGE)
 

@@ -221,7 +221,8 @@ class InteractiveMarkers:
             above, wxyz, position = known.place(context)
             parts = known.parts(context, transparency=options.transparency)
         except LookupRefused as refused:
-            self._rows.say(name, "Error", refused.rviz_text)
+            why = self._context.unplaced("a marker", refused)
+            self._rows.say(name, "Error", why.text)
             self._waiting[name] = None
             self._hide(name, known)
             return

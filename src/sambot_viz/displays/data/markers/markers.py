@@ -165,7 +165,7 @@ class Markers:
         try:
             found = tree.lookup(fixed, frame, stamp_ns)
         except LookupRefused as refused:
-            return None, refused.rviz_text
+            return None, self._context.unplaced("a marker", refused).text
         place = self._places[frame, stamp_ns] = MarkerPose(found)
         return place, ""
 

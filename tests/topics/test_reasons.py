@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import pytest
 
+from sambot_viz.messages import Schema
+from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.qos import Qos
-from sambot_viz.topics import live_reasons
+from sambot_viz.topics import reasons
 from sambot_viz.topics.reasons import SEVERITIES
+
+
+def topic(publishers: tuple[str, ...] | int | None) -> SourceTopic:
+    return SourceTopic("/scan", Schema("a/msg/B"), "cdr", publishers=publishers)
 
 
 @pytest.mark.parametrize("publishers", [0, ()])
 def test_a_topic_that_nobody_publishes_says_so(publishers: int | tuple[()]) -> None:
-    reason = live_reasons.no_publisher("/scan", publishers)
+    reason = reasons.unreceived(topic(publishers))
     assert reason is not None and reason.code == "no-publisher"
     assert "ros2 topic info /scan" in reason.text
 
@@ -20,7 +26,7 @@ def test_a_topic_that_nobody_publishes_says_so(publishers: int | tuple[()]) -> N
 def test_a_topic_with_a_publisher_or_an_unknown_one_is_fine(
     publishers: tuple[str, ...] | int | None,
 ) -> None:
-    assert live_reasons.no_publisher("/scan", publishers) is None
+    assert reasons.unreceived(topic(publishers)) is None
 
 
 @pytest.mark.parametrize(
@@ -37,7 +43,7 @@ def test_a_topic_with_a_publisher_or_an_unknown_one_is_fine(
 def test_qos_that_cannot_match_is_said_with_both_words(
     offered: Qos, wanted: Qos, words: tuple[str, ...]
 ) -> None:
-    reason = live_reasons.qos_mismatch(offered, wanted)
+    reason = reasons.qos_mismatch(offered, wanted)
     assert reason is not None and reason.code == "qos"
     assert all(word in reason.text for word in words)
 
@@ -55,13 +61,13 @@ def test_qos_that_cannot_match_is_said_with_both_words(
 def test_qos_that_matches_adapts_or_is_unknown_is_no_reason(
     offered: Qos | None, wanted: Qos
 ) -> None:
-    assert live_reasons.qos_mismatch(offered, wanted) is None
+    assert reasons.qos_mismatch(offered, wanted) is None
 
 
 def test_what_was_dropped_is_counted() -> None:
-    assert live_reasons.lagging(0, "the network") is None
-    reason = live_reasons.lagging(1234, "the network")
+    assert reasons.lagging(0, "the network") is None
+    reason = reasons.lagging(1234, "the network")
     assert reason is not None and "1,234 messages were dropped" in reason.text
-    reason = live_reasons.lagging(1, "this program")
+    reason = reasons.lagging(1, "this program")
     assert reason is not None and "1 message was dropped" in reason.text
     assert reason.code in SEVERITIES

@@ -1,0 +1,189 @@
+"""Why the frame of a message has no place, and what brings it one.
+
+Displays ask it for the messages that wait, and the list of topics for those that no
+display draws: both say the same.
+"""
+
+from __future__ import annotations
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.frames import LookupRefused
+from sambot_viz.frames.history import DURATION
+from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
+
+SOON = 1_000_000_000
+"""A transform that is so much older than a message is still to come [ns]."""
+AT_END = 200_000_000
+"""So much newer than the last transform is the last message of many recordings [ns]."""
+_HOUR = 3_600_000_000_000
+"""Stamps that are farther from all of /tf are of another clock [ns]."""
+_DAY = 24 * _HOUR
+
+
+class Placement:
+    """Says why frames have no place in the transforms of a source.
+
+    Args:
+        robot: has the topics of the transforms.
+        transforms: what they have told.
+    """
+
+    def __init__(self, robot: SourceRobot, transforms: TransformTopics) -> None:
+        self._robot = robot
+        self._transforms = transforms
+        self._read: tuple[object, int | None, tuple[int, int] | None] | None = None
+
+    def reason(
+        self, topic: str, refused: LookupRefused, at_ns: int | None
+    ) -> TopicReason | None:
+        """Return why a frame has no place; None where the next transforms bring it.
+
+        Args:
+            topic: of the message.
+            refused: tf2's answer.
+            at_ns: the log time that is looked at [ns]; None for any.
+        """
+        clocks = self.other_clock(topic, (refused.times or (None,))[0])
+        if clocks is not None:
+            return clocks
+        remedy = self._remedy(refused, at_ns)
+        if not remedy:
+            return None
+        text = f"{refused.rviz_text}. {remedy[0].upper()}{remedy[1:]}"
+        return TopicReason("no-transform", text)
+
+    def other_clock(self, topic: str, stamp: int | None) -> TopicReason | None:
+        """Say that a stamp [ns] is far from those of all transforms."""
+        if stamp is None or self._stamps is None:
+            return None
+        first, last = self._stamps
+        if first - _HOUR <= stamp <= last + _HOUR:
+            return None
+        days = (stamp - last if stamp > last else first - stamp) // _DAY
+        way = "after" if stamp > last else "before"
+        by = f"{days:,} days" if days > 1 else "hours"
+        return TopicReason(
+            "two-clocks",
+            f"{topic} is stamped {by} {way} /tf: one of the two nodes has the wrong "
+            "use_sim_time",
+        )
+
+    def _remedy(self, refused: LookupRefused, at_ns: int | None) -> str:
+        """Return what to do; empty where the next transforms bring the place."""
+        if refused.times is None:
+            return self._begin(at_ns, is_later=True) or self._unconnected(refused)
+        stamp, nearest = refused.times
+        first, last = self._stamps or (0, 0)
+        seconds = abs(stamp - nearest) * 1e-9
+        if refused.reason == "extrapolation-future":
+            is_last = nearest >= last
+            if stamp - nearest <= (AT_END if is_last else SOON):
+                return ""
+            return _behind(seconds, is_last)
+        if refused.reason == "extrapolation-past" and nearest - first > SOON:
+            return (
+                f"tf2 keeps {DURATION:.0f} s, and the message is {seconds:.1f} s "
+                "older: what publishes it is too slow, or stamps it with another clock"
+            )
+        return self._begin(at_ns) or (
+            "the transforms on the way have no time in common: one of their nodes had "
+            "stopped before another began, or their clocks differ"
+        )
+
+    def _unconnected(self, refused: LookupRefused) -> str:
+        """Return what to do about frames that no transform connects."""
+        if refused.reason == "empty-name":
+            return "let what publishes it name the frame of its header"
+        if refused.unknown and refused.unknown == refused.target:
+            return "choose another Fixed Frame"
+        problems = problems_of_transforms(self._transforms, "")
+        # What parts the frames says itself what to do.
+        parts = ("tf-loop",) if refused.reason == "ring" else ("two-parents",)
+        hints = [p.hint for p in problems if p.code in parts and p.hint]
+        if hints:
+            return "; ".join(hints)
+        topics = self._robot.topics
+        if topics.moving and not topics.static and self._robot.recording is not None:
+            return (
+                "/tf_static is not in this recording: record it too (ros2 bag record "
+                "-a, or name it)"
+            )
+        return (
+            "add it: --static-transform, or ros2 run tf2_ros "
+            f"static_transform_publisher 0 0 0 0 0 0 {refused.target} {refused.source}"
+        )
+
+    def _begin(self, at_ns: int | None, *, is_later: bool = False) -> str:
+        """Say when the transforms of a recording begin.
+
+        Args:
+            at_ns: the log time that is looked at [ns]; None says nothing.
+            is_later: only say so if that is still to come.
+        """
+        recording, first = self._robot.recording, self._begin_ns
+        if at_ns is None or recording is None or first is None:
+            return ""
+        seconds = (first - (recording.start_ns or 0)) * 1e-9
+        if first > at_ns:
+            there = f"go there with the time bar or --at {seconds:.1f}"
+            return f"transforms begin at {seconds:.1f} s: {there}"
+        if is_later:
+            return ""
+        before = "this message is from before: go on to the next one"
+        return f"transforms begin at {seconds:.1f} s, and {before}"
+
+    @property
+    def _begin_ns(self) -> int | None:
+        """The log time of the first transform of a recording [ns]."""
+        return self._known()[0]
+
+    @property
+    def _stamps(self) -> tuple[int, int] | None:
+        """The first and the last stamp of what moves [ns]; None without."""
+        newest = self._transforms.newest_ns
+        recorded = self._known()[1]
+        return recorded or ((newest, newest) if newest else None)
+
+    def _known(self) -> tuple[int | None, tuple[int, int] | None]:
+        """Read the first and the last transforms of a recording, once."""
+        topics, recording = self._robot.topics, self._robot.recording
+        if recording is None:
+            return None, None
+        if self._read is None or self._read[0] is not topics:
+            start, end = recording.start_ns or 0, recording.end_ns or 0
+            firsts = [recording.next(name, start - 1) for name in topics.moving]
+            lasts = [recording.last(name, end) for name in topics.moving]
+            found = [one for one in (*firsts, *lasts) if one is not None]
+            stamps = [stamp for one in found for stamp in self._stamps_of(one)]
+            begin = min((one.log_ns for one in found), default=None)
+            of_all = (min(stamps), max(stamps)) if stamps else None
+            self._read = topics, begin, of_all
+        return self._read[1:]
+
+    def _stamps_of(self, message: Recorded) -> list[int]:
+        try:
+            found = self._robot.transform_decoder()(message)
+        except DecodeError:
+            return []
+        return [stamp for stamp, _, _ in found]
+
+
+def _behind(seconds: float, is_last: bool) -> str:
+    """Say what to do about a message after the last transform.
+
+    Args:
+        seconds: by how much [s].
+        is_last: no transform comes after that.
+    """
+    if is_last:
+        return (
+            f"the last transform is {seconds:.1f} s older than the message: what "
+            "publishes it had stopped, go back in time"
+        )
+    return (
+        f"the newest transform is {seconds:.1f} s older than the message: what "
+        "publishes it is late, or the clocks of the two nodes differ"
+    )
