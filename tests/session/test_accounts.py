@@ -18,7 +18,7 @@ from sambot_viz import Visualizer
 from sambot_viz.displays.data.topic_display import TopicDisplay
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
-from sambot_viz.panels.sources.topics import TopicsPanel
+from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.session import Session
 from sambot_viz.text import capitalized
 from sambot_viz.topics.account import Account

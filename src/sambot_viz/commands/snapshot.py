@@ -46,7 +46,7 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
     """Draw what a page would show."""
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import LONGEST_WAIT, snapshot
-    from sambot_viz.session.problems import problems_of_topics
+    from sambot_viz.session.shown_problems import problems_of_topics
     from sambot_viz.visualizer import Visualizer
 
     options, (width, height) = inputs.options, size
