@@ -122,7 +122,7 @@ class RobotData:
         )
         messages.unheard = self.topics.unheard
         # What is known of topics is in the statuses of displays.
-        connect(self.topics.remade_by, partial(self._look_at_time, True))
+        connect([self.topics.looked], partial(self._look_at_time, True))
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
         frames.prefix = lambda robot: moved_by.prefix_of(robot, self.transforms.pairs())
