@@ -11,6 +11,7 @@ from image_messages import octets, raw
 from inside import session_of
 from live_peers import WAIT
 from made_messages import write_messages
+from made_recording import described, write_recording
 from patience import until
 from robot_peer import BusyPeer, square_peer
 
@@ -109,6 +110,25 @@ def test_lists_panels_statuses_problems_and_programs_agree(
                 if account.reason is not None and account.reason.severity != "info":
                     known = [one for one in problems if display.topic in one]
                     assert any(told in one for one in known), problems
+
+
+def test_a_loop_is_said_of_the_topic_that_tells_of_it(shared: Path) -> None:
+    path = shared / "data" / "reported" / "bags" / "c13_loop"
+    said = "odom -> body on /tf and body -> odom on /tf"
+    with opened(path) as (viz, session):
+        assert said in sentence(viz.topics["/tf"])
+        assert said in in_panel(session)["/tf"]
+
+
+def test_transforms_that_are_not_taken_say_what_hides_them(tmp_path: Path) -> None:
+    told = [("/tf", 0.0, {"base": "odom"}), ("/b/tf", 1.0, {"base": "odom"})]
+    path = write_recording(
+        tmp_path / "two.mcap", {"/robot_description": described("base", "arm")}, told
+    )
+    with opened(path) as (viz, _):
+        said = sentence(viz.topics["/b/tf"])
+    assert said == listed(path)["/b/tf"]
+    assert said.startswith("Its frames are hidden by those of /tf: with /b/robot_desc")
 
 
 def test_pictures_that_no_display_shows_have_no_tick(tmp_path: Path) -> None:

@@ -76,6 +76,10 @@ class Evidence(Protocol):
         """Return why nothing comes of it."""
         ...
 
+    def of_transforms(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms, or what hides them."""
+        ...
+
     def to_come(self, name: str) -> TopicReason | None:
         """Return that it begins later."""
         ...
@@ -145,6 +149,7 @@ def _reasons(
     yield evidence.unreceived(name)
     yield unread(decoder)
     yield looked.undecodable(evidence.topic(name).count)
+    yield evidence.of_transforms(name)
     drawing = drawing or Drawing(None)
     if not drawing.has_looked and reasons.drawn_by(name, decoder.type_name) is None:
         drawing = Drawing(reasons.no_display(decoder.type_name, looked.fields))

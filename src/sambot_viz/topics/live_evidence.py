@@ -90,6 +90,10 @@ class LiveEvidence:
             return reasons.no_message_yet(name) if waited > SILENT_AFTER else None
         return found
 
+    def of_transforms(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms, or what hides them."""
+        return self._placement.of_transforms(name)
+
     def to_come(self, name: str) -> TopicReason | None:
         """Return None: nobody knows what a robot will say."""
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.history import DURATION
+from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.name_spaces import space_of
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
@@ -69,6 +71,26 @@ class Placement:
             "two-clocks",
             f"{topic} is stamped {by} {way} /tf: one of the two nodes has the wrong "
             "use_sim_time",
+        )
+
+    def of_transforms(self, name: str) -> TopicReason | None:
+        """Return what is wrong with the transforms of a topic, or what hides them."""
+        topics = self._robot.topics
+        taken = (*topics.moving, *topics.static)
+        if name in taken:
+            for found in problems_of_transforms(self._transforms, ""):
+                said = f"{found.message}; {found.hint} "
+                if f"({name})" in said or f" on {name} " in said:
+                    return TopicReason(found.code, said.rstrip())
+            return None
+        known = self._robot.source.topics().get(name)
+        kind = "" if known is None else self._robot.decoder(known).type_name
+        if not taken or meaning_of(kind) is not Meaning.TRANSFORMS:
+            return None
+        return TopicReason(
+            "topic-hidden",
+            f"its frames are hidden by those of {taken[0]}: with "
+            f"{space_of(name)}/robot_description both robots are shown apart",
         )
 
     def _remedy(self, refused: LookupRefused, at_ns: int | None) -> str:

@@ -37,6 +37,9 @@ SEVERITIES: Mapping[str, Severity] = {
     "off": "info",
     "stale": "warning",
     "lagging": "warning",
+    "topic-hidden": "warning",
+    "tf-loop": "warning",
+    "two-parents": "warning",
 }
 """All reasons of topics."""
 

@@ -117,6 +117,10 @@ class TopicReport:
         """Return why nothing of it was recorded."""
         return reasons.unreceived(self._topics[name])
 
+    def of_transforms(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms, or what hides them."""
+        return self._placement.of_transforms(name)
+
     def to_come(self, name: str) -> TopicReason | None:
         """Return that it begins later than the time that is looked at."""
         first, start = self.first_ns(name), self._recording.start_ns
