@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -38,7 +38,7 @@ NOT_IN_LISTS = {"off", "no-display"}
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[tuple[Visualizer, Session]]:
+def opened(path: Path) -> Generator[tuple[Visualizer, Session]]:
     """A page of a recording without a config, at its end."""
     with Visualizer(path, port=0) as viz:
         viz.player.pause()

@@ -149,3 +149,13 @@ def test_each_reason_is_one_of_those_that_are_documented() -> None:
     assert {reason.code for reason in made} <= set(reasons.SEVERITIES)
     assert "did you mean '/scan'?" in made[0].text
     assert all(reason.text for reason in made)
+
+
+def test_frames_of_robots_with_name_spaces_are_judged_by_their_names(
+    shared: Path,
+) -> None:
+    recordings = shared / "data" / "reported" / "recordings"
+    with surveyed(recordings / "two_robots_ns.mcap") as survey:
+        assert survey.fixed_frame == "map"
+        assert survey.lookup_fault("a/base_link") is None
+        assert survey.lookup_fault("b/base_link") is None

@@ -20,7 +20,6 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.looked import Looked
 from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
-from sambot_viz.topics.transforms import TransformTopics
 
 
 class Survey:
@@ -44,12 +43,9 @@ class Survey:
         self.topics: dict[str, Looked] = {}
         self.is_all = False
         self.is_complete = False
-        history = FrameHistory()
-        own = recorded.topics
-        self._moving = frozenset(own.moving)
-        self.transforms = TransformTopics(
-            history, own.moving, own.static, recorded.transform_decoder()
-        )
+        self._moving = frozenset(recorded.topics.moving)
+        # The frames of robots with name spaces have the names of the page.
+        self.transforms = recorded.transforms(FrameHistory())
         self._steps = self._run()
         self._tree: tuple[FrameTree, str] | None = None
 
@@ -139,7 +135,7 @@ class Survey:
     def _frames(self) -> tuple[FrameTree, str]:
         """Return all frames, and the one at the top of the robot's tree."""
         tree = FrameTree(self.transforms.history)
-        root, joints = _robot_of(self.recorded.description)
+        root, joints = self._robot()
         pairs = list(self.transforms.pairs())
         self._hang(tree, joints, pairs)
         if root:
@@ -147,9 +143,18 @@ class Survey:
         first = root or next((parent for parent, _ in pairs), "")
         return tree, top_frame(first, (*joints, *pairs))
 
+    def _robot(self) -> tuple[str, list[tuple[str, str]]]:
+        """Return root and joints of the robot, by the names of frames."""
+        root, joints = _robot_of(self.recorded.description)
+        spaces, topic = self.recorded.spaces, self.recorded.topics.description or ""
+        if not spaces:
+            return root, joints
+        named = [tuple(spaces.link_frame(topic, one) for one in j) for j in joints]
+        return spaces.link_frame(topic, root), [(one, other) for one, other in named]
+
     def with_joints(self, tree: FrameTree) -> FrameTree:
         """Hang the links in a tree where messages do not say where they are."""
-        _, joints = _robot_of(self.recorded.description)
+        _, joints = self._robot()
         self._hang(tree, joints, list(self.transforms.pairs()))
         return tree
 
