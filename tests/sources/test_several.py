@@ -16,6 +16,7 @@ from sambot_viz.cli import main
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.panels.sources.source_panel import SourcePanel
+from sambot_viz.topics import live_evidence
 
 NS = 10**9
 
@@ -123,9 +124,11 @@ def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
 
 
 def test_two_robots_are_told_apart_by_a_prefix(
-    peer: RobotPeer, repository: Path
+    peer: RobotPeer, repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(live_evidence, "SILENT_AFTER", 0.0)
     with square_peer(repository, RobotPeer) as other:
+        other.advertise("/quiet")
         source = [f"a={peer.uri}", f"b={other.uri}"]
         with Visualizer(source=source, source_prefix={"b": "b"}, port=0) as viz:
             for one in (peer, other):
@@ -135,8 +138,18 @@ def test_two_robots_are_told_apart_by_a_prefix(
             data = session_of(viz).data
             assert data is not None
             assert data.moved_by.source.status.is_whole
+
+            def said() -> str:
+                with session_of(viz).lock:
+                    data.topics.follow("test", data.topics.names)
+                    reason = data.topics.account("/b/quiet").reason
+                return "" if reason is None else reason.text
+
+            eventually(lambda: "has come yet" in said())
             other.stop()
             eventually(lambda: not data.moved_by.source.status.is_whole)
+            # Its topics are not to blame.
+            assert said() == ""
             # Which one is missing is said first, and by its name.
             told = {one.id: one.value for one in SourcePanel(data).data()}
             status = told["source/status"]

@@ -85,7 +85,9 @@ class LiveEvidence:
         found, own = reasons.unreceived(topic), self.own.get(name)
         if found is None and self.heard(name) is None:
             return reasons.not_listened() if is_large(topic) else None
-        if found is None and own is not None and own.last is None:
+        # It may be of the one of several that is not connected.
+        is_whole = live is None or live.status.is_whole
+        if found is None and own is not None and own.last is None and is_whole:
             waited = self._now() - own.since
             return reasons.no_message_yet(name) if waited > SILENT_AFTER else None
         return found
