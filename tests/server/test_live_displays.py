@@ -30,6 +30,8 @@ def viz(peer: RobotPeer, tmp_path: Path) -> Iterator[Visualizer]:
     config = tmp_path / "scan.rviz"
     config.write_text(CONFIG)
     with Visualizer(source=peer.uri, config=config, port=0) as viz:
+        # Nobody else looks, and scans are asked for only then.
+        session_of(viz)
         eventually(lambda: {"/scan", "/tf"} <= set(peer.subscribed()))
         yield viz
 

@@ -53,7 +53,8 @@ def looks(client: Client) -> list[float]:
 def sentence(viz: Visualizer) -> str:
     data = session_of(viz).data
     assert isinstance(data, RobotData)
-    return SourcePanel(data).data()[0].value["sentence"]
+    told = {one.id: one.value for one in SourcePanel(data).data()}
+    return told["source/status"]["sentence"]
 
 
 def test_the_robot_moves_as_it_says(viz: Visualizer, peer: RobotPeer) -> None:
