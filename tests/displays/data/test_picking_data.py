@@ -143,7 +143,8 @@ def test_a_point_of_a_cloud_is_met_in_each_style(
     assert hit(shown, 2.0 + 0.6 * edge + 0.2, 1.0).item is None
     (facts,) = shown.display.selected(found.item).facts(np.array([2]))
     assert facts.title == "Point 2 [PointCloud2]"
-    assert facts.facts == [
+    # Topic and stamp: test_selected_data.py.
+    assert facts.facts[2:] == [
         ("Frame", "map"),
         ("Position", "2; 1; 0.5 m"),
         ("3: intensity", "9"),
@@ -161,7 +162,7 @@ def test_fields_have_their_number_in_the_message_and_colours_are_colours(
     shown = messages("PointCloud2", made)
     found = hit(shown, 1.0, 0.0)
     (facts,) = shown.display.selected(found.item).facts(np.array([0]))
-    assert facts.facts[2:] == [
+    assert facts.facts[4:] == [
         ("3: rgba", (0xFF, 0x80, 0x01)),
         ("alpha", f"{0x40 / 255:.5g}"),
         ("4: ring", "5"),
