@@ -114,7 +114,7 @@ def test_without_a_camera_info_the_status_names_its_topic(shown: Open) -> None:
         ([info(INFO, (0.0, 0.0, 1.0, 1.0)), depth()], "Camera Info", "not calibrated"),
         ([info(INFO, [np.nan] * 12), depth()], "Camera Info", "floating point values"),
         ([info(INFO, NUMBERS), depth(size=(9, 9))], "Image", "bytes; 9 × 9 pixels"),
-        ([info(INFO, NUMBERS), depth(size=(9**9, 9))], "Image", "at most 50 million"),
+        ([info(INFO, NUMBERS), depth(size=(9**9, 9))], "Image", "at most 50,000,000"),
         (
             [info(INFO, NUMBERS), depth(np.zeros((2000, 2001), "<u2"))],
             "Message",
