@@ -73,6 +73,8 @@ NO_LIMITS = {
         messages/definition_text.py _LONGEST_WITHOUT_COMMENTS
         messages/flat_types.py _MOST_LEAVES
         messages/kept_elements.py MOST_BYTES _WIDEST
+        messages/protobuf_transforms.py _LARGEST _MOST_TEMPLATES _MOST_OF_A_LENGTH
+        messages/protobuf_transforms.py _LONGEST_VARINT
         messages/transform_decoder.py _MOST_KEPT _MOST_TEMPLATES _MOST_OF_A_LENGTH
         messages/transform_decoder.py _LARGEST_TEMPLATE _MOST_OF_TEMPLATES
         server/tickets.py _MOST_REMOVED

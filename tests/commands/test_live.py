@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
 import re
 import threading
@@ -86,11 +88,15 @@ def test_a_page_has_the_motion_that_came(busy: BusyPeer, tmp_path: Path) -> None
     finally:
         done.set()
         driving.join()
-    found = re.search(r'id="sambot-about"[^>]*>(.*?)</script>', page.read_text("utf-8"))
-    assert found is not None
-    about = json.loads(found[1])
+    text = page.read_text("utf-8")
+    found = re.search(r'id="sambot-about"[^>]*>(.*?)</script>', text)
+    tracks = re.search(r'id="sambot-motion"[^>]*>(.*?)</script>', text)
+    assert found is not None and tracks is not None
+    assert json.loads(found[1])["duration"] > 0.0
+    moved = json.loads(gzip.decompress(base64.b64decode(tracks[1])))
+    driven = [one for one in moved if one["type"] == "SetPositionMessage"]
     # Only a recording's robot drives.
-    assert about["duration"] > 0.0 and len(about["way"]) > 1
+    assert max(len(one["values"]) for one in driven) > 1
 
 
 def test_a_model_beside_it_is_the_robot(busy: BusyPeer, capsys: Capture) -> None:

@@ -253,7 +253,11 @@ class ShownInputs:
 
     def _assume_frame(self, document: RvizConfig) -> None:
         """Note the frame of the config that comes with the program: no user's wish."""
-        if self._stand_in is not None and self._inputs.options.fixed_frame is None:
+        moved_by = self._inputs.moved_by
+        # Of a live robot data are waited for.
+        is_whole = moved_by is None or moved_by.can("seek")
+        is_asked = self._inputs.options.fixed_frame is not None
+        if self._stand_in is not None and is_whole and not is_asked:
             document.assumed_frame = str(document.global_options.get("Fixed Frame"))
 
     def _follow(self, refusal: RobotError | None) -> None:

@@ -140,7 +140,7 @@ def test_another_size_than_the_camera_says_is_doubtful(messages: Open) -> None:
     ("made", "text"),
     [
         (picture(size=(9, 9)), "bytes; 9 × 9 pixels"),
-        (picture(size=(2**31, 2**31)), "at most 50 million"),
+        (picture(size=(2**31, 2**31)), "at most 50,000,000"),
         (image("/a", "8UC7", GREY), "Unsupported image encoding [8UC7]"),
     ],
 )

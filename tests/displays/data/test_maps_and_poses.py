@@ -169,6 +169,7 @@ def test_only_a_path_that_has_changed_is_drawn(
     from sambot_viz.displays.scene.lines import LineNode
 
     shown = messages("Path", path_of(0, 1), path_of(0, 2), **{"Buffer Length": 2})
+    assert len(shown.node_names()) == 2
     draw, drawn = LineNode.draw, list[LineNode]()
 
     def count(node: LineNode, *args: Any, **options: Any) -> None:
