@@ -8,6 +8,7 @@ is usually in the wrong room; a row of the table below is changed only on purpos
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
@@ -17,6 +18,8 @@ from pathlib import Path
 
 import pytest
 
+SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
+"""Finds the scripts that one of the page imports."""
 FOUNDATIONS = {"errors", "files", "geometry", "limits", "outlet", "text"}
 """Any room may import these; they import nothing of the package but each other."""
 
@@ -428,6 +431,22 @@ def test_no_two_modules_import_each_other(repository: Path) -> None:
     }
     graph = {name: met & (paths.keys() - {name}) for name, met in graph.items()}
     assert list(rings(graph)) == []
+
+
+def test_no_two_scripts_of_the_page_import_each_other(repository: Path) -> None:
+    page = (source(repository) / "page").resolve()
+    graph = {
+        path: {
+            (path.parent / name).resolve()
+            for name in SCRIPTS.findall(path.read_text("utf-8"))
+        }
+        for path in page.rglob("*.js")
+    }
+    assert sum(map(len, graph.values())) > len(graph) > 50
+    names = {
+        path: {str(one) for one in met if one in graph} for path, met in graph.items()
+    }
+    assert list(rings({str(path): met for path, met in names.items()})) == []
 
 
 HOLDERS = {

@@ -11,12 +11,12 @@ import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { followGhost } from "./panels/poses.js";
-import { followPointedJoint } from "./panels/pointed_joint.js";
 import { play, seek } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
 import { releaseKept } from "./cells/field.js";
 import { cancelPress, followMouse, mousePlace } from "./view/pointer.js";
-import { followRole } from "./window/people.js";
+import { followClickedLink } from "./window/clicked_link.js";
+import { followRole } from "./window/users.js";
 import { tellControls, toolKeys } from "./window/toolbar.js";
 import { Window } from "./window/window.js";
 
@@ -49,7 +49,7 @@ const start = () => {
   });
   tellView();
   tellControls();
-  followPointedJoint();
+  followClickedLink();
   followGhost();
   followFile();
   followConnection();

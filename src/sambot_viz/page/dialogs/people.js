@@ -4,14 +4,14 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
-import { ownName } from "../window/people.js";
+import { ownName } from "../window/users.js";
 import { show } from "./dialog.js";
 import { Invite } from "./invite.js";
 import { useCommand } from "../state.js";
 
 /**
- * @typedef {import("../window/people.js").Now} Now
- * @typedef {import("../window/people.js").Person} Person
+ * @typedef {import("../window/users.js").Now} Now
+ * @typedef {import("../window/users.js").Person} Person
  */
 
 /** @param {{now: Now, close: () => void}} props */

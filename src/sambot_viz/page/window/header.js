@@ -5,6 +5,7 @@ import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { room } from "./splitters.js";
 import { FileName } from "./files.js";
 import { MenuBar } from "./menus.js";
+import { goTo } from "./palette.js";
 import { useData } from "../state.js";
 import { Toolbar } from "./toolbar.js";
 
@@ -33,7 +34,7 @@ export function Top({ panels, hideAll }) {
   });
   return html`<header class=${`top ${STEPS[step]}`} ref=${element}>
     <h1 class="spoken">sambot-viz</h1>
-    <${MenuBar} panels=${panels} hideAll=${hideAll} small=${step >= 2} /><${Toolbar} />
+    <${MenuBar} panels=${panels} hideAll=${hideAll} goTo=${goTo} small=${step >= 2} /><${Toolbar} />
     <${FileName} />
   </header>`;
 }

@@ -9,7 +9,6 @@ import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./
 import { Icon } from "./icons.js";
 import { copyPermalink } from "../wire/permalink.js";
 import { menuKey, usePressOutside } from "./menu.js";
-import { goTo } from "./palette.js";
 import { EDITS } from "./toolbar.js";
 import { Cell, useCommand, useData } from "../state.js";
 import { FIRST, setLook } from "../view/look.js";
@@ -63,8 +62,13 @@ function orthographic() {
   return { name: "Orthographic", checked: Boolean(row?.value), does, ...why };
 }
 
-/** @param {() => PanelOf[]} panels @param {() => void} hideAll @returns {MenuOf[]} */
-export const listMenus = (panels, hideAll) => [
+/**
+ * @param {() => PanelOf[]} panels
+ * @param {() => void} hideAll
+ * @param {() => void} goTo opens the palette
+ * @returns {MenuOf[]}
+ */
+export const listMenus = (panels, hideAll, goTo) => [
   {
     name: "File",
     entries: () => [
@@ -134,10 +138,10 @@ export const listMenus = (panels, hideAll) => [
 
 /**
  * The menu bar; on a phone one button for all menus.
- * @param {{panels: () => PanelOf[], hideAll: () => void, small: boolean}} props
+ * @param {{panels: () => PanelOf[], hideAll: () => void, goTo: () => void, small: boolean}} props
  */
-export function MenuBar({ panels, hideAll, small }) {
-  const all = listMenus(panels, hideAll);
+export function MenuBar({ panels, hideAll, goTo, small }) {
+  const all = listMenus(panels, hideAll, goTo);
   /** @returns {Entry[]} */
   const joined = () => all.flatMap((menu, i) => [...(i ? [null] : []), ...menu.entries()]);
   /** @type {MenuOf[]} */

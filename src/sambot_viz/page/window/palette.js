@@ -86,7 +86,7 @@ function calls() {
 
 /** @returns {Target[]} */
 function commands() {
-  const inMenus = listMenus(() => [], togglePanels).flatMap((menu) =>
+  const inMenus = listMenus(() => [], togglePanels, goTo).flatMap((menu) =>
     menu
       .entries()
       .flatMap((entry) =>

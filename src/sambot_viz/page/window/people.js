@@ -3,88 +3,16 @@
  * and the requests for control over the view of a presenter. Who is there is in the dialog of the
  * status bar (dialogs/people.js). */
 
-import { html, useLayoutEffect, useReducer } from "../vendor/preact.js";
-import { act, rows } from "../wire/channel.js";
+import { html } from "../vendor/preact.js";
+import { act } from "../wire/channel.js";
 import { PeopleList } from "../dialogs/people.js";
 import { Popup } from "./popup.js";
-import { Cell, useData, useRow } from "../state.js";
+import { ownName, peopleOpen, usePeople } from "./users.js";
 
 /**
- * @typedef {{presented: boolean, copy: boolean, copies: number}} State copies: how many have one
- * @typedef {{client: number, name: string, presenter: boolean, control: boolean,
- *   requests: boolean, key: string}} Me key: who comes again with it is the same user
- * @typedef {{id: string, name: string, client: number, presenter?: boolean, control?: boolean,
- *   requests?: boolean}} Person
- * @typedef {{state: State, me: Me, people: Person[], viewers: number, requests: Person[]}} Now
- *   viewers: how many are not in control
+ * @typedef {import("./users.js").Now} Now
+ * @typedef {import("./users.js").Me} Me
  */
-
-/** The name of this user, for the next time. @type {Cell<string>} */
-export const ownName = new Cell("", "name");
-/** Whether the dialog of the status bar is open. @type {Cell<boolean>} */
-export const peopleOpen = new Cell(/** @type {boolean} */ (false));
-
-/** What the tab keeps of its user, also while it shows a private copy. */
-const KEY = "sambot-viz/user";
-
-function takeKey() {
-  try {
-    return sessionStorage.getItem(KEY) || "";
-  } catch {
-    return "";
-  }
-}
-
-/** @param {string} key */
-function keepKey(key) {
-  try {
-    sessionStorage.setItem(KEY, key);
-  } catch {
-    // Without storage, a page that comes again is another user.
-  }
-}
-
-/** Rows that this user may not set look and act like those that cannot be set. */
-export function followRole() {
-  let client = -1;
-  const look = () => {
-    const me = /** @type {Me | undefined} */ (rows.data("role/me"));
-    if (!me) return;
-    rows.watch(!me.control);
-    document.body.classList.toggle("view-only", !me.control);
-    // Each connection is a new client, with a name like "Viewer 4". A private copy has other users.
-    if (!location.pathname.endsWith("/copy/")) {
-      if (client !== me.client) act("role/greet", [ownName.value, takeKey()]);
-      keepKey(me.key);
-    }
-    client = me.client;
-  };
-  rows.listen("role/me", look);
-  look();
-}
-
-/** Who is there now. @returns {Now | null} */
-export function usePeople() {
-  const state = useData("people/state"),
-    me = useData("role/me");
-  useRow("panel:people");
-  const ids = rows.panels.get("people") || [];
-  const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
-  useLayoutEffect(() => {
-    const stops = ids.map((id) => rows.listen(id, () => again(0)));
-    return () => stops.forEach((stop) => stop());
-  }, [ids.join()]);
-  if (!state || !me) return null;
-  /** @type {Person[]} */
-  const people = /** @type {any[]} */ (ids.map((id) => rows.get(id)));
-  return {
-    state,
-    me,
-    people,
-    viewers: people.filter((person) => !person.control).length,
-    requests: people.filter((person) => person.requests),
-  };
-}
 
 /** In the status bar: who is in control, and what can be done about it. */
 export function People() {
