@@ -46,6 +46,11 @@ def golden(shared: Path) -> Path:
     return shared / "data" / "golden-data"
 
 
+@pytest.fixture
+def bags(shared: Path) -> Path:
+    return shared / "data" / "reported" / "bags"
+
+
 @contextmanager
 def stopped(peer: BusyPeer) -> Generator[BusyPeer]:
     """Stop a peer at the end."""
@@ -57,6 +62,15 @@ def stopped(peer: BusyPeer) -> Generator[BusyPeer]:
 
 def kinds(config: RvizConfig) -> list[str]:
     return [one.kind.rpartition("/")[2] for one in config.displays if one.enabled]
+
+
+def test_axes_of_frames_without_a_robot_follow_how_far_these_are_apart(
+    bags: Path, shown: Show
+) -> None:
+    """This recording has nothing but frames, with a metre between them at first."""
+    session = shown(bags / "c14")
+    (tf,) = (one for one in session.document.config.displays if one.name == "TF")
+    eventually(lambda: tf.get("Marker Scale") == 1.0)
 
 
 def test_all_that_a_recording_has_is_shown_in_the_order_of_need(

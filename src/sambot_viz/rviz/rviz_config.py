@@ -39,6 +39,7 @@ class RvizConfig(DisplayList, ViewList):
         tools: the tools of the toolbar.
         fits_robot: whether its sizes are to be those of the robot that is shown,
             because it is no user's; it is not saved.
+        fits_frames: the same where frames are shown that have no robot.
         unasked: its displays of what a recording or a robot has, as no config says
             what of it is to be shown; that they are is not saved.
         offered: the topics that have got such a display, also if it was taken out.
@@ -48,7 +49,7 @@ class RvizConfig(DisplayList, ViewList):
     def __init__(self, document: Document, declarations: Declarations):
         """Read a document; use `load` or `parse`."""
         super().__init__(document, declarations)
-        self.fits_robot = False
+        self.fits_robot = self.fits_frames = False
         self.unasked: tuple[DisplayConfig, ...] = ()
         self.offered: set[str] = set()
         self.assumed_frame = ""
@@ -96,7 +97,7 @@ class RvizConfig(DisplayList, ViewList):
     def copy(self) -> RvizConfig:
         """Return the same document once more, with the edits that are not saved."""
         made = RvizConfig.parse(self.to_yaml(), self._declarations, file=self.file)
-        made.fits_robot = self.fits_robot
+        made.fits_robot, made.fits_frames = self.fits_robot, self.fits_frames
         made.assumed_frame = self.assumed_frame
         places = [n for n, one in enumerate(self.displays) if one in self.unasked]
         made.offered = set(self.offered)

@@ -146,7 +146,8 @@ class ShownInputs:
         robots = descriptions_of(moved_by.topics)
         show_topics(document, moved_by.types, points_of, robots)
         missing = moved_by.description is None and self._inputs.options.model is None
-        if document.unasked and missing and moved_by.can("seek"):
+        document.fits_frames = missing and moved_by.can("seek")
+        if document.unasked and document.fits_frames:
             _without_robot(document)
 
     def _take_frame(

@@ -110,7 +110,8 @@ class SizeOfRobot:
 
     def _fit(self) -> None:
         config, robot = self._document.config, self._robot.model
-        if robot is None or not (config.fits_robot or config.unasked):
+        fits = config.fits_robot or config.fits_frames or config.unasked
+        if robot is None or not fits:
             return
         shown = (config, robot, len(config.unasked))
         if shown == self._fitted or self._scene.context.assets.progress is not None:
@@ -124,16 +125,21 @@ class SizeOfRobot:
         self._set(size)
 
     def _size(self) -> SceneSize | None:
-        """Return the size of the robot; None without one, or in a user's config."""
+        """Return the size of the robot, or else how far frames are from each other.
+
+        None where there is neither, and in a user's config.
+        """
         if self._robot.model is None or not bundled.is_bundled(
             self._document.config.file
         ):
             return None
-        box = self._picker.link_box()
+        tree, box = self._scene.context.tree, self._picker.link_box()
         if box is None:
-            return None
+            # Axes follow how far frames are apart, whatever lies between.
+            apart = frame_spacing(tree, 0.0) if self._document.config.fits_frames else 0
+            return SceneSize(2 * apart, apart) if apart else None
         length = float(np.max(box[1] - box[0]))
-        return SceneSize(length, frame_spacing(self._scene.context.tree, length))
+        return SceneSize(length, frame_spacing(tree, length))
 
     def _sizes_of(self, kind: str) -> Mapping[str, float]:
         """Return the sizes of a display that is added, by path."""
@@ -145,7 +151,8 @@ class SizeOfRobot:
         with self._history.unrecorded():
             for display in self._scene.displays:
                 unasked = display.config in config.unasked
-                if not (config.fits_robot or unasked):
+                of_frames = config.fits_frames and display.config.kind == TfDisplay.kind
+                if not (config.fits_robot or of_frames or unasked):
                     continue
                 kind, declared = display.config.kind, display.config.declared
                 for path, value in display.size_values(size).items():
