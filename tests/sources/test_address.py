@@ -52,8 +52,8 @@ def test_what_is_shown_has_no_secret() -> None:
         ("foxglove:robot", "no host is named; write foxglove://HOST:8765"),
         ("foxglove://", "no host is named"),
         ("rosbridge://:9090", "no host is named; write rosbridge://HOST:9090"),
-        ("foxglove://robot:99999", "write foxglove://HOST:8765"),
-        ("foxglove://robot:port", "write foxglove://HOST:8765"),
+        ("foxglove://robot:99999", "from 1 to 65535; write foxglove://HOST:8765"),
+        ("foxglove://robot:port", "from 1 to 65535; write foxglove://HOST:8765"),
         ("foxglove+tcp://robot", "unknown kind of source 'foxglove\\+tcp'"),
         ("foxglove://[::1", "write foxglove://HOST:8765"),
         (

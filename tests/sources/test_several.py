@@ -81,8 +81,8 @@ def test_the_same_topics_without_a_prefix_hide_each_other(tmp_path: Path) -> Non
         (problem,) = (p for p in inputs.problems() if p.code == "topic-hidden")
         assert inputs.moved_by is not None
         assert inputs.moved_by.name == "a and b"
-    assert "/robot_description, /tf of a hides the same of b" in problem.message
-    assert "--source-prefix" in problem.hint
+    assert "/robot_description, /tf of a hide the same of b" in problem.message
+    assert "--source b=URI --source-prefix b=robot2" in problem.hint
     with Inputs(Options(source=[f"a={one}", f"a={other}"])) as inputs:
         assert not [p for p in inputs.problems() if p.code == "topic-hidden"]
 

@@ -207,10 +207,12 @@ def _hidden(parts: Sequence[tuple[str, Iterable[str]]]) -> Iterator[Problem]:
         for first, found in hidden.items():
             listed = ", ".join(found[:_MOST_NAMED])
             more = f" and {len(found) - _MOST_NAMED} more" * (len(found) > _MOST_NAMED)
+            hide = "hides" if len(found) == 1 else "hide"
+            called = name if name.isidentifier() else "other"
             yield Problem(
                 "warning",
                 "topic-hidden",
-                f"{listed}{more} of {first} hides the same of {name}",
-                "give each source a name and one of them a prefix, as in --source "
-                f"other={name} --source-prefix other=robot2",
+                f"{listed}{more} of {first} {hide} the same of {name}",
+                "give that source a name and a prefix: --source "
+                f"{called}=URI --source-prefix {called}=robot2",
             )

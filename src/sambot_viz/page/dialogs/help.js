@@ -21,7 +21,7 @@ const KEYS = [
       ["P", "show everyone what you have selected"],
       ["H", "hide or show all panels"],
       ["Esc", "back to the first tool"],
-      ["8 2 4 6 in Drive", "drive"],
+      ["8 2 4 6 in Drive", "add speed"],
       ["5", "stop driving"],
     ],
   ],

@@ -67,7 +67,7 @@ export function DrivePanel() {
       <button class="home needs-control"
         title="Move the robot back to the start, and reset wheels, path, fixed frame and view"
           onClick=${() => act("drive/reset")}>Back to start</button>
-      <p class="keys">Hold a button or the keys 8 2 4 6; 5 stops</p>
+      <p class="keys">Hold a button. Each press of 8 2 4 6 adds speed; 5 stops</p>
     </div>
     <${Tree} panel="drive" label="Drive" split=${false} />
   </div>`;

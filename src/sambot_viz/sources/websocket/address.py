@@ -67,7 +67,8 @@ def parse_address(uri: str) -> Address:
         parts = urlsplit(uri)
         host, port = parts.hostname or "", parts.port or usual
     except ValueError as error:
-        raise UsageError(f"{text(uri)}: {error}; {example}") from error
+        why = "this is no host and port from 1 to 65535"
+        raise UsageError(f"{text(uri)}: {why}; {example}") from error
     if not host or not parts.netloc or not _is_plain(parts.path + parts.query):
         raise UsageError(f"{text(uri)}: no host is named; {example}")
     websocket = _websocket(parts, is_secure, host, port)
