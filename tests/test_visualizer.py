@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import live_peers
 import numpy as np
 import pytest
 from patience import patience
@@ -190,10 +191,8 @@ def test_an_address_of_another_machine_is_an_error() -> None:
 
 @pytest.fixture
 def free_port() -> int:
-    """A port that was free a moment ago."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """A port that nobody else gets meanwhile."""
+    return live_peers.free_port()
 
 
 def answers(port: int) -> bool:

@@ -13,6 +13,7 @@ from urllib.request import urlopen
 
 import pytest
 import yaml
+from live_peers import free_port
 from patience import until
 from protocol_client import ProtocolClient
 
@@ -29,12 +30,6 @@ ARM = """
 <joint name="j" type="continuous"><parent link="base"/><child link="{tip}"/></joint>
 </robot>
 """
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def is_free(port: int) -> bool:
