@@ -73,10 +73,9 @@ NO_LIMITS = {
         messages/definition_text.py _LONGEST_WITHOUT_COMMENTS
         messages/flat_types.py _MOST_LEAVES
         messages/kept_elements.py MOST_BYTES _WIDEST
-        messages/protobuf_transforms.py _LARGEST _MOST_TEMPLATES _MOST_OF_A_LENGTH
-        messages/protobuf_transforms.py _LONGEST_VARINT
-        messages/transform_decoder.py _MOST_KEPT _MOST_TEMPLATES _MOST_OF_A_LENGTH
-        messages/transform_decoder.py _LARGEST_TEMPLATE _MOST_OF_TEMPLATES
+        messages/protobuf_transforms.py _LARGEST _LONGEST_VARINT
+        messages/templates.py _MOST_KEYS _MOST_OF_A_KEY _MOST_BYTES
+        messages/transform_decoder.py _MOST_KEPT _LARGEST_TEMPLATE
         server/tickets.py _MOST_REMOVED
         session/robot/motion_recorder.py MOST_NUMBERS
         sources/bag/file_bytes.py _MOST_AHEAD

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sambot_viz.messages.decoder import Edges, Payload, ReadTransforms
+from sambot_viz.messages.templates import Templates
 
 if TYPE_CHECKING:
     from google.protobuf.descriptor import Descriptor
@@ -23,8 +24,6 @@ _FEWEST = 6
 """Fewer transforms are read by the package in less time."""
 _LARGEST = 1 << 20
 """Longer messages are read by the package [bytes]."""
-_MOST_OF_A_LENGTH = 4
-_MOST_TEMPLATES = 64
 _VARINT, _FIXED, _LENGTH = 0, 1, 2
 """Wire types of Protobuf: a number of some bytes, one of eight bytes, and a length."""
 _LONGEST_VARINT = 5
@@ -49,7 +48,7 @@ class ProtobufTransforms:
     """
 
     def __init__(self, descriptor: Descriptor) -> None:
-        self._templates: dict[int, tuple[_Template, ...]] = {}
+        self._templates = Templates[int, _Template]()
         self._numbers = _numbers_of(descriptor)
 
     def read(self, payload: Payload) -> ReadTransforms | None:
@@ -57,8 +56,7 @@ class ProtobufTransforms:
         data = bytes(payload)
         if self._numbers is None or len(data) > _LARGEST:
             return None
-        known = self._templates.get(len(data), ())
-        for template in known:
+        for template in self._templates.of(len(data)):
             if (found := template.read(data)) is not None:
                 return found
         try:
@@ -67,9 +65,7 @@ class ProtobufTransforms:
             return None
         if len(template.edges) < _FEWEST:
             return None
-        if len(self._templates) >= _MOST_TEMPLATES:
-            self._templates = {}
-        self._templates[len(data)] = (template, *known)[:_MOST_OF_A_LENGTH]
+        self._templates.keep(len(data), template, len(data))
         return template.read(data)
 
 

@@ -19,19 +19,16 @@ from numpy.typing import NDArray
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.cdr import CdrReader
 from sambot_viz.messages.decoder import Edges, Payload, ReadTransforms
+from sambot_viz.messages.templates import Templates
 
 Transforms = tuple[int, Edges, NDArray[np.float64]]
 """Stamp [ns], the frames, and their (N, 7) poses: x, y, z and quaternion x, y, z, w."""
 _MOST_KEPT = 20_000
 """So many transforms are kept in lists of frames; each publisher has one or two."""
-_MOST_TEMPLATES = 32
-_MOST_OF_A_LENGTH = 4
 _FEWEST_ROWS = 6
 """Fewer transforms are read field by field in less time."""
 _LARGEST_TEMPLATE = 1 << 21
 """Bytes of a message; a template has twice as many."""
-_MOST_OF_TEMPLATES = 1 << 23
-"""Bytes of the messages of all templates."""
 _NUMBERS = attrgetter(
     *(f"translation.{axis}" for axis in "xyz"), *(f"rotation.{axis}" for axis in "xyzw")
 )
@@ -58,9 +55,7 @@ class TransformDecoder:
         self._is_ros1 = message_encoding == "ros1"
         self._edges: dict[Edges, Edges] = {}
         self._edges_kept = 0
-        # Tuples that are replaced as a whole: several players may read at a time.
-        self._templates: dict[tuple[int, int], tuple[_TransformTemplate, ...]] = {}
-        self._templates_size = 0
+        self._templates = Templates[tuple[int, int], _TransformTemplate]()
 
     def decode(self, payload: Payload) -> list[Transforms]:
         """Return the transforms of a message, one entry for each stamp in it.
@@ -70,7 +65,7 @@ class TransformDecoder:
         """
         data = bytes(payload)
         key = len(data), 0 if self._is_ros1 or not data[1:] else data[1]
-        for template in self._templates.get(key, ()):
+        for template in self._templates.of(key):
             if (found := template.read(data)) is not None:
                 stamps, poses = found
                 return self._split(stamps, template.edges, poses)
@@ -81,7 +76,8 @@ class TransformDecoder:
             raise DecodeError("it is cut off or of another type") from None
         edges = self._one(tuple((row[1], row[2]) for row in read))
         if len(read) >= _FEWEST_ROWS and len(data) <= _LARGEST_TEMPLATE:
-            self._keep(key, _TransformTemplate(data, rows, edges))
+            template = _TransformTemplate(data, rows, edges)
+            self._templates.keep(key, template, len(data))
         poses = np.array([row[3] for row in read], dtype=np.float64)
         return self._split([row[0] for row in read], edges, poses)
 
@@ -105,15 +101,6 @@ class TransformDecoder:
         """Return transforms that were read elsewhere, an entry for each stamp."""
         stamps, edges, poses = read
         return self._split(stamps, self._one(edges), poses)
-
-    def _keep(self, key: tuple[int, int], template: _TransformTemplate) -> None:
-        held = self._templates_size
-        if len(self._templates) >= _MOST_TEMPLATES or held > _MOST_OF_TEMPLATES:
-            self._templates = {}
-            self._templates_size = 0
-        known = self._templates.get(key, ())
-        kept = self._templates[key] = (template, *known)[:_MOST_OF_A_LENGTH]
-        self._templates_size += key[0] * (len(kept) - len(known))
 
     def _split(
         self, stamps: list[int], edges: Edges, poses: NDArray[np.float64]
