@@ -67,7 +67,7 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
         with Chromium() as chromium:
             camera = session.document_view.camera
             config = session.document.config
-            if fit or config.fits_robot or config.fits_frames or config.unasked:
+            if fit or config.fits_scene:
                 viz.server.sessions.wait_for_meshes(LONGEST_WAIT)
                 camera = session.document_view.camera_on_robot(width, height)
             return snapshot(viz.server, chromium, width, height, camera)

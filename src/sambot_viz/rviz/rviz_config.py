@@ -105,6 +105,11 @@ class RvizConfig(DisplayList, ViewList):
         return made
 
     @property
+    def fits_scene(self) -> bool:
+        """Whether sizes and the camera follow what is shown, where it is no user's."""
+        return self.fits_robot or self.fits_frames or bool(self.unasked)
+
+    @property
     def file(self) -> str | None:
         """The path it was read from or last saved to."""
         return self._document.file

@@ -110,8 +110,7 @@ class SizeOfRobot:
 
     def _fit(self) -> None:
         config, robot = self._document.config, self._robot.model
-        fits = config.fits_robot or config.fits_frames or config.unasked
-        if robot is None or not fits:
+        if robot is None or not config.fits_scene:
             return
         shown = (config, robot, len(config.unasked))
         if shown == self._fitted or self._scene.context.assets.progress is not None:
