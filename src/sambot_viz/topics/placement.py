@@ -14,7 +14,7 @@ from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.name_spaces import space_of
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
-from sambot_viz.topics.transforms import TransformTopics, problems_of_transforms
+from sambot_viz.topics.transforms import TransformTopics, problems_of_parents
 
 SOON = 1_000_000_000
 """A transform that is so much older than a message is still to come [ns]."""
@@ -78,10 +78,9 @@ class Placement:
         topics = self._robot.topics
         taken = (*topics.moving, *topics.static)
         if name in taken:
-            for found in problems_of_transforms(self._transforms, ""):
-                said = f"{found.message}; {found.hint} "
-                if f"({name})" in said or f" on {name} " in said:
-                    return TopicReason(found.code, said.rstrip())
+            for found, of_topics in problems_of_parents(self._transforms):
+                if name in of_topics:
+                    return TopicReason(found.code, f"{found.message}; {found.hint}")
             return None
         known = self._robot.source.topics().get(name)
         kind = "" if known is None else self._robot.decoder(known).type_name
@@ -121,7 +120,7 @@ class Placement:
             return "let what publishes it name the frame of its header"
         if refused.unknown and refused.unknown == refused.target:
             return "choose another Fixed Frame"
-        problems = problems_of_transforms(self._transforms, "")
+        problems = [problem for problem, _ in problems_of_parents(self._transforms)]
         # What parts the frames says itself what to do.
         parts = ("tf-loop",) if refused.reason == "ring" else ("two-parents",)
         hints = [p.hint for p in problems if p.code in parts and p.hint]

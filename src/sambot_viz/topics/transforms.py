@@ -346,13 +346,7 @@ def problems_of_transforms(
         name: of the recording, or of the live robot.
         is_live: whether it is one.
     """
-    found = [
-        _two_parents(child, parents, transforms.always)
-        for child, parents in transforms.parents.items()
-        if len(parents) > 1
-    ]
-    if loop := _loop(transforms.parents):
-        found.append(_of_loop(loop, transforms.parents))
+    found = [problem for problem, _ in problems_of_parents(transforms)]
     if transforms.limit.left_out:
         found.append(too_many_frames(transforms.limit.left_out, name))
     if transforms.turned_back_by:
@@ -373,6 +367,19 @@ def problems_of_transforms(
     return tuple(found)
 
 
+def problems_of_parents(
+    transforms: TransformTopics,
+) -> Iterator[tuple[Problem, Collection[str]]]:
+    """Yield what is wrong with who has which parent, and the topics that say so."""
+    for child, parents in transforms.parents.items():
+        if len(parents) > 1:
+            problem = _two_parents(child, parents, transforms.always)
+            yield problem, set(parents.values())
+    if loop := _loop(transforms.parents):
+        topics = {transforms.parents[child][parent] for parent, child in _edges(loop)}
+        yield _of_loop(loop, transforms.parents), topics
+
+
 def _loop(parents: Mapping[str, Mapping[str, str]]) -> list[str]:
     """Return the frames of a loop, each the parent of the next; empty without one."""
     above = {child: [*named][-1] for child, named in parents.items()}
@@ -389,12 +396,17 @@ def _loop(parents: Mapping[str, Mapping[str, str]]) -> list[str]:
     return []
 
 
+def _edges(loop: Sequence[str]) -> Iterable[tuple[str, str]]:
+    """Return parent and child of each transform of a loop."""
+    return zip(loop, (*loop[1:], loop[0]), strict=True)
+
+
 def _of_loop(loop: Sequence[str], parents: Mapping[str, Mapping[str, str]]) -> Problem:
     """Say which transforms form a loop, and which of them to stop."""
     arrows = " -> ".join((*loop, loop[0]))
-    pairs = zip(loop, (*loop[1:], loop[0]), strict=True)
     said = " and ".join(
-        f"{parent} -> {child} on {parents[child][parent]}" for parent, child in pairs
+        f"{parent} -> {child} on {parents[child][parent]}"
+        for parent, child in _edges(loop)
     )
     return Problem(
         "warning",
