@@ -91,18 +91,6 @@ def rotation_from_axis(axis: Vector3, angle: float) -> list[list[float]]:
     ]
 
 
-def rotations_from_axes(axes: Matrix, angles: Matrix) -> Matrix:
-    """Turn axes (N, 3) and angles (N,) [rad] into rotations (N, 3, 3)."""
-    cross: Matrix = np.zeros((len(axes), 3, 3))
-    x, y, z = axes[:, 0], axes[:, 1], axes[:, 2]
-    cross[:, 0, 1], cross[:, 0, 2] = -z, y
-    cross[:, 1, 0], cross[:, 1, 2] = z, -x
-    cross[:, 2, 0], cross[:, 2, 1] = -y, x
-    cos, sin = np.cos(angles)[:, None, None], np.sin(angles)[:, None, None]
-    outer = axes[:, :, None] * axes[:, None, :]
-    return cos * np.eye(3) + (1.0 - cos) * outer + sin * cross
-
-
 def rotation_from_xyzw(xyzw: Xyzw) -> list[list[float]]:
     """Return the (3, 3) rotation of a quaternion that need not be quite of length 1."""
     x, y, z, w = xyzw

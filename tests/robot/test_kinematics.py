@@ -1,6 +1,7 @@
 import json
 import math
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -132,3 +133,33 @@ def test_an_unknown_joint_is_named_with_the_nearest_one():
     robot = robot_with(joint("wheel_joint", "continuous", 0, 1), 2)
     with pytest.raises(JointError, match="did you mean 'wheel_joint'"):
         robot.forward_kinematics({"whel_joint": 0.0})
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_poses_are_the_product_of_the_joints_above(seed: int):
+    random = Random(seed)
+    links, reach = random.choice(((1, 1), (2, 1), (7, 2), (40, 1), (60, 60), (90, 8)))
+    kinds = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
+    numbers = lambda: " ".join(f"{random.uniform(-2, 2):.3f}" for _ in range(3))  # noqa: E731
+    joints = [
+        joint(
+            f"j{n}",
+            random.choice(kinds),
+            max(0, n - random.randint(1, reach)),
+            n,
+            f'<origin xyz="{numbers()}" rpy="{numbers()}"/><axis xyz="{numbers()}"/>',
+        )
+        for n in range(1, links)
+    ]
+    random.shuffle(joints)
+    robot = robot_with("".join(joints), links)
+    kinematics = robot.kinematics
+    given = {name: random.uniform(-7, 7) for name in robot.joint_names}
+
+    poses = kinematics.forward(given)
+
+    assert list(poses) == list(kinematics.links)
+    positions = kinematics.positions(given)
+    for each in robot.joints.values():
+        own = kinematics.joint_transform(each.name, positions[each.name])
+        assert np.allclose(poses[each.child], poses[each.parent] @ own, atol=1e-12)

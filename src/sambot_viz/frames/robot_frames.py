@@ -39,7 +39,7 @@ def robot_frames(
     """
     tree = FrameTree()
     joints = [j.name for j in robot.joints.values() if j.type != "floating"]
-    hang_robot(tree, robot, Kinematics(robot), positions or {}, joints, prefix)
+    hang_robot(tree, robot, robot.kinematics, positions or {}, joints, prefix)
     return tree
 
 

@@ -233,7 +233,7 @@ class JointState:
     # Inside
 
     def _take(self, robot: Robot) -> None:
-        self.kinematics = Kinematics(robot)
+        self.kinematics = robot.kinematics
         self._joints = {n: j for n, j in robot.joints.items() if j.movable}
         self._followers, self._problems = find_followers(robot.joints)
         self._free = {n: j for n, j in self._joints.items() if j.mimic is None}

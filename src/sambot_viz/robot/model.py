@@ -72,6 +72,11 @@ class Robot:
 
         return write_urdf(self.name, self.links, self.joints)
 
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """The way from positions to poses, prepared once."""
+        return Kinematics(self)
+
     @property
     def joint_names(self) -> tuple[str, ...]:
         """The joints that take a position, in document order: the order of vectors.
@@ -112,8 +117,6 @@ class Robot:
                 `joint_names`. A joint that is not given has its start value; mimic
                 joints follow unless given.
 
-        A caller that asks more than once keeps a `Kinematics` instead.
-
         Returns:
             Link name → (4, 4) float64, T_root_link. A link behind a floating joint
             is at the joint's origin (ROS publishes no transform for it).
@@ -124,7 +127,7 @@ class Robot:
         """
         none: Mapping[str, float] = {}
         named = none if positions is None else self.named_positions(positions)
-        return Kinematics(self).forward(named)
+        return self.kinematics.forward(named)
 
     def balance(self, positions: Positions | None = None) -> Balance | None:
         """Weigh the robot, and find what it stands on; its mesh files are read.

@@ -50,7 +50,6 @@ from sambot_viz.displays.topic_messages import values_of_topic
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.meanings import Meaning, meaning_of
-from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
@@ -291,7 +290,7 @@ class RobotModelDisplay(TriangleDisplay):
         robot, tree = self.own_robot, self.context.tree
         if robot is None or not self.shown:
             return
-        kinematics, history = Kinematics(robot), tree.history
+        kinematics, history = robot.kinematics, tree.history
         positions = kinematics.positions(free_positions(robot, self._joints.last))
         by_frame = {self.frame_of(j.child): j for j in robot.joints.values()}
         moved = {

@@ -20,7 +20,6 @@ from sambot_viz.displays.robot_model.description_file import (
 )
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameTree, Transform
-from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig
 
@@ -177,7 +176,7 @@ def publish_frames(
     missing = [j for j in robot.joints.values() if not _known(tree, frame_of(j.child))]
     if not missing:
         return ()
-    kinematics = Kinematics(robot)
+    kinematics = robot.kinematics
     positions = kinematics.positions(free_positions(robot, given or {}))
     for joint in missing:
         position = positions.get(joint.name, joint.start)
