@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from sambot_viz.panels.drive_panel import DrivePanel
 from sambot_viz.panels.rows.row import Answer
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
-from sambot_viz.session.robot.robot_drive import Drive
+from sambot_viz.session.robot.robot_drive import KEEP, Drive
 from sambot_viz.views.camera import vector
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -60,16 +60,61 @@ def test_speeds_are_set_one_by_one_within_their_limits(
         edit(panel, "drive/linear", 1.5)
 
 
-def test_a_button_that_is_held_drives_until_it_is_let_go(
+SET = pytest.mark.parametrize(
+    ("row_id", "value"),
+    [("drive/hold", [0.5, 0]), ("drive/press", ["8"]), ("drive/linear", 0.5)],
+)
+"""All that a hand at a page drives with."""
+
+
+@SET
+def test_a_robot_stops_when_no_page_says_that_it_drives_it(
+    panel: DrivePanel, session: Session, drive: Drive, row_id: str, value: Any
+) -> None:
+    edit(panel, row_id, value)
+    session.motion.advance(10 * KEEP)
+    assert not drive.moving
+    assert drive.pose.x == pytest.approx(KEEP * (0.1 if "press" in row_id else 0.5))
+    assert panel.values()["drive/alone"]
+
+
+@SET
+def test_a_robot_drives_as_long_as_one_page_says_that_it_drives_it(
+    panel: DrivePanel, session: Session, drive: Drive, row_id: str, value: Any
+) -> None:
+    edit(panel, row_id, value)
+    for _ in range(5):
+        session.motion.advance(0.9 * KEEP)
+        edit(panel, "drive/keep")
+    assert drive.moving
+    assert not panel.values()["drive/alone"]
+
+
+def test_a_page_that_comes_late_does_not_start_the_robot_again(
     panel: DrivePanel, session: Session, drive: Drive
 ) -> None:
-    for _ in range(5):
-        edit(panel, "drive/hold", [0.5, 0])
-        session.motion.advance(0.1)
-    assert drive.pose.x == pytest.approx(0.25)
-    session.motion.advance(1.0)
+    edit(panel, "drive/linear", 0.5)
+    session.motion.advance(2 * KEEP)
+    edit(panel, "drive/keep")
     assert not drive.moving
-    assert drive.pose.x == pytest.approx(0.35)
+
+
+@pytest.mark.parametrize("end", ["drive/stop", "drive/reset"])
+def test_the_next_command_of_a_hand_ends_what_is_said_of_the_stop(
+    panel: DrivePanel, session: Session, end: str
+) -> None:
+    edit(panel, "drive/linear", 0.5)
+    session.motion.advance(2 * KEEP)
+    assert panel.values()["drive/alone"]
+    edit(panel, end)
+    assert not panel.values()["drive/alone"]
+
+
+def test_a_program_drives_without_a_page(session: Session, drive: Drive) -> None:
+    drive.set_velocity(0.5, 0.0)
+    session.motion._ticking = True  # pyright: ignore[reportPrivateUsage]
+    session.motion.advance(10 * KEEP)
+    assert drive.moving
 
 
 def test_a_held_button_drives_no_faster_than_the_limits(
@@ -101,7 +146,9 @@ def test_the_yaw_is_shown_within_half_a_turn(
     panel: DrivePanel, session: Session
 ) -> None:
     edit(panel, "drive/angular", 2)
-    session.motion.advance(2.0)
+    session.motion.advance(1.0)
+    edit(panel, "drive/keep")
+    session.motion.advance(1.0)
     assert panel.values()["drive/yaw"] == pytest.approx(4 - 2 * math.pi, abs=1e-4)
 
 
@@ -153,6 +200,7 @@ def test_starting_to_drive_keeps_the_camera_and_reset_brings_it_back(
         assert dict(client.view.values) == before
         for _ in range(20):
             session.motion.advance(0.2)
+            edit(panel, "drive/keep")
             session.follow_view.follow(vector(session.drive.pose.x, 0.0, 0.1))
         assert session.drive.pose.x == pytest.approx(4)
         assert client.view.camera.look_at[0] > 2
@@ -163,16 +211,49 @@ def test_starting_to_drive_keeps_the_camera_and_reset_brings_it_back(
     assert client.view.values["Distance"] == pytest.approx(1.0)
 
 
-def test_a_robot_that_drove_before_is_where_it_was_in_the_picture(
+def test_a_driven_robot_stays_in_the_picture_when_the_fixed_frame_changes(
     panel: DrivePanel, session: Session, client: Client
 ) -> None:
+    tree = session.scene.context.tree
+
+    def in_picture() -> tuple[float, ...]:
+        fixed = session.scene.context.fixed_frame
+        place = tree.lookup(fixed, "base_link").translation
+        aside = place - client.view.camera.look_at
+        return tuple(round(float(part), 6) for part in aside[:2])
+
     with session.history.acting(client.client_id):
         edit(panel, "drive/linear", 1.0)
-        session.motion.advance(2.0)
+        session.motion.advance(1.0)
         edit(panel, "drive/stop", None)
+    until(lambda: tree.lookup("odom", "base_link").translation[0] == 1.0)
+    session.follow_view.find(client.client_id)
+    before = in_picture()
+    with session.history.acting(client.client_id):
         session.document.set_option("Fixed Frame", "base_link")
+    assert in_picture() == before
+    # The same robot goes on from there.
+    with session.history.acting(client.client_id):
         edit(panel, "drive/linear", 1.0)
-    assert client.view.camera.look_at[0] == pytest.approx(2.0)
+        edit(panel, "drive/stop", None)
+    assert session.scene.context.fixed_frame == "odom"
+    assert in_picture() == before
+    for act in (*[session.history.undo] * 3, *[session.history.redo] * 3):
+        act(client.client_id)
+        assert in_picture() == before
+
+
+def test_who_looks_elsewhere_keeps_its_view_when_the_fixed_frame_changes(
+    panel: DrivePanel, session: Session, join: Callable[[], Client]
+) -> None:
+    driver, other = join(), join()
+    with session.history.acting(driver.client_id):
+        edit(panel, "drive/linear", 1.0)
+        session.motion.advance(1.0)
+    other.view.pan(vector(-50.0, 0.0, 0.0))
+    session.history.undo(driver.client_id)
+    assert session.scene.context.fixed_frame == "base_link"
+    assert other.view.camera.look_at[0] == pytest.approx(-50.0)
 
 
 def test_reset_leaves_a_fixed_frame_that_was_chosen_alone(

@@ -21,6 +21,7 @@ from camera_reports import (
     report_to_viser,
 )
 from inside import node_of, session_of, viser_server
+from patience import until
 from protocol_client import CAMERA_ASKED, ROW_PATCH, ProtocolClient
 
 from sambot_viz import Visualizer, bundled
@@ -81,6 +82,24 @@ def test_a_fresh_page_gets_the_view_and_a_returning_one_keeps_its_own(
     assert first.values["Distance"] == 4.0
     assert second.values["Distance"] == pytest.approx(np.linalg.norm((7, 1, 2)))
     assert not session_of(viz).history.modified.value
+
+
+@pytest.mark.parametrize("driven", [True, False])
+def test_a_fresh_page_shows_the_robot_where_it_was_driven_to(
+    viz: Visualizer, protocol: Protocol, driven: bool
+) -> None:
+    join(viz, protocol, FRESH)
+    session = session_of(viz)
+    with session.history.acting(next(iter(session.clients.all))):
+        session.follow_view.show_motion()
+    if driven:
+        session.drive.set_velocity(10.0, 0.0, 1.0)
+        until(lambda: not session.drive.moving)
+    join(viz, protocol, FRESH)
+    middle = views_of(viz)[-1].camera.look_at
+    expected = [session.drive.pose.x, 0.0, 0.0]
+    assert (middle[0] > 5.0) == driven
+    assert middle == pytest.approx(expected, abs=1e-6)
 
 
 def test_a_page_that_comes_back_from_above_stays_above(

@@ -146,6 +146,17 @@ def test_the_view_goes_back_by_the_way_that_it_was_panned(
     assert looks_at(driver) == (-1, 0)
 
 
+def test_a_robot_that_is_in_the_picture_needs_no_finding(
+    session: Session, driver: Client
+) -> None:
+    before = driver.view.shown.number
+    session.follow_view.find(driver.client_id)
+    assert driver.view.shown.number == before
+    driver.view.pan(vector(-20, 0, 0))
+    session.follow_view.find(driver.client_id)
+    assert looks_at(driver) == (0, 0)
+
+
 def test_a_program_that_drives_moves_no_camera(
     session: Session, driver: Client
 ) -> None:

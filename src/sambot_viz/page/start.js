@@ -10,6 +10,7 @@ import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
+import { followDriving } from "./panels/drive.js";
 import { followGhost } from "./panels/poses.js";
 import { play, seek } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
@@ -51,6 +52,7 @@ const start = () => {
   tellControls();
   followClickedLink();
   followGhost();
+  followDriving();
   followFile();
   followConnection();
   followRole();

@@ -15,10 +15,9 @@ from sambot_viz.drive.differential import WheelPair
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import NUMBER, TEXT, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.rows.row import Answer, Kind, Row
+from sambot_viz.panels.rows.row import Answer, Data, Kind, Row
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.robot.motion import HOLD
-from sambot_viz.session.robot.robot_drive import ODOM, Drive
+from sambot_viz.session.robot.robot_drive import KEEP, ODOM, Drive
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Signal
 
@@ -27,7 +26,7 @@ MOST_LINEAR, MOST_ANGULAR = 1.0, 2.0
 KEYS = {"8": (0.1, 0.0), "2": (-0.1, 0.0), "4": (0.0, 0.25), "6": (0.0, -0.25)}
 """Added by one press of a key [m/s] and [rad/s]."""
 STOP_KEY = "5"
-_POSE, _WHEELS = "drive/pose", "drive/wheels"
+_POSE, _WHEELS, _ALONE = "drive/pose", "drive/wheels", "drive/alone"
 
 
 class DrivePanel(Panel):
@@ -51,7 +50,8 @@ class DrivePanel(Panel):
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
         """The speeds and the pose."""
-        return (self._drive.velocity, self._drive.pose_changed)
+        drive = self._drive
+        return (drive.velocity, drive.left_alone, drive.pose_changed)
 
     def rows(self) -> Sequence[Row]:
         """Return the speeds, where the robot is, and its wheels."""
@@ -63,6 +63,11 @@ class DrivePanel(Panel):
             *self._pose(robot.root),
             *_measures(wheels),
         ]
+
+    def data(self) -> Sequence[Data]:
+        """Return whether the robot was stopped because no page drove it any more."""
+        wheels = self._drive.wheels
+        return [] if wheels is None else [Data(_ALONE, self._drive.left_alone.value)]
 
     def values(self) -> dict[str, Any]:
         """Return the speeds, and the pose in odom."""
@@ -77,6 +82,7 @@ class DrivePanel(Panel):
             "drive/x": round(pose.x, 4) + 0.0,
             "drive/y": round(pose.y, 4) + 0.0,
             "drive/yaw": round(math.remainder(pose.yaw, math.tau), 4) + 0.0,
+            _ALONE: drive.left_alone.value,
         }
 
     def _speeds(self) -> Iterator[Row]:
@@ -125,7 +131,7 @@ class DrivePanel(Panel):
     @command("drive/hold", NUMBER, NUMBER)
     def _hold(self, v: float, w: float) -> Answer | None:
         """Drive a little; a button that is held says so again and again."""
-        return self._go(v, w, seconds=HOLD)
+        return self._go(v, w)
 
     @command("drive/press", TEXT)
     def _press(self, key: str) -> Answer | None:
@@ -139,6 +145,15 @@ class DrivePanel(Panel):
         v, w = round(self._drive.v + more_v, 6), round(self._drive.w + more_w, 6)
         return self._go(v, w)
 
+    @command("drive/keep")
+    def _keep(self) -> None:
+        """Drive on: a page that drives says again and again that it is there."""
+        self._drive.go_on(KEEP)
+
+    @command("drive/find", client_local=True)
+    def _find(self) -> None:
+        self._follow_view.find()
+
     @command("drive/stop")
     def _stop(self) -> None:
         self._drive.stop()
@@ -148,12 +163,12 @@ class DrivePanel(Panel):
         self._drive.reset()
         self._follow_view.put_back()
 
-    def _go(self, v: float, w: float, **how_long: float) -> Answer | None:
+    def _go(self, v: float, w: float) -> Answer | None:
         """Drive; from rest, see to it that the motion can be seen."""
         v, w = _within(MOST_LINEAR, v), _within(MOST_ANGULAR, w)
         starts = not self._drive.moving and (v != 0 or w != 0)
         shown = starts and self._follow_view.show_motion()
-        self._drive.set_velocity(v, w, **how_long)
+        self._drive.set_velocity(v, w, KEEP)
         if not shown:
             return None
         return Answer(f"Fixed Frame is now {ODOM}. Undo puts it back.")

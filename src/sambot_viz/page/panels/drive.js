@@ -2,15 +2,18 @@
 /* The Drive panel: buttons to hold, speeds, and where the robot is. */
 
 import { html, useEffect, useRef } from "../vendor/preact.js";
-import { act } from "../wire/channel.js";
+import { act, CUT, EDITED, edited, rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
 import { formatNumber } from "../cells/numbers.js";
-import { Cell, degrees, useRow } from "../state.js";
+import { Cell, degrees, useData, useRow } from "../state.js";
+import { CutText } from "../window/cut_text.js";
 import { Tree } from "../tree/tree.js";
 import { shownUnit } from "../cells/units.js";
 
-/** How often a held button says so [ms]. */
-const PERIOD = 100;
+/** How often a page that drives says so: without that, the robot stops [ms]. */
+const PERIOD = 250;
+/** A robot that rests for so many periods is not driven any longer: a slow answer takes a few. */
+const AT_REST = 12;
 /**
  * What the buttons do: m/s forwards and rad/s to the left.
  * @type {Record<string, [string, number, number]>}
@@ -24,7 +27,45 @@ const WAYS = {
 
 /** The ways that are held now, with several fingers even. @type {Set<string>} */
 const held = new Set();
-let timer = 0;
+/** Whether this page keeps up a speed that a key or a slider of it has set. */
+let keeps = false,
+  rests = 0,
+  timer = 0;
+
+/** What sets a speed that stays. */
+const SPEEDS = new Set(["drive/press", "drive/linear", "drive/angular"]);
+
+function beat() {
+  const moves = rows.value("drive/linear") || rows.value("drive/angular");
+  rests = moves ? 0 : rests + 1;
+  if (rests > AT_REST) keeps = false;
+  if (held.size) return drive();
+  if (keeps) return act("drive/keep");
+  clearInterval(timer);
+  timer = 0;
+}
+
+function startBeats() {
+  rests = 0;
+  if (!timer) timer = setInterval(beat, PERIOD);
+}
+
+/** The hand is gone: whoever comes back has to drive again. */
+function leave() {
+  keeps = false;
+  for (const name of [...held]) letGo(name);
+}
+
+/** Say that this page drives, as long as it does and can be seen. */
+export function followDriving() {
+  rows.listen(EDITED, () => {
+    if (!SPEEDS.has(edited())) return;
+    keeps = true;
+    startBeats();
+  });
+  rows.listen(CUT, leave);
+  addEventListener("visibilitychange", () => document.hidden && leave());
+}
 
 function drive() {
   const ways = [...held].map((name) => WAYS[name]);
@@ -38,16 +79,15 @@ function drive() {
 function hold(name) {
   if (held.has(name)) return;
   held.add(name);
+  keeps = false;
   drive();
-  if (!timer) timer = setInterval(drive, PERIOD);
+  startBeats();
 }
 
 /** @param {string} name */
 function letGo(name) {
   if (!held.delete(name)) return;
   if (held.size) return drive();
-  clearInterval(timer);
-  timer = 0;
   act("drive/stop");
 }
 
@@ -114,15 +154,19 @@ function HoldButton({ name }) {
       </button>`;
 }
 
-/** While the robot drives: how fast, and Stop, unless the panel has it. */
+const ALONE = "The robot has stopped: the page that drove it was closed or hidden";
+
+/** While the robot drives: how fast, and Stop, unless the panel has it; later, why it stopped. */
 export function Driving() {
   degrees.use();
   const stops = !there.use();
   const linear = useRow("drive/linear");
   const angular = useRow("drive/angular");
-  const rows = [linear, angular].filter((row) => row?.value);
-  if (!linear || !rows.length) return null;
-  const speeds = rows.map((row) => {
+  const alone = useData("drive/alone");
+  const moving = [linear, angular].filter((row) => row?.value);
+  if (!linear) return null;
+  if (!moving.length) return alone ? html`<${CutText} is="alone" role="status" text=${ALONE} />` : null;
+  const speeds = moving.map((row) => {
     const { factor, unit } = shownUnit(/** @type {any} */ (row));
     return `${formatNumber(row?.value * factor, 2)} ${unit}`;
   });

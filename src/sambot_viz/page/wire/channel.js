@@ -32,7 +32,8 @@ export const WATCHING = "watching";
 export const HOVER = "tools/hover";
 /** What a page sends without a user who means it. @param {string} id */
 const byItself = (id) =>
-  id === HOVER || ["/unfold", "/show", "/restore"].some((end) => id.endsWith(end));
+  id === HOVER ||
+  ["/unfold", "/show", "/restore", "/keep", "/find"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;
 

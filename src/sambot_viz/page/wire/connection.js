@@ -103,6 +103,8 @@ export function followConnection() {
     kept = null;
     goOnline();
     showView(then, loaded);
+    // The robot is elsewhere than it was when this view showed it.
+    if (then.robot?.drives || (then.robot?.away && then.session !== again?.id)) act("drive/find");
     if (then.session === again?.id) {
       if (then.edits) act("edit/resume", [then.edits]);
       sendHeldBack();

@@ -8,11 +8,15 @@ import { folds } from "../state.js";
 /**
  * @typedef {{session: string | undefined, edits: string | undefined, folds: Record<string, boolean>, places: Record<string, string>, view: Record<string, any>,
  *   joints: Record<string, {value: number, first: number}>, frames: string[], poses: string[], turning: boolean,
- *   selected: boolean, modified: boolean, file: {name?: string, own?: boolean, folder?: string}}} Memory
+ *   selected: boolean, modified: boolean, robot: {drives: boolean, away: boolean}, file: {name?: string, own?: boolean, folder?: string}}} Memory
  *   edits: the key of what can be undone
  *   places: where each display is, by its id
+ *   robot: whether it drove, and whether it was not at its start
  *   joints: those that were moved, and where they were at first
  */
+
+/** @param {string[]} names */
+const has = (...names) => names.some((name) => rows.value(`drive/${name}`));
 
 /** The target frame of a view that follows none. */
 const FIXED = "<Fixed Frame>";
@@ -32,12 +36,13 @@ export function remember() {
     turning: Boolean(rows.data("joints/turning")?.length),
     selected: ids("selection").some((id) => id.startsWith("selected/")),
     modified: Boolean(modified),
+    robot: { drives: has("linear", "angular"), away: has("x", "y") },
     file: { name, own, folder },
   };
 }
 
 /** Of a memory what another robot can take over. @param {Memory} before @returns {Memory} */
-export const withoutRobot = ({ session, folds, places, view }) => ({
+export const withoutRobot = ({ session, folds, places, view, robot }) => ({
   session,
   edits: undefined,
   folds,
@@ -49,6 +54,7 @@ export const withoutRobot = ({ session, folds, places, view }) => ({
   turning: false,
   selected: false,
   modified: false,
+  robot,
   file: {},
 });
 

@@ -1,17 +1,20 @@
-"""Pan the camera of the client that drives, so that the robot stays in view."""
+"""Pan the cameras of clients, so that a robot that is driven stays in view."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from sambot_viz.drive.differential import PlanarPose
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.clients import viser_camera
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.document.document_view import has_target
 from sambot_viz.session.robot.robot_drive import ODOM, Drive
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.session.signals import Listening
+from sambot_viz.session.signals import Listening, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Throttle, Worker
 from sambot_viz.views.camera import Camera, Vector, vector
@@ -29,6 +32,8 @@ class FollowView:
     The camera stays where its user has put it, and moves only when the robot drives
     while it is out of the picture; it never goes nearer or farther. It follows from the
     beginning of a drive on, until a hand, or another view, turns away from the robot.
+    Who opens the page after a drive sees the robot; and when the fixed frame changes,
+    by undo too, a driven robot stays where it is in each picture.
 
     Args:
         drive: the robot that is driven.
@@ -52,6 +57,7 @@ class FollowView:
     ) -> None:
         self._drive = drive
         self._document = document
+        self._scene = scene
         self._context = scene.context
         self._clients = clients
         self._picker = picker
@@ -61,15 +67,18 @@ class FollowView:
         self._before: Vector | None = None
         self._following = False
         self._shown: Camera | None = None
-        self._panned = _NOWHERE
+        # By client: how far its camera was moved.
+        self._panned: dict[int, Vector] = {}
         self._fixed_before: tuple[RvizConfig, str] | None = None
+        self._fixed = (document.config, self._context.fixed_frame)
         self._looking = Throttle(worker, PERIOD, self._look_after)
         self._lock = worker.lock
-        self._frames = scene.frames
         self._driving = Listening(self._looking.request)
+        connect([document.options], self._stay_in_pictures)
+        clients.listeners.append(self._welcome)
 
     def close(self) -> None:
-        """Move no camera any more."""
+        """Move no camera from now on."""
         self._driving.to()
         self._looking.close()
 
@@ -93,26 +102,37 @@ class FollowView:
             fixed = self._context.fixed_frame
             if fixed not in self._context.tree.frames or not self._drive.carries(fixed):
                 return False
-            before = self._aside()
             self._document.set_option("Fixed Frame", ODOM)
             self._fixed_before = (self._document.config, fixed)
-            after = self._aside()
-            if before is not None and after is not None:
-                # A robot that drove before is elsewhere in odom.
-                self._pan(after - before)
+            # Now, and not after all else: the next step is of a robot in the picture.
+            self._stay_in_pictures()
             self._before = self._place()
             return True
 
     def begin(self) -> None:
         """Follow the robot with the view of the client that acts now."""
-        if self._driver != self._history.actor:
-            self._panned = _NOWHERE
         self._driver = self._history.actor
         self._before = self._place()
         self._following = True
         self._shown = self._camera
         self._around = self._robot_around()
-        self._driving.to(self._drive.pose_changed, self._frames)
+        self._driving.to(self._drive.pose_changed, self._scene.frames)
+
+    def find(self, client_id: int | None = None) -> None:
+        """Bring the robot to the middle of a client's picture, unless it is in it.
+
+        Args:
+            client_id: the client; None for the one that acts now.
+        """
+        with self._lock:
+            who = self._history.actor if client_id is None else client_id
+            client = None if who is None else self._clients.all.get(who)
+            place = self._place()
+            if client is None or place is None:
+                return
+            self._around = self._robot_around()
+            if not self._is_seen(client, place):
+                self._pan(client, place - client.view.camera.look_at)
 
     def put_back(self) -> None:
         """Undo what driving has changed: fixed frame, way of the camera, frame odom.
@@ -122,8 +142,11 @@ class FollowView:
         """
         with self._lock:
             self._driving.to()
-            self._pan(-self._panned)
-            self._driver, self._panned = None, _NOWHERE
+            for client_id, way in self._panned.items():
+                client = self._clients.all.get(client_id)
+                if client is not None:
+                    self._pan(client, -way)
+            self._driver, self._panned = None, {}
             before, self._fixed_before = self._fixed_before, None
             if before is not None and self._context.fixed_frame == ODOM:
                 config, fixed = before
@@ -148,15 +171,50 @@ class FollowView:
         if self._is_seen(client, place):
             self._following = True
         elif self._following and not np.array_equal(place, before):
-            self._pan(place - client.view.camera.look_at)
+            self._pan(client, place - client.view.camera.look_at)
 
-    def _pan(self, away: Vector) -> None:
-        """Move the camera of the client that drives along the floor [m]."""
-        client, level = self._client, vector(away[0], away[1], 0.0)
-        if client is not None and level.any():
+    def _welcome(self, client: Client, joined: bool) -> None:
+        """Show the robot to a client that comes after a drive."""
+        if not joined:
+            self._panned.pop(client.client_id, None)
+        elif self._was_driven and not self._clients.leading.value:
+            # A page that comes back has a camera, and asks by itself.
+            if viser_camera.is_fresh(client.client.camera):
+                self.find(client.client_id)
+
+    def _stay_in_pictures(self) -> None:
+        """Leave a driven robot where it is in each picture, in another fixed frame."""
+        (document, old), tree = self._fixed, self._context.tree
+        self._fixed = (self._document.config, self._context.fixed_frame)
+        root, new = self._drive.root, self._context.fixed_frame
+        if document is not self._document.config or old == new or not self._was_driven:
+            return
+        if not (tree.can_lookup(old, root) and tree.can_lookup(new, root)):
+            return
+        before = tree.lookup(old, root).matrix[:3, 3]
+        way = tree.lookup(new, root).matrix[:3, 3] - before
+        # A client that is led has its leader's camera before its turn.
+        wanted = [
+            (client, client.view.camera.look_at + way)
+            for client in self._clients.all.values()
+            if _shows(client, before) and not has_target(self._scene, client.view.view)
+        ]
+        for client, look_at in wanted:
+            self._pan(client, look_at - client.view.camera.look_at)
+
+    @property
+    def _was_driven(self) -> bool:
+        return bool(self._drive.root) and self._drive.pose != PlanarPose()
+
+    def _pan(self, client: Client, away: Vector) -> None:
+        """Move the camera of a client along the floor [m]."""
+        level = vector(away[0], away[1], 0.0)
+        if level.any():
             client.view.pan(level)
-            self._panned = self._panned + level
-            self._shown = self._camera
+            number = client.client_id
+            self._panned[number] = self._panned.get(number, _NOWHERE) + level
+            if number == self._driver:
+                self._shown = self._camera
 
     def _robot_around(self) -> tuple[Vector, ...]:
         """Return points around the robot however it turns, from its root link [m]."""
@@ -176,13 +234,6 @@ class FollowView:
         fits = all(_shows(client, level + away) for away in self._around)
         whole = not fits or all(_shows(client, place + away) for away in self._around)
         return whole and _shows(client, place, MIDDLE)
-
-    def _aside(self) -> Vector | None:
-        """Return where the root link is, from what the driver's camera looks at [m]."""
-        place, client = self._place(), self._client
-        if place is None or client is None:
-            return None
-        return place - client.view.camera.look_at
 
     def _look_after(self) -> None:
         with self._lock:

@@ -17,9 +17,6 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker
 
-HOLD = 0.3
-"""A held button counts as released this long after its last message [s]; viser sends
-ten per second."""
 LONGEST_STEP = 0.25
 """A busy machine makes the motion slower than real time, not jump [s]."""
 

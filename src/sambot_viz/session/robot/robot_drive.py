@@ -27,6 +27,9 @@ from sambot_viz.session.worker import Throttle, Worker
 
 ODOM = "odom"
 """The frame that the robot moves in; its origin is on the floor below the start."""
+KEEP = 1.5
+"""A robot that a page drives stops this long after the last message of the pages that
+drive it [s]; such a page sends four per second."""
 TRAIL_PERIOD = 0.2
 """The trail is drawn at most this often [s]."""
 
@@ -42,6 +45,7 @@ class Drive:
     Attributes:
         velocity: linear [m/s], forwards positive, and angular [rad/s], to the left
             positive.
+        left_alone: whether the robot was stopped because its time was up.
         pose_changed: the pose in odom, told after it was drawn.
         root: the root link, which moves in odom; empty without wheels.
         why_not: why the robot cannot be driven, or "".
@@ -51,6 +55,7 @@ class Drive:
         self, robot: RobotState, frames: Frames, options: Options, change: Change
     ) -> None:
         self.velocity = Signal(change, (0.0, 0.0))
+        self.left_alone = Signal(change, False)
         self.pose_changed = Signal(change, None)
         self.root = ""
         self.why_not = "no robot is shown yet"
@@ -143,10 +148,16 @@ class Drive:
                 self._robot.require_free()
                 self.enter_odom()
             self._left = seconds
+            self.left_alone.set(False)
             self.velocity.set((v, w))
+
+    def go_on(self, seconds: float) -> None:
+        """Drive on for at least this time [s], if the robot drives."""
+        self._left = max(self._left, seconds)
 
     def stop(self) -> None:
         """Stop driving."""
+        self.left_alone.set(False)
         self.velocity.set((0.0, 0.0))
 
     def carries(self, frame: str | None) -> bool:
@@ -187,6 +198,7 @@ class Drive:
         self._left -= dt
         if self._left <= 0:
             self.stop()
+            self.left_alone.set(True)
         turned = {
             name: wrap_angle(state.positions[name] + angle)
             for name, angle in step.wheels.items()

@@ -1,0 +1,106 @@
+"""A robot drives only as long as a page is there whose user drives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from inside import session_of
+from patience import until
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.session import Session
+from sambot_viz.session.robot.robot_drive import KEEP, Drive
+
+pytestmark = pytest.mark.browser
+
+STOPPED = "The robot has stopped: the page that drove it was closed or hidden"
+Open = Callable[..., ViewerPage]
+
+
+@pytest.fixture
+def viz() -> Iterator[Visualizer]:
+    with Visualizer(port=0, look="rviz") as viz:
+        yield viz
+
+
+@pytest.fixture
+def drive(viz: Visualizer) -> Drive:
+    return session_of(viz).drive
+
+
+def drive_by_keys(viewer: ViewerPage, drive: Drive, times: int = 3) -> None:
+    """Press the key for more speed, and see the robot drive longer than alone."""
+    user, before = viewer.user, drive.v
+    user.click("tab", "Drive")
+    user.keys(*["8"] * times)
+    user.until(lambda: drive.v == pytest.approx(before + 0.1 * times))
+    there = drive.pose.x
+    user.until(lambda: drive.pose.x - there > 1.2 * KEEP * drive.v)
+
+
+def hide(viewer: ViewerPage) -> None:
+    viewer.minimize()
+
+
+def close(viewer: ViewerPage) -> None:
+    viewer.page.goto("about:blank")
+
+
+def load_again(viewer: ViewerPage) -> None:
+    viewer.page.goto(viewer.url)
+
+
+@pytest.mark.parametrize("leave", [hide, close, load_again])
+def test_a_robot_stops_when_the_page_that_drives_it_goes(
+    viz: Visualizer,
+    drive: Drive,
+    open_viewer: Open,
+    leave: Callable[[ViewerPage], None],
+) -> None:
+    viewer, other = open_viewer(viz.url), open_viewer(viz.url)
+    drive_by_keys(viewer, drive)
+    leave(viewer)
+    until(lambda: not drive.moving)
+    other.user.reads(STOPPED)
+
+
+@pytest.mark.parametrize("leave", [hide, close, load_again])
+def test_another_page_that_drives_keeps_the_robot_going(
+    viz: Visualizer,
+    drive: Drive,
+    open_viewer: Open,
+    leave: Callable[[ViewerPage], None],
+) -> None:
+    viewer, other = open_viewer(viz.url), open_viewer(viz.url)
+    drive_by_keys(viewer, drive, times=2)
+    drive_by_keys(other, drive, times=1)
+    leave(viewer)
+    there = drive.pose.x
+    until(lambda: drive.pose.x - there > 3 * KEEP * drive.v)
+    other.user.keys("5")
+    until(lambda: not drive.moving)
+
+
+@pytest.mark.view
+def test_who_comes_back_sees_the_robot(
+    viz: Visualizer, drive: Drive, open_viewer: Open
+) -> None:
+    session = session_of(viz)
+    viewer = open_viewer(viz.url)
+    drive_by_keys(viewer, drive, times=10)
+    viewer.page.goto(viewer.url)
+    until(lambda: not drive.moving)
+    viewer.user.reads(STOPPED)
+    until(lambda: sees_robot(session))
+
+
+def sees_robot(session: Session) -> bool:
+    """Whether the page, of which there is one, has the robot in its picture."""
+    (client,) = session.clients.all.values()
+    tree, fixed = session.scene.context.tree, session.scene.context.fixed_frame
+    place = tree.lookup(fixed, session.drive.root).matrix[:3, 3]
+    window = client.client.camera
+    size = window.image_width, window.image_height
+    return client.view.confirmed and client.view.camera.shows(place, *size)
