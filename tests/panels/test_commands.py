@@ -75,6 +75,7 @@ def test_few_commands_are_for_viewers_too() -> None:
         "role/greet",
         *("topics/show", "topics/find", "topics/choose"),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
+        "drive/find",
         *("tools/press", "tools/right_click", "tools/zero"),
         *("views/first", "views/restore", "views/use"),
         *("views/side", "views/press_side"),

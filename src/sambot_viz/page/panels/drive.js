@@ -165,7 +165,8 @@ export function Driving() {
   const alone = useData("drive/alone");
   const moving = [linear, angular].filter((row) => row?.value);
   if (!linear) return null;
-  if (!moving.length) return alone ? html`<${CutText} is="alone" role="status" text=${ALONE} />` : null;
+  if (!moving.length)
+    return alone ? html`<${CutText} is="alone" role="status" text=${ALONE} />` : null;
   const speeds = moving.map((row) => {
     const { factor, unit } = shownUnit(/** @type {any} */ (row));
     return `${formatNumber(row?.value * factor, 2)} ${unit}`;
