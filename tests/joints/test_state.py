@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from random import Random
 
 import pytest
 
@@ -106,7 +107,33 @@ def test_setting_tells_what_moved_followers_included(arm: Robot) -> None:
     assert state.set("j", 1.0)
     assert not state.set("j", 1.0)
     assert state.set_all({"wheel": 2.0, "j": 1.0}) == ("wheel",)
-    assert state.set_all({"wheel": 3.0, "j": 2.0}) == ("wheel", "j", "l", "k")
+    assert state.set_all({"wheel": 3.0, "j": 2.0}) == ("wheel", "j", "k", "l")
+
+
+def test_what_follows_from_a_step_is_what_all_joints_say(arm: Robot) -> None:
+    state, random = JointState(arm), Random(1)
+    seen, shown = 0, dict.fromkeys(state.all_positions(), math.nan)
+    for _ in range(200):
+        names = random.sample(state.free, random.randrange(len(state.free) + 1))
+        state.set_all({name: random.choice((0.0, 1.0, 2.0, 50.0)) for name in names})
+        if random.random() < 0.05:
+            state.reload(arm)
+        whole = state.kinematics.positions(state.positions)
+        assert state.all_positions() == {name: whole[name] for name in state.joints}
+        over = [
+            name
+            for name, joint in state.joints.items()
+            if not joint.endless
+            and joint.limit is not None
+            and None not in joint.limit.ends
+            and not min(joint.range) <= whole[name] <= max(joint.range)
+        ]
+        assert list(state.over_limit()) == over
+        if random.random() < 0.5:
+            shown |= state.moved_since(seen)
+            seen = state.moves
+            assert shown == state.all_positions()
+    assert state.moved_since(state.moves) == {}
 
 
 def test_values_over_a_limit_pass_and_are_marked(arm: Robot) -> None:

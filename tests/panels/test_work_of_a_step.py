@@ -5,10 +5,15 @@ from __future__ import annotations
 import functools
 from collections import Counter
 from collections.abc import Callable, Iterable
+from contextlib import nullcontext
+from pathlib import Path
 from typing import Any
 
 import pytest
+from hand_clock import HandClock
+from inside import session_of
 from protocol_client import ProtocolClient
+from work import steps
 
 from sambot_viz import Visualizer
 from sambot_viz.displays.picking.selectable import Selectable
@@ -170,3 +175,48 @@ def test_a_step_does_not_ask_the_disk(
         asked.clear()
         drag(client, viz)
     assert asked == []
+
+
+def tree_of(joints: int) -> str:
+    """A robot whose links have three others each, with limits that can be passed."""
+    links = "".join(f'<link name="l{i}"/>' for i in range(joints + 1))
+    held = "".join(
+        f'<joint name="j{i}" type="revolute"><parent link="l{(i - 1) // 3}"/>'
+        f'<child link="l{i}"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for i in range(1, joints + 1)
+    )
+    return f'<robot name="tree">{links}{held}</robot>'
+
+
+@pytest.mark.parametrize("by", ["a program", "a client"])
+def test_the_work_of_a_step_does_not_grow_with_the_robot(
+    tmp_path: Path,
+    hand_clock: HandClock,
+    protocol: Callable[..., ProtocolClient],
+    by: str,
+):
+    def work_of(joints: int) -> list[int]:
+        model = tmp_path / f"tree{joints}.urdf"
+        model.write_text(tree_of(joints), "utf-8")
+        with Visualizer(model, port=0, watch=False) as viz:
+            session = session_of(viz)
+            client = protocol(viz.viser.get_port())
+            client.settle(viz.viser)
+
+            def step(q: float) -> None:
+                acting = session.history.acting(1, q)
+                with acting if by == "a client" else nullcontext():
+                    viz.set_joint_positions({"j1": q})
+
+            def at_once(q: float) -> int:
+                # After a pause, poses and rows go out in the thread of the step.
+                hand_clock.advance(10.0)
+                work = steps(lambda: step(q))
+                client.wait_until(lambda: client.shown("joints", "j1") == q)
+                return work
+
+            # The first ones fill what is kept; the last one passes the limit.
+            return [at_once(q) for q in (0.1, 0.2, 0.3, 0.4, 1.5)][2:]
+
+    assert work_of(200) == work_of(20)

@@ -46,6 +46,7 @@ class FrameHierarchy:
         self._children: dict[str, dict[str, None]] = {}
         self._declared: set[str] = set()
         self._paths: dict[tuple[str, str], Path] = {}
+        self._roots: tuple[str, ...] | None = None
 
     def declare(self, frame: str) -> None:
         """Make a frame known that no transform names: the root of a lone link.
@@ -69,7 +70,10 @@ class FrameHierarchy:
     @property
     def roots(self) -> tuple[str, ...]:
         """The frames without a parent; more than one means unconnected trees."""
-        return tuple(name for name in self._children if name not in self._edges)
+        if self._roots is None:
+            edges = self._edges
+            self._roots = tuple(name for name in self._children if name not in edges)
+        return self._roots
 
     def __contains__(self, frame: object) -> bool:
         return isinstance(frame, str) and plain_name(frame) in self._children
@@ -143,6 +147,7 @@ class FrameHierarchy:
 
     def _restructured(self) -> None:
         self.version += 1
+        self._roots = None
         self._paths.clear()
 
     def _require(self, target: str, source: str) -> None:

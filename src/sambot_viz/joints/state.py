@@ -14,7 +14,7 @@ from sambot_viz import limits
 from sambot_viz.errors import JointError, Problem, did_you_mean
 from sambot_viz.geometry import Matrix, finite
 from sambot_viz.joints.mimic import Follower, find_followers
-from sambot_viz.robot.kinematics import Kinematics
+from sambot_viz.robot.kinematics import Kinematics, mimicked
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
 
@@ -34,6 +34,7 @@ class JointState:
 
     Attributes:
         kinematics: of the same robot.
+        moves: the number of the last move.
 
     Raises:
         JointError: `zeros` name a joint that is not there, or hold a number that is
@@ -47,11 +48,12 @@ class JointState:
     ) -> None:
         self._zeros: dict[str, float] = {}
         self._positions: dict[str, float] = {}
+        self.moves = 0
         self._take(robot)
         for name, value in (zeros or {}).items():
             self._zeros[name] = self.checked(name, value)
         self._positions = {name: self.start(name) for name in self._free}
-        self._follow()
+        self._place_all()
 
     # Which joints there are
 
@@ -98,6 +100,19 @@ class JointState:
         These are the names and positions of joint_state_publisher's message.
         """
         return dict(self._all)
+
+    def moved_since(self, move: int) -> dict[str, float]:
+        """Joint → position [rad or m] of those that have moved later, followers too.
+
+        Args:
+            move: a number that `moves` had; 0 for all joints.
+        """
+        moved: dict[str, float] = {}
+        for name in reversed(self._moved_at):
+            if self._moved_at[name] <= move:
+                break
+            moved[name] = self._all[name]
+        return moved
 
     def transforms(self, names: Iterable[str]) -> dict[str, Matrix]:
         """Joint → (4, 4) T_parent_child at its position, of some joints."""
@@ -198,15 +213,7 @@ class JointState:
         A joint without an end has no limit (its range is the slider's), and neither
         has a mimic joint whose file gives none.
         """
-        over: list[str] = []
-        for name, value in self.all_positions().items():
-            joint = self._joints[name]
-            if joint.endless or joint.limit is None or None in joint.limit.ends:
-                continue
-            lower, upper = sorted(joint.range)
-            if not lower <= value <= upper:
-                over.append(name)
-        return tuple(over)
+        return tuple(sorted(self._over, key=self._order.__getitem__))
 
     def reload(self, robot: Robot) -> tuple[str, ...]:
         """Take another robot, or the same after an edit.
@@ -227,7 +234,7 @@ class JointState:
             else self.start(name)
             for name, j in self._free.items()
         }
-        self._follow()
+        self._place_all()
         return tuple(n for n, v in self._all.items() if former.get(n) != v)
 
     # Inside
@@ -242,14 +249,30 @@ class JointState:
             for n, j in robot.joints.items()
             if not j.movable
         }
+        self._order = {name: place for place, name in enumerate(self._joints)}
         self._led: dict[str, list[str]] = {}
-        for name, follower in self._followers.items():
-            self._led.setdefault(follower.leader, []).append(name)
+        for name in sorted(self._followers, key=self._chain_length):
+            self._led.setdefault(self._followers[name].leader, []).append(name)
+        self._limits = {
+            name: sorted(joint.range)
+            for name, joint in self._joints.items()
+            if not (joint.endless or joint.limit is None or None in joint.limit.ends)
+        }
 
-    def _follow(self) -> None:
+    def _chain_length(self, name: str) -> int:
+        """Return how many joints a mimic joint follows, one through the other."""
+        length = 0
+        while name in self._followers:
+            name, length = self._followers[name].mimic.joint, length + 1
+        return length
+
+    def _place_all(self) -> None:
         """Work out all positions from those of the free joints."""
         positions = self.kinematics.positions(self._positions)
         self._all = {name: positions[name] for name in self._joints}
+        self._over: set[str] = set()
+        self._moved_at: dict[str, int] = {}
+        self._note_moved(self._joints)
 
     def _require(self, name: str, among: Iterable[str]) -> None:
         if name in among:
@@ -275,9 +298,24 @@ class JointState:
             moved.append(name)
             moved.extend(self._led.get(name, ()))
             self._all[name] = self._positions[name]
-        if not self._led.keys().isdisjoint(moved):
-            self._follow()
+            for led in self._led.get(name, ()):
+                mimic = self._followers[led].mimic
+                leader = self._all[mimic.joint]
+                self._all[led] = mimicked(leader, mimic.multiplier, mimic.offset)
+        self._note_moved(moved)
         return tuple(moved)
+
+    def _note_moved(self, joints: Iterable[str]) -> None:
+        """Note what has moved, and which of it is over its limits."""
+        self.moves += 1
+        for name in joints:
+            # The one that has moved last is the last one.
+            self._moved_at.pop(name, None)
+            self._moved_at[name] = self.moves
+            if name in self._limits:
+                lower, upper = self._limits[name]
+                is_within = lower <= self._all[name] <= upper
+                (self._over.discard if is_within else self._over.add)(name)
 
 
 def _number(name: str, value: float) -> float:

@@ -162,8 +162,9 @@ class Kinematics:
         moved = set(rows)
         for follow in self._follows:
             if follow.row not in moved:
-                led = follow.multiplier * q[follow.leader] + follow.offset
-                q[follow.row] = min(max(led, -_FARTHEST), _FARTHEST)
+                q[follow.row] = mimicked(
+                    q[follow.leader], follow.multiplier, follow.offset
+                )
         return q
 
     def _transforms(self, q: _Floats) -> Matrix:
@@ -174,6 +175,11 @@ class Kinematics:
         factors[:, 0, 3] = q
         T: Matrix = factors @ self._terms
         return np.reshape(T, (-1, 4, 4))
+
+
+def mimicked(leader: float, multiplier: float, offset: float) -> float:
+    """Return the position of a mimic joint [rad or m], from that of its leader."""
+    return min(max(multiplier * leader + offset, -_FARTHEST), _FARTHEST)
 
 
 def _by_depth(robot: JointTree) -> tuple[list[Joint], _Ints]:

@@ -76,6 +76,8 @@ class JointsPanel(Panel):
         self._recording = data
         self._remake = remake
         self._rate = 1.0
+        # Up to which move of which joints the page has been told.
+        self._told: tuple[JointState | None, int] = (None, 0)
 
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
@@ -122,12 +124,14 @@ class JointsPanel(Panel):
         return {joint_id(n): self._arrow.place(joints.joints[n]) for n in named}
 
     def values(self) -> dict[str, Any]:
-        """Return the positions, and what else a motion changes."""
+        """Return the positions of what has moved, and what else a motion changes."""
         joints = self._robot.joints
         if joints is None:
             return {}
-        positions = joints.all_positions().items()
-        return {joint_id(name): q for name, q in positions} | self._states()
+        last = self._told[1] if self._told[0] is joints else 0
+        self._told = (joints, joints.moves)
+        moved = joints.moved_since(last).items()
+        return {joint_id(name): q for name, q in moved} | self._states()
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there are joints to move."""

@@ -179,7 +179,8 @@ class RobotState:
         self.require_free()
         names = tuple(positions)
         label = label or (f"Move {names[0]}" if len(names) == 1 else "Move joints")
-        self._edit(label, partial(self._note, positions, {}), names)
+        move = partial(self._note, positions, {})
+        self._edit(label, move, names, ("joints", *names))
 
     def take_pose(
         self,
@@ -201,7 +202,7 @@ class RobotState:
         free = self.joints.free if self.joints is not None else ()
         known = {joint: q for joint, q in pose.items() if joint in free}
         if glide is None:
-            self._edit(f"Pose {name}", partial(self._note, known, {}))
+            self._edit(f"Pose {name}", partial(self._note, known, {}), known)
         elif self.joints is not None:
             now = self.joints.positions
             after = {n: q for n, q in known.items() if now[n] != q}
@@ -230,23 +231,34 @@ class RobotState:
         )
 
     def _edit(
-        self, label: str, move: Callable[[], None], merge: tuple[str, ...] | None = None
+        self,
+        label: str,
+        move: Callable[[], None],
+        names: Collection[str] | None = None,
+        merge: tuple[str, ...] | None = None,
     ) -> None:
-        """Move joints; where they were is noted only for a client that may undo it."""
+        """Move joints, all or those of some names.
+
+        Where they were is noted only for a client that may undo it.
+        """
         with self._change.lock:
             recording, joints = self._history.recording, self.joints
-            before = dict(joints.positions) if recording and joints is not None else {}
+            before: dict[str, float] = {}
+            if recording and joints is not None:
+                known, some = joints.positions, joints.free if names is None else names
+                before = {name: known[name] for name in some if name in known}
             move()
         self._pacer.request()
         if recording and joints is not None:
-            after = {n: q for n, q in joints.positions.items() if before.get(n) != q}
+            now = joints.positions
+            after = {name: now[name] for name in before if now[name] != before[name]}
             before = {name: before[name] for name in after}
             if after:
                 self._history.record(
                     label,
                     partial(self.move_again, before),
                     partial(self.move_again, after),
-                    merge and ("joints", *merge),
+                    merge,
                     of_document=False,
                 )
 
