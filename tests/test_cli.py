@@ -435,6 +435,24 @@ def test_a_name_that_no_file_system_takes_is_one_clear_line(
     assert said in err and "internal error" not in err
 
 
+def test_a_robot_is_shown_without_what_data_and_files_need():
+    script = (
+        "import sys\n"
+        "from sambot_viz import Visualizer\n"
+        "viz = Visualizer(port=0)\n"
+        "viz.stop()\n"
+        "late = 'PIL sqlite3 rosbags sambot_viz.sources.bag sambot_viz.export '\n"
+        "late += 'sambot_viz.meanings.foxglove sambot_viz.sources.recorder'\n"
+        "data = 'sambot_viz.displays.data.'\n"
+        "drawn = [name for name in sys.modules if name.startswith(data)]\n"
+        "print(sorted(set(late.split()) & set(sys.modules)), len(drawn) < 10)\n"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.splitlines()[-1] == "[] True"
+
+
 def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
     facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
     (tmp_path / "part.stl").write_bytes(bytes(80) + struct.pack("<I", 1) + facet)

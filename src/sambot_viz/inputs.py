@@ -50,14 +50,13 @@ if TYPE_CHECKING:
 @cache
 def declarations() -> Declarations:
     """Return the properties that displays, views and tools declare."""
-    # Displays import viser.
-    from sambot_viz.displays.registry import DISPLAYS
+    from sambot_viz.displays.registry import PROPERTIES
     from sambot_viz.rviz import Declarations
     from sambot_viz.tools.registry import TOOLS
     from sambot_viz.views.registry import VIEWS
 
     return Declarations(
-        displays={kind: display.properties for kind, display in DISPLAYS.items()},
+        displays=PROPERTIES,
         views={kind: view.properties for kind, view in VIEWS.items()},
         tools={kind: tool.properties for kind, tool in TOOLS.items()},
     )

@@ -13,8 +13,6 @@ from typing import Any, Concatenate, ParamSpec
 import viser
 
 from sambot_viz.errors import ServerError, did_you_mean
-from sambot_viz.export.page_file import ask_page
-from sambot_viz.export.still_picture import still_picture
 from sambot_viz.flags import keyword_help
 from sambot_viz.inputs import Inputs
 from sambot_viz.jupyter.notebook import HEIGHT, Cell, remember, stop_former
@@ -31,6 +29,12 @@ _P = ParamSpec("_P")
 
 _MESHES_WITHIN = 5.0
 """A cell waits so long for the meshes of its picture [s]."""
+
+
+def _ask_page(*asked: Any) -> Any:
+    from sambot_viz.export.page_file import ask_page
+
+    return ask_page(*asked)
 
 
 def _takes_the_keywords_of(
@@ -124,7 +128,7 @@ class Visualizer(RobotControl):
 
     def _start(self, inputs: Inputs, listening: Listener | None) -> None:
         take_log()
-        shown = self._shown = ShownInputs(inputs, listening, ask_page)
+        shown = self._shown = ShownInputs(inputs, listening, _ask_page)
         self._configs = shown.configs
         super().__init__(shown.server)
         shown.start()
@@ -206,6 +210,8 @@ class Visualizer(RobotControl):
         with suppress(ServerError):
             sessions.wait_for_meshes(_MESHES_WITHIN)
         session = first(sessions)
+        from sambot_viz.export.still_picture import still_picture
+
         return still_picture(session.lock, session.document_view, session.scene)
 
     def __enter__(self) -> Visualizer:

@@ -37,7 +37,7 @@ def display_table() -> str:
         "else differs is said of each display.",
     ]
     for kind, display in sorted(DISPLAYS.items()):
-        lines += ["", f"## {kind.rpartition('/')[2]}", "", display.help]
+        lines += ["", f"## {kind.rpartition('/')[2]}", "", DISPLAYS.help_of(kind)]
         if display.differs:
             lines += ["", display.differs]
         rows = list(_rows(display.properties, ""))

@@ -26,7 +26,6 @@ class AxesDisplay(TriangleDisplay):
     """Axes at the origin of its reference frame."""
 
     kind = "rviz_default_plugins/Axes"
-    help = "The axes of a frame."
     properties = (
         TfFrameProperty(
             "Reference Frame",

@@ -270,7 +270,6 @@ class Display:
     Attributes:
         kind: the ROS 2 class id, such as "rviz_default_plugins/Grid".
         is_data: whether it draws what messages bring.
-        help: one sentence for the list of displays.
         differs: what RViz draws otherwise, for docs/displays.md.
         properties: the declaration of everything a user can set.
         config: this display in the document: name, enabled, values.
@@ -279,7 +278,6 @@ class Display:
     """
 
     kind: ClassVar[str]
-    help: ClassVar[str]
     differs: ClassVar[str] = ""
     is_data: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]]

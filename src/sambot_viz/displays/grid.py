@@ -131,7 +131,6 @@ class GridDisplay(Display):
     """A grid around the origin of its reference frame."""
 
     kind = "rviz_default_plugins/Grid"
-    help = "A grid in a plane through the origin of a frame."
     properties = (
         TfFrameProperty(
             "Reference Frame",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from sambot_viz.meanings.foxglove import FOXGLOVE
 from sambot_viz.meanings.meaning import Meaning
 from sambot_viz.meanings.schema_row import SchemaRow
 from sambot_viz.messages.definition_text import canonical_name
@@ -19,8 +18,6 @@ _ROS = {
 }
 """ROS's own types have the look already."""
 
-_TABLES = (_ROS, FOXGLOVE)
-
 
 @cache
 def row_of(type_name: str) -> SchemaRow | None:
@@ -32,7 +29,11 @@ def row_of(type_name: str) -> SchemaRow | None:
     """
     if match := _FOXGLOVE_IN_ROS.fullmatch(type_name):
         type_name = f"foxglove.{match[1]}"
-    return next((table[type_name] for table in _TABLES if type_name in table), None)
+    if type_name.startswith("foxglove."):
+        from sambot_viz.meanings.foxglove import FOXGLOVE
+
+        return FOXGLOVE.get(type_name)
+    return _ROS.get(type_name)
 
 
 def meaning_of(type_name: str) -> Meaning | None:

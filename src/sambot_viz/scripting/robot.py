@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from sambot_viz.errors import JointError
 from sambot_viz.files import write_atomically
@@ -17,12 +17,14 @@ from sambot_viz.scripting.camera_control import CameraControl
 from sambot_viz.scripting.displays import Displays, first
 from sambot_viz.scripting.events import Moved, tell_moves
 from sambot_viz.scripting.link_control import FrameControl, LinkControl, Links
-from sambot_viz.scripting.outputs import Motion, page_of, picture_of
 from sambot_viz.scripting.player_control import PlayerControl
 from sambot_viz.scripting.robots import AddedRobot, Robots
 from sambot_viz.server.server import Server
 from sambot_viz.session.robot.session_frames import FrameView
 from sambot_viz.topics.account import Account
+
+if TYPE_CHECKING:
+    from sambot_viz.scripting.outputs import Motion
 
 _F = TypeVar("_F", bound=Moved)
 
@@ -242,6 +244,8 @@ class RobotControl:
             UsageError: the size makes no sense, or the sessions are private.
             OSError: the file cannot be written.
         """
+        from sambot_viz.scripting.outputs import picture_of
+
         write_atomically(Path(path), picture_of(self._server, size))
 
     def export(
@@ -266,5 +270,7 @@ class RobotControl:
         """
         sessions, look = self._server.sessions, self._server.options.look or "rviz"
         shown, opened = first(sessions), sessions.opened
+        from sambot_viz.scripting.outputs import page_of
+
         content = page_of(shown, opened, sweep=sweep, motion=motion, look=look)
         write_atomically(Path(path), content)

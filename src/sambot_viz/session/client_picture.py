@@ -10,15 +10,18 @@ import asyncio
 import io
 import struct
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.geometry import wxyz_from_matrix
 from sambot_viz.session.clients.client import Client
 from sambot_viz.views.camera import components
 from sambot_viz.viser_private import drawn_by
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 SHORTEST_SIDE = 16
 """A browser cannot draw a larger picture [pixels]."""
@@ -85,6 +88,8 @@ def finished(
     if answer[:8] == _PNG_MARK and answer[16:24] != struct.pack(">II", *size):
         raise PictureError("the browser drew a picture of another size")
     try:
+        from PIL import Image
+
         picture: Image.Image = Image.open(io.BytesIO(answer), formats=["PNG"])
         drawn = np.asarray(picture.convert("RGBA"))
     except (OSError, ValueError, SyntaxError):
@@ -104,6 +109,8 @@ def on_background(drawn: np.ndarray, color: tuple[int, int, int]) -> Image.Image
         drawn: (height, width, 4) uint8, RGBA.
         color: of the background, 0 to 255.
     """
+    from PIL import Image
+
     picture = Image.fromarray(np.ascontiguousarray(drawn, np.uint8), "RGBA")
     behind = Image.new("RGBA", picture.size, (*color, 255))
     return Image.alpha_composite(behind, picture).convert("RGB")

@@ -18,7 +18,6 @@ from sambot_viz.joints import JointState
 from sambot_viz.messages import Decoder, MessageTypes
 from sambot_viz.robot.model import Robot
 from sambot_viz.sources.message import Recorded, SourceTopic
-from sambot_viz.sources.recorder import SourceRecorder
 from sambot_viz.sources.source import Capability, Source
 from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
@@ -46,6 +45,7 @@ from sambot_viz.topics.transforms import (
 # It is opened by who has one.
 if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
+    from sambot_viz.sources.recorder import SourceRecorder
 
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the begin of a recording [s]."""
@@ -122,6 +122,8 @@ class SourceRobot:
         source.on_status = self.tell_status
         self.recorder: SourceRecorder | None = None
         if source.live is not None:
+            from sambot_viz.sources.recorder import SourceRecorder
+
             # It is told of topics first, and passes that on.
             self.recorder = SourceRecorder(source.live, recordings, self.tell_status)
         if source.playback is not None:

@@ -52,7 +52,6 @@ class CameraInfoDisplay(MessageFilterDisplay[Floats]):
     """The corners of the image of sensor_msgs/CameraInfo, seen from the camera."""
 
     kind = "rviz_default_plugins/CameraInfo"
-    help = "What a camera sees, as a pyramid."
     meanings = frozenset({Meaning.CAMERA})
     properties = (
         topic_property(),

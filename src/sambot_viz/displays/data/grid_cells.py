@@ -32,7 +32,6 @@ class GridCellsDisplay(MessageFilterDisplay[Cells]):
     """The cells of nav_msgs/GridCells, as tiles in the plane of their frame."""
 
     kind = "rviz_default_plugins/GridCells"
-    help = "Cells of a grid, such as obstacles."
     meanings = frozenset({Meaning.CELLS})
     properties = (
         topic_property(),

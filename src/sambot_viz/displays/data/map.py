@@ -62,7 +62,6 @@ class MapDisplay(TopicDisplay):
     """
 
     kind = "rviz_default_plugins/Map"
-    help = "An occupancy grid, such as a map or a costmap."
     meanings = frozenset({Meaning.GRID})
     properties = MAP_PROPERTIES
 

@@ -67,7 +67,6 @@ class PathDisplay(MessageFilterDisplay[Poses]):
     """The poses of nav_msgs/Path as a line, with axes or arrows."""
 
     kind = "rviz_default_plugins/Path"
-    help = "The path that a robot is to follow."
     meanings = frozenset({Meaning.PATH})
     length = "Buffer Length"
     properties = (

@@ -25,7 +25,6 @@ class PointStampedDisplay(MessageFilterDisplay[Vector3]):
     """The points of geometry_msgs/PointStamped as balls."""
 
     kind = "rviz_default_plugins/PointStamped"
-    help = "A single point."
     differs = "RViz for ROS 1 draws the ball twice as large."
     meanings = frozenset({Meaning.POINT})
     length = "History Length"

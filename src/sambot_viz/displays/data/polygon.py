@@ -20,7 +20,6 @@ class PolygonDisplay(MessageFilterDisplay[Floats]):
     """The closed outline of geometry_msgs/PolygonStamped, one pixel wide."""
 
     kind = "rviz_default_plugins/Polygon"
-    help = "The outline of a polygon, such as a footprint."
     meanings = frozenset({Meaning.POLYGON})
     properties = (
         topic_property(),

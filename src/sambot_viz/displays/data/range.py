@@ -34,7 +34,6 @@ class RangeDisplay(MessageFilterDisplay[Reading]):
     """The readings of sensor_msgs/Range: the tip of a cone is at the sensor."""
 
     kind = "rviz_default_plugins/Range"
-    help = "What an ultrasonic or infrared sensor measures, as a cone."
     meanings = frozenset({Meaning.CONE})
     length = "Buffer Length"
     properties = (

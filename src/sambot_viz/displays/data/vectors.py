@@ -218,7 +218,6 @@ class AccelStampedDisplay(VectorsDisplay):
     """The linear and the angular part of geometry_msgs/AccelStamped."""
 
     kind = "rviz_default_plugins/AccelStamped"
-    help = "An acceleration as arrows."
     meanings = frozenset({Meaning.ACCELERATION})
     words, field = ("Linear", "Angular"), "accel"
     properties = (topic_property(), *vector_properties(*words), HIDES)
@@ -228,7 +227,6 @@ class TwistStampedDisplay(VectorsDisplay):
     """The linear and the angular part of geometry_msgs/TwistStamped."""
 
     kind = "rviz_default_plugins/TwistStamped"
-    help = "A velocity as arrows."
     meanings = frozenset({Meaning.VELOCITY})
     words, field = ("Linear", "Angular"), "twist"
     properties = (topic_property(), *vector_properties(*words), HIDES)
@@ -238,7 +236,6 @@ class WrenchDisplay(VectorsDisplay):
     """The force and the torque of geometry_msgs/WrenchStamped."""
 
     kind = "rviz_default_plugins/Wrench"
-    help = "A force and a torque as arrows."
     meanings = frozenset({Meaning.FORCE})
     words, field = ("Force", "Torque"), "wrench"
     properties = (topic_property(), ACCEPTS_NAN, *vector_properties(*words))

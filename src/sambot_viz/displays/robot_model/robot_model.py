@@ -67,7 +67,6 @@ class RobotModelDisplay(TriangleDisplay):
     """
 
     kind = "rviz_default_plugins/RobotModel"
-    help = "A robot, posed by its joints."
     differs = (
         "Where a mesh has a second texture, such as one for its bumps, RViz multiplies "
         "its colours by themselves; here they are those of the file."

@@ -65,7 +65,6 @@ class TfDisplay(TriangleDisplay):
     """The frames: axes, names, and arrows from child to parent."""
 
     kind = "rviz_default_plugins/TF"
-    help = "The frames and their tree."
     properties = TF_PROPERTIES
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

@@ -20,7 +20,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.topics import reasons
 
 TYPES: list[Json] = [
-    {"kind": kind, "help": display.help} for kind, display in DISPLAYS.items()
+    {"kind": kind, "help": DISPLAYS.help_of(kind)} for kind in DISPLAYS
 ]
 
 

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from sambot_viz.displays.display import Display, EntryList
+from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.errors import UsageError
 from sambot_viz.panels.command import Command
 from sambot_viz.panels.panel import Panel
@@ -376,4 +377,4 @@ def _unsupported(config: DisplayConfig, parent: str) -> Row:
 
 
 def _help(config: DisplayConfig, display: Display | None) -> str:
-    return row_text(config.kind) if display is None else display.help
+    return row_text(config.kind) if display is None else DISPLAYS.help_of(config.kind)

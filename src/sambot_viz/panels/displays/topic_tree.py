@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from sambot_viz.displays.by_topic import displays_of_topic
 from sambot_viz.displays.display import Display
+from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.rviz.declarations import short_name
 from sambot_viz.text import capitalized
@@ -128,7 +129,7 @@ def _display_rows(
             parent,
             "readonly",
             f"{name}{form}",
-            value=display.help,
+            value=DISPLAYS.help_of(display.kind),
             icon=name,
             extra=_choice(topic, display),
         )

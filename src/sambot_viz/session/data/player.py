@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from sambot_viz.session.signals import Change, Signal
 from sambot_viz.session.worker import Worker
-from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.source import Playback
 from sambot_viz.sources.subscriber import Subscriber
+
+if TYPE_CHECKING:
+    from sambot_viz.sources.bag import Bag
 
 LONGEST_STEP = 0.25
 """A busy machine makes the recording slower than real time, not jump [s]."""

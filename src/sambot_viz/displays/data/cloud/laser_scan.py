@@ -28,7 +28,6 @@ class LaserScanDisplay(CloudDisplay):
     """
 
     kind = "rviz_default_plugins/LaserScan"
-    help = "The points that a laser scanner measures."
     meanings = frozenset({Meaning.SCAN})
     in_fixed_frame = True
 

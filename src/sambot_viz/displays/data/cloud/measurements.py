@@ -61,7 +61,6 @@ class FluidPressureDisplay(CloudDisplay):
     """The pressure of sensor_msgs/FluidPressure [Pa]."""
 
     kind = "rviz_default_plugins/FluidPressure"
-    help = "Pressures as coloured points."
     meanings = frozenset({Meaning.PRESSURE})
     points_of = point_with("fluid_pressure")
     properties = measurement_properties("fluid_pressure", 98000.0, 105000.0)
@@ -71,7 +70,6 @@ class IlluminanceDisplay(CloudDisplay):
     """The brightness of sensor_msgs/Illuminance [lx]."""
 
     kind = "rviz_default_plugins/Illuminance"
-    help = "Brightnesses as coloured points."
     meanings = frozenset({Meaning.LIGHT})
     points_of = point_with("illuminance")
     properties = measurement_properties("illuminance", 0.0, 1000.0)
@@ -81,7 +79,6 @@ class RelativeHumidityDisplay(CloudDisplay):
     """The humidity of sensor_msgs/RelativeHumidity, 0 to 1."""
 
     kind = "rviz_default_plugins/RelativeHumidity"
-    help = "Humidities as coloured points."
     meanings = frozenset({Meaning.HUMIDITY})
     points_of = point_with("relative_humidity")
     properties = measurement_properties("relative_humidity", 0.0, 1.0)
@@ -91,7 +88,6 @@ class TemperatureDisplay(CloudDisplay):
     """The temperature of sensor_msgs/Temperature [°C]."""
 
     kind = "rviz_default_plugins/Temperature"
-    help = "Temperatures as coloured points."
     meanings = frozenset({Meaning.TEMPERATURE})
     points_of = point_with("temperature")
     properties = measurement_properties("temperature", 0.0, 100.0, is_inverted=True)

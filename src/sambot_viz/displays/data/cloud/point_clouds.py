@@ -11,7 +11,6 @@ class PointCloud2Display(CloudDisplay):
     """The points of sensor_msgs/PointCloud2."""
 
     kind = "rviz_default_plugins/PointCloud2"
-    help = "Points, such as those of a 3D scanner."
     differs = (
         "Squares turn with the y axis of their cloud, as in RViz where it has no "
         "geometry shaders; else RViz keeps them upright on the screen. Of points that "
@@ -26,6 +25,5 @@ class PointCloudDisplay(CloudDisplay):
     """The points of sensor_msgs/PointCloud."""
 
     kind = "rviz_default_plugins/PointCloud"
-    help = "Points, in the older kind of message."
     meanings = frozenset({Meaning.OLD_CLOUD})
     points_of = cloud_of_cloud

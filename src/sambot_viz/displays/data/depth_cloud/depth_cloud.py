@@ -64,7 +64,6 @@ class DepthCloudDisplay(CloudDisplay):
     """The points of depth images, each with the camera info and colours of its time."""
 
     kind = "rviz_default_plugins/DepthCloud"
-    help = "The points of a depth image."
     meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
     topic_path = DEPTH_TOPIC
     properties: ClassVar[tuple[Property, ...]] = (*DEPTH_PROPERTIES, *CLOUD_PROPERTIES)

@@ -58,7 +58,6 @@ class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
     """
 
     kind = "rviz_default_plugins/Effort"
-    help = "Torque of each revolute joint, as a circle."
     meanings = frozenset({Meaning.JOINTS})
     length = "History Length"
     properties = (

@@ -65,7 +65,6 @@ class CameraDisplay(MessageFilterDisplay[Any]):
     """
 
     kind = "rviz_default_plugins/Camera"
-    help = "The pictures of a camera with the scene over them, in the panel Images."
     meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
     properties = (
         BoolProperty(

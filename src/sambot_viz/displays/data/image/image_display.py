@@ -43,7 +43,6 @@ class ImageDisplay(TopicDisplay):
     """
 
     kind = "rviz_default_plugins/Image"
-    help = "The pictures of a camera, in the panel Images."
     differs = (
         "It is no part of the 3D view, so `snapshot` and exported pages do not have "
         "it; nor has RViz's File > Save Image, unless it saves the whole window."

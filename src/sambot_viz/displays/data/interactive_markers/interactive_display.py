@@ -51,7 +51,6 @@ class InteractiveMarkersDisplay(TopicDisplay):
     """The interactive markers of a namespace, as its updates and full sets say."""
 
     kind = "rviz_default_plugins/InteractiveMarkers"
-    help = "Markers with handles, which a program moves; here they are shown only."
     meanings = frozenset({Meaning.INTERACTIVE_UPDATE, Meaning.INTERACTIVE_MARKERS})
     topic_path = NAMESPACE
     properties = (

@@ -55,7 +55,6 @@ class MarkerDisplay(MessageFilterDisplay[None]):
     """The markers of a topic, and of another one with arrays of markers."""
 
     kind = "rviz_default_plugins/Marker"
-    help = "Shapes and texts that a program draws."
     differs = (
         "Dark colours of solids are up to 6 of 255 off, as they have 8 bits in linear "
         "light."
@@ -260,7 +259,6 @@ class MarkerArrayDisplay(MarkerDisplay):
     """The markers of a topic with arrays of them; none waits for its transform."""
 
     kind = "rviz_default_plugins/MarkerArray"
-    help = "Many shapes and texts that a program draws."
     meanings = frozenset({Meaning.MARKERS})
     properties = (
         topic_property(

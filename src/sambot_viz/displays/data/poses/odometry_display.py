@@ -93,7 +93,6 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
     """The poses of nav_msgs/Odometry that are apart from each other."""
 
     kind = "rviz_default_plugins/Odometry"
-    help = "Current and past robot poses, as arrows or axes."
     meanings = frozenset({Meaning.ODOMETRY})
     properties = (
         topic_property(),

@@ -35,7 +35,6 @@ class ParticleCloudDisplay(MessageFilterDisplay[Particles]):
     """The particles of nav2_msgs/ParticleCloud; the newest message alone."""
 
     kind = "nav2_rviz_plugins/ParticleCloud"
-    help = "The particles of Nav2's localisation; those with more weight are longer."
     meanings = frozenset({Meaning.PARTICLES})
     properties = (
         *many_poses_properties("particle"),

@@ -64,7 +64,6 @@ class PoseDisplay(MessageFilterDisplay[PoseRead]):
     """The pose of geometry_msgs/PoseStamped."""
 
     kind = "rviz_default_plugins/Pose"
-    help = "A pose as an arrow or as axes."
     meanings = frozenset({Meaning.POSE})
     properties = POSE_PROPERTIES
     _shapes = DisplayNode(PoseShapes, "")
@@ -110,7 +109,6 @@ class PoseWithCovarianceDisplay(PoseDisplay):
     """The pose of geometry_msgs/PoseWithCovarianceStamped, and how uncertain it is."""
 
     kind = "rviz_default_plugins/PoseWithCovariance"
-    help = "A pose with its uncertainty."
     meanings = frozenset({Meaning.POSE_WITH_COVARIANCE})
     properties = (*POSE_PROPERTIES, COVARIANCE)
     _solids = DisplayNode(SolidsNode, "c")

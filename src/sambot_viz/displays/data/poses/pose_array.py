@@ -32,7 +32,6 @@ class PoseArrayDisplay(MessageFilterDisplay[Poses]):
     """The poses of geometry_msgs/PoseArray; the newest message alone."""
 
     kind = "rviz_default_plugins/PoseArray"
-    help = "Many poses, such as the particles of a localisation."
     meanings = frozenset({Meaning.POSES})
     properties = (
         *many_poses_properties("pose"),
