@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from browser_input import Caller
+from patience import patience
 
 Name = str | re.Pattern[str] | None
 """An exact name, a pattern that is searched in it, or any name."""
@@ -127,13 +128,21 @@ def fits(name: str, wanted: Name) -> bool:
 
 def look(page: Caller) -> Thing:
     """All that a page shows; what a screen reader passes over is left out."""
-    return _thing(page.call("Accessibility.getRootAXNode")["node"], page)
+    return _thing(_ask(page, "getRootAXNode")["node"], page)
+
+
+def _ask(page: Caller, method: str, params: dict[str, Any] | None = None) -> Any:
+    """Chromium forgets what it was asked while the page goes elsewhere.
+
+    Who waits for something asks again then, and has the time to.
+    """
+    return page.call(f"Accessibility.{method}", params, patience(3.0))
 
 
 def _nodes(page: Caller, node: int, role: str = "") -> list[dict[str, Any]]:
     """An element and what is in it, in the order of the page, or one role of it."""
     asked = {"backendNodeId": node} | ({"role": role} if role else {})
-    return list(page.call("Accessibility.queryAXTree", asked)["nodes"])
+    return list(_ask(page, "queryAXTree", asked)["nodes"])
 
 
 def _reversed_ids(node: dict[str, Any]) -> list[str]:

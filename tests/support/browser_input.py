@@ -66,8 +66,10 @@ _COMMANDS = {"a": "selectAll", "c": "copy", "v": "paste", "x": "cut"}
 class Caller(Protocol):
     """What the devices below need of a page."""
 
-    def call(self, method: str, params: Fields | None = None) -> Fields:
-        """Ask the page for something and wait for the answer."""
+    def call(
+        self, method: str, params: Fields | None = None, timeout: float | None = None
+    ) -> Fields:
+        """Ask the page for something and wait for the answer, so long at most [s]."""
         ...
 
 
