@@ -29,6 +29,7 @@ from typing import Any, cast
 import msgspec.msgpack
 import viser
 import zstandard
+from pose_tracks import PoseTracks
 from protocol_client import CAMERA
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -43,13 +44,17 @@ class _Head(msgspec.Struct):
     """What is read of every message."""
 
     type: str
-    wxyz: tuple[float, float, float, float] | None = None
+    name: str = ""
+    wxyz: list[float] | None = None
+    position: list[float] | bytes | None = None
+    number: int | None = None
 
 
 class _Frame(msgspec.Struct):
     messages: list[_Head]
 
 
+_POSES = ("SetOrientationMessage", "SetPositionMessage")
 _DECODER = msgspec.msgpack.Decoder(_Frame)
 
 
@@ -271,7 +276,7 @@ async def _read(
     reads: bool,
 ) -> None:
     unpacker = zstandard.ZstdDecompressor()
-    replayed, had = False, 0
+    replayed, had, tracks = False, 0, PoseTracks()
     async for data in socket:
         assert isinstance(data, bytes)
         now = time.perf_counter()
@@ -282,9 +287,12 @@ async def _read(
         size, packed = (int.from_bytes(data[i : i + 8], "little") for i in (0, 8))
         content = unpacker.decompress(data[16 : 16 + packed], max_output_size=size)
         for message in _DECODER.decode(content).messages:
-            if message.type == "SetOrientationMessage" and message.wxyz:
-                angle = 2.0 * math.acos(max(-1.0, min(1.0, message.wxyz[0])))
-                light.poses.append((now, angle))
+            if message.type in _POSES:
+                fields = {k: getattr(message, k) for k in _Head.__struct_fields__}
+                for one in tracks.unpacked(message.type, fields):
+                    if one.get("wxyz"):
+                        angle = 2.0 * math.acos(max(-1.0, min(1.0, one["wxyz"][0])))
+                        light.poses.append((now, angle))
             had += message.type in ("GlbMessage", "MeshMessage")
             replayed = replayed or message.type == "ReplayDoneMessage"
         if replayed and had >= meshes and not joined.is_set():

@@ -51,7 +51,7 @@ import time
 import weakref
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
@@ -61,6 +61,7 @@ import zstandard
 from hand_clock import HandClock
 from page_rows import PageRows, Row, decode, named
 from patience import patience, until
+from pose_tracks import PoseTracks
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
@@ -148,6 +149,7 @@ class ProtocolClient:
         self._sides = ("own",) if path.startswith("/copy") else ("all", "own")
         self._frames = 0
         self._page_rows = PageRows()
+        self._tracks = PoseTracks()
         self._pongs = 0
         self.replayed = False
         self.closed = False
@@ -355,7 +357,8 @@ class ProtocolClient:
                 with self._changed:
                     self._frames += 1
                     for message in received:
-                        self._record(message)
+                        for one in self._unpacked(message):
+                            self._record(one)
                     self._changed.notify_all()
         except ConnectionClosed:
             pass
@@ -395,6 +398,19 @@ class ProtocolClient:
         now = time.perf_counter()
         self._messages.append(Received(kind, patch, size, self._frames, on_wire, now))
         self._frames += 1
+
+    def _unpacked(self, message: Received) -> list[Received]:
+        """What viser sees of a message in a page."""
+        found = self._tracks.unpacked(message.type, message.fields)
+        return [
+            replace(
+                message,
+                type=fields.pop("type", message.type),
+                fields=fields,
+                size=message.size // len(found),
+            )
+            for fields in found
+        ]
 
     def _record(self, message: Received) -> None:
         fields = message.fields

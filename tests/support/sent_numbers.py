@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import viser
 
+from sambot_viz import viser_private
+
 LARGEST = 3.4028235e38
 """Browsers compute with 32 bits."""
 _FLOAT = 5126
@@ -30,11 +32,19 @@ def bad_numbers(server: viser.ViserServer) -> Iterator[list[str]]:
         found.extend(f"{name}: {one}" for one in _bad_in(vars(message), ""))
         queue(message)
 
-    handler.queue_message = look
+    # What moves is changed in the messages that are there.
+    poses: Any = viser_private.MovingPoses.of(viser_private.broadcast_buffer(server))
+    move = poses.move
+
+    def look_at_move(state: Any, kind: str, value: Any) -> bool:
+        found.extend(f"moved: {one}" for one in _bad_in(value, kind))
+        return move(state, kind, value)
+
+    handler.queue_message, poses.move = look, look_at_move
     try:
         yield found
     finally:
-        handler.queue_message = queue
+        handler.queue_message, poses.move = queue, move
 
 
 def _bad_in(value: Any, path: str) -> Iterator[str]:

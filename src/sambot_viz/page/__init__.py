@@ -26,8 +26,8 @@ _COMMENT = re.compile(
 _IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
 _FIRST = "address.js"
 """Runs before all other scripts."""
-_FOR_VISER = "viser_address.js"
-"""Runs before viser's own script."""
+_FOR_VISER = ("viser_poses.js", "viser_address.js")
+"""Run before viser's own script."""
 _NO_VIEW = "no_view.js"
 """The script of a page without a view."""
 _EARLY = ("view/font.js", "view/still.js")
@@ -60,7 +60,7 @@ def with_scripts(html: bytes, panels: bool, look: str = "rviz") -> bytes:
         look: how the view is drawn in a browser that has chosen nothing.
     """
     head = _head("main.js" if panels else "view_only.js", _STYLES, look)
-    head = f"{_plain(_FIRST)}{_plain(_FOR_VISER)}{head}"
+    head = f"{''.join(map(_plain, (_FIRST, *_FOR_VISER)))}{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
 

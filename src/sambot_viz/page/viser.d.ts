@@ -32,6 +32,8 @@ interface Window {
     open(): void;
     changed: (state: "open" | "closed") => void;
   };
+  /** Takes apart what has moved (viser_poses.js). */
+  sambotPoses?: { unpacked(messages: any[]): any[]; clear(): void };
   sambotVizLook?: Record<string, number>;
   /** Which camera is shown, and whether it is reported, for tests. */
   sambotVizCamera?: { number: number | null; reported: boolean };

@@ -6,6 +6,7 @@
  * takes the address out of the query; that is gone again when the page is there (rviz_look.js).
  * viser's worker asks for a server that has gone whenever viser tells it to, once a second: what
  * viser tells it is dropped, and `wire/retries.js` says when.
+ * What the worker has received is taken apart first, where it says what has moved (viser_poses.js).
  * This runs before viser, not as a module. */
 
 {
@@ -34,10 +35,20 @@
     viser.state = data.type === "connected" ? "open" : "closed";
     viser.changed(viser.state);
   };
+  /** @param {Worker["onmessage"]} take viser's @returns {Worker["onmessage"]} */
+  const unpackedFor = (take) =>
+    function unpack(event) {
+      const { data } = event;
+      if (data?.type === "connected") window.sambotPoses?.clear();
+      if (data?.type === "message_batch" && window.sambotPoses)
+        data.messages = window.sambotPoses.unpacked(data.messages);
+      take?.call(this, event);
+    };
   /** @this {Worker} @param {any} message @param {any} [rest] */
   Worker.prototype.postMessage = function postMessage(message, rest) {
     if (message?.type === "set_server") {
       worker = this;
+      worker.onmessage = unpackedFor(worker.onmessage);
       worker.addEventListener("message", heard);
     }
     if (this !== worker || message?.type !== "retry") post.call(this, message, rest);

@@ -12,6 +12,7 @@ from sambot_viz.viser_private.connections import (
     quiet_websockets,
     without_banner,
 )
+from sambot_viz.viser_private.moving_poses import MovingPoses, set_pose
 from sambot_viz.viser_private.outgoing import (
     Message,
     MessageBuffer,
@@ -29,7 +30,6 @@ from sambot_viz.viser_private.scene_nodes import (
     node_count,
     remember_prop_types,
     scene_bytes,
-    set_pose,
     share_arrays,
     tell_poses_of_remade_nodes,
 )
@@ -45,6 +45,7 @@ from sambot_viz.viser_private.widgets import (
 __all__ = [
     "Message",
     "MessageBuffer",
+    "MovingPoses",
     "Packer",
     "Recorder",
     "WindowLoop",

@@ -19,6 +19,8 @@ from viser.infra import (
     _infra,  # pyright: ignore[reportPrivateUsage]
 )
 
+from sambot_viz.viser_private.moving_poses import MovingPoses
+
 
 class Message(Protocol):
     """The fields of a message of viser that are read.
@@ -122,11 +124,14 @@ def replace_flush(
         change_ended: is called when no change is being made any more (`atomic`).
         flush: is called in place of the buffer's own flush.
     """
+    poses = MovingPoses.of(buffer)
 
     def atomic_end() -> None:
         with buffer.buffer_lock:
             buffer.atomic_counter -= 1
             is_last = buffer.atomic_counter == 0
+            if is_last:
+                poses.change_ended()
         if is_last:
             change_ended()
 

@@ -14,7 +14,7 @@ from viser import (
     _messages,  # pyright: ignore[reportPrivateUsage]
 )
 
-from sambot_viz.geometry import Vector3, Wxyz
+from sambot_viz.viser_private.moving_poses import set_pose
 
 
 def node_count(scene: viser.SceneApi) -> int:
@@ -32,29 +32,6 @@ def _content(props: Any) -> int:
     values: list[Any] = list(cast(dict[str, Any], vars(props)).values())
     texts = sum(len(value) for value in values if isinstance(value, bytes))
     return texts + sum(int(getattr(value, "nbytes", 0)) for value in values)
-
-
-def set_pose(
-    handle: viser.SceneNodeHandle, wxyz: Wxyz | None, position: Vector3 | None
-) -> None:
-    """Give a node another rotation, position [m] or both, and send them.
-
-    viser's own setters compare every value with the last one by `numpy.allclose`, which
-    is two thirds of what a step of a joint costs, and which drops small steps.
-
-    Args:
-        handle: the node; it was not removed.
-        wxyz: a unit quaternion; None leaves the rotation as it is.
-        position: finite numbers; None leaves the position as it is.
-    """
-    state: Any = handle._impl  # pyright: ignore[reportPrivateUsage]
-    send = state.api._queue_scene_message
-    if wxyz is not None:
-        state.wxyz[:] = wxyz
-        send(_messages.SetOrientationMessage(state.name, wxyz))
-    if position is not None:
-        state.position[:] = position
-        send(_messages.SetPositionMessage(state.name, position))
 
 
 def fill_background(scene: viser.SceneApi, color: tuple[int, int, int]) -> None:

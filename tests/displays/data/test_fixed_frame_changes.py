@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from inside import session_of
+from pose_tracks import MOVED
 from situations import TYPES
 from status_world import World, files_of
 
@@ -57,8 +58,11 @@ class OpenPage:
 
     def hear(self) -> None:
         """Take the messages that are new."""
-        for number, message in sorted(self._buffer.message_from_id.items()):
-            if number < self._next:
+        messages = self._buffer.message_from_id.items()
+        # A pose that moves is changed in the message that is there.
+        newest = {n: max(n, getattr(one, "moved_in", -1)) for n, one in messages}
+        for number, message in sorted(messages, key=lambda one: newest[one[0]]):
+            if newest[number] < self._next or getattr(message, "name", "") == MOVED:
                 continue
             match type(message).__name__:
                 case "RemoveSceneNodeMessage":

@@ -24,6 +24,10 @@ MARKER, MORE = -1, -2
 belongs together follows."""
 
 
+MOVED = -10
+"""Less a number, it follows the number of a message: since when its pose is that."""
+
+
 @dataclass(frozen=True, slots=True)
 class Batch:
     """Messages that go out together.

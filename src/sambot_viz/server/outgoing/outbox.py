@@ -21,6 +21,7 @@ from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.outgoing.frame_cache import (
     HEAVY,
     MORE,
+    MOVED,
     Batch,
     FrameCache,
     weight,
@@ -151,13 +152,13 @@ class SharedBatch:
     """Keep the newest batch: clients that have had everything before get the same.
 
     Attributes:
-        after: number of the last message before it.
-        end: number of its last message.
+        after: number of the last message before it, and of the last frame of poses.
+        end: the same of its last message.
         batch: all messages between them.
     """
 
-    after: int = -1
-    end: int = -1
+    after: tuple[int, int] = (-1, -1)
+    end: tuple[int, int] = (-1, -1)
     batch: Batch = field(default_factory=lambda: Batch((), (), 0))
 
 
@@ -180,6 +181,9 @@ class MessageCursor:
         self.client_id = client_id
         self.last = -1
         self._buffer = buffer
+        self._poses = viser_private.MovingPoses.of(buffer)
+        # The number of the last frame of poses that it had.
+        self._posed = -1
         self._shared = shared
         self._ahead: Sequence[int] = ()
         self._place = 0
@@ -196,26 +200,28 @@ class MessageCursor:
             end: number of the last message that may be among them; never a smaller
                 one than before.
         """
-        shared, after = self._shared, self.last
+        shared, after = self._shared, (self.last, self._posed)
         has_all = self._place == len(self._ahead)
-        if has_all and not self.held and (after, end) == (shared.after, shared.end):
-            self.last = end
+        if has_all and not self.held and after == shared.after and end == shared.end[0]:
+            self.last, self._posed = shared.end
             return shared.batch
         batch, is_for_all = self._collect(end)
         is_whole = has_all and self.last == end and bool(batch.messages)
         if is_whole and is_for_all and batch.weight < HEAVY:
-            shared.after, shared.end, shared.batch = after, end, batch
+            shared.after, shared.end = after, (end, self._posed)
+            shared.batch = batch
         return batch
 
     def _collect(self, end: int) -> tuple[Batch, bool]:
         """Return the next messages, and whether any client would get the same."""
-        found: list[tuple[int, viser_private.Message]] = []
+        numbers: list[int] = []
+        found: list[viser_private.Message] = []
         most, heavy, is_for_all = self._buffer.max_window_size, 0, True
         while self.last < end and len(found) < most and heavy < HEAVY and not self.held:
             if self._place == len(self._ahead):
                 self._ahead, self._place = self._numbers(end), 0
             number = self._ahead[self._place]
-            message = self._buffer.message_from_id.get(number)
+            message, state = self._message(number)
             if message is not None:
                 is_for_all = is_for_all and message.excluded_self_client is None
             if message is not None and message.excluded_self_client != self.client_id:
@@ -223,12 +229,26 @@ class MessageCursor:
                 if found and more >= HEAVY:
                     break
                 heavy += more
-                found.append((number, message))
+                found.append(message)
+                numbers += state
             self._place += 1
             self.last = number
             self._forget(number)
-        numbers, messages = tuple(n for n, _ in found), [m for _, m in found]
-        return Batch(numbers, messages, heavy), is_for_all
+        return Batch(tuple(numbers), found, heavy), is_for_all
+
+    def _message(self, number: int) -> tuple[Any, Sequence[int]]:
+        """Return a message, if it is there, and the numbers that say which it is.
+
+        The pose in a message changes in place, and so does a frame of poses.
+        """
+        message = self._buffer.message_from_id.get(number)
+        moved = self._posed
+        if self._poses.is_frame(message):
+            message = self._poses.between(self._posed, number)
+            self._posed = number
+        elif message is None or (moved := getattr(message, "moved_in", -1)) < 0:
+            return message, (number,)
+        return message, (number, MOVED - moved)
 
     def _numbers(self, end: int) -> Sequence[int]:
         """The numbers to ask for, up to `end`, which is the last of them."""
