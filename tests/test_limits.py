@@ -32,6 +32,7 @@ NO_LIMITS = {
         problems.py MOST _LONGEST_LINE
         robot/sdf/gazebo_only.py _MOST_NAMES
         robot/sdf/the_model.py _MOST_MODELS
+        robot/packages/package_index.py _MOST_NAMED
         robot/slips/follow_ups.py _MOST
         robot/xml/diagnose/explain_xml.py _MOST
         robot/xml/diagnose/lexer.py MOST_ERRORS

@@ -21,6 +21,7 @@ from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.files import RECORDING_ENDINGS, is_recording
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
+    ModelWalk,
     choose_model,
     model_ending,
     models_in,
@@ -155,16 +156,18 @@ def find(model: Path | None, config: Path | None = None) -> Found:
 
 
 def _model_in(folder: Path) -> Path:
-    models = models_in(folder)
+    walk = ModelWalk()
+    models = models_in(folder, walk)
     chosen = choose_model(folder, models)
     if chosen is not None:
         return chosen
     if not models:
         endings = ", ".join(f"*{ending}" for ending in MODEL_ENDINGS)
         meant = _recordings_below(folder) or "give the model file itself"
-        raise UsageError(
-            f"no model in the folder '{folder}': no {endings} in it has a link; {meant}"
-        )
+        found = f"no {endings} in it has a link"
+        if walk.left_out:
+            found = f"no {endings} that was found has a link, and {walk.left_out}"
+        raise UsageError(f"no model in the folder '{folder}': {found}; {meant}")
     names = ", ".join(str(path.relative_to(folder)) for path in models[:8])
     more = f" and {len(models) - 8} more" if len(models) > 8 else ""
     raise UsageError(

@@ -248,8 +248,8 @@ def test_quantized_positions_are_read(write: Write) -> None:
         ({"accessors": [{**ACCESSOR, "count": 2**62}]}, "entries does not fit"),
         ({"accessors": [{**ACCESSOR, "byteOffset": -4}]}, "entries does not fit"),
         ({"accessors": [{**ACCESSOR, "type": "VEC9"}]}, "KeyError: 'VEC9'"),
-        ({"accessors": [ACCESSOR] * 100_001}, "more than 100000 accessors"),
-        ({"bufferViews": [VIEW] * 100_001}, "more than 100000 bufferViews"),
+        ({"accessors": [ACCESSOR] * 100_001}, "more than 100,000 accessors"),
+        ({"bufferViews": [VIEW] * 100_001}, "more than 100,000 bufferViews"),
     ],
 )
 def test_a_file_that_contradicts_itself_is_refused(

@@ -146,6 +146,26 @@ def test_a_name_that_cannot_be_written_is_refused_with_the_folder(
     assert sorted(os.listdir(folder)) == before
 
 
+def test_a_name_may_be_as_long_as_file_systems_take(
+    page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "CONFIG_NAME", 11)
+    page.act("file/save-as", "äbcd", False, [])
+    assert (folder / "äbcd.rviz").exists()
+    with pytest.raises(UsageError, match=r"name is too long .*11 bytes at most"):
+        page.act("file/save-as", "äbcdef", False, [])
+
+
+def test_a_picture_has_no_side_above_the_limit(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "PAGE_PICTURE", 1000)
+    for width, height in ((1001, 1000), (1000, 1001)):
+        with pytest.raises(UsageError, match="to 1,000 pixels on a side"):
+            page.act("file/picture", width, height)
+    page.act("file/picture", 1000, 1000)
+
+
 def test_a_browser_cannot_fill_the_disk_with_configs(
     page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

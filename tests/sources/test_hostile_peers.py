@@ -132,6 +132,32 @@ def test_garbage_between_good_messages_is_counted_and_said(
     assert source.status.unreadable == 6
 
 
+def test_messages_above_the_limit_cost_their_topic_in_any_number_of_frames(
+    play: Callable[[Play], str],
+    opened: Open,
+    inbox: Inbox,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lower(monkeypatch, "MESSAGE", 1000)
+
+    def many_frames(client: ServerConnection) -> None:
+        client.send(SERVER_INFO)
+        client.send(CHANNEL)
+        client.recv()
+        # One message is one frame for each part.
+        client.send([GOOD[:13], *[b"a" * 60] * 50])
+        client.send(GOOD[:13] + bytes(40_000))
+        client.send([GOOD[:20], b"", GOOD[20:]])
+        client.recv()
+
+    source = opened(f"foxglove://{play(many_frames)}")
+    source.subscribe("/a", inbox)
+    inbox.wait_for("yes")
+    says(source, "of /a, 2 messages are left out", "the limit is 1,000")
+    assert source.status.session == 1
+    assert source.status.unreadable == 0
+
+
 def test_a_subscription_that_came_too_early_is_made_again(
     play: Callable[[Play], str], opened: Open, inbox: Inbox
 ) -> None:
@@ -259,16 +285,21 @@ def test_a_recording_of_a_peer_that_lies_and_vanishes_stays_readable(
     assert [payload for _, payload in ours].count(GOOD[13:]) == 2
 
 
-def test_a_message_beyond_the_limit_is_refused_before_it_comes(
-    play: Callable[[Play], str], opened: Open
+@pytest.mark.parametrize("size", [2**40, 2**63])
+def test_a_message_beyond_the_limit_is_said_before_it_is_there(
+    play: Callable[[Play], str], opened: Open, size: int
 ) -> None:
     def boaster(client: ServerConnection) -> None:
         client.send(SERVER_INFO)
-        client.socket.sendall(b"\x82\x7f" + (2**40).to_bytes(8, "big"))
+        client.send(CHANNEL)
+        client.recv()
+        head = b"\x82\x7f" + size.to_bytes(8, "big")
+        client.socket.sendall(head + GOOD[:13] + bytes(2000))
         client.recv()
 
     source = opened(f"foxglove://{play(boaster)}")
-    says(source, f"{2**40:,} bytes; the limit is {limits.MESSAGE.value:,}")
+    source.subscribe("/a", Inbox())
+    says(source, f"{size:,} bytes; the limit is {limits.MESSAGE.value:,}")
 
 
 def test_text_that_is_not_utf8_ends_the_connection(

@@ -12,6 +12,7 @@ import made_recording
 import numpy as np
 import pytest
 from inside import session_of
+from lower_limit import lower
 from protocol_client import wait_for_workers
 
 from sambot_viz import Visualizer
@@ -20,6 +21,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import jump
+from sambot_viz.topics import joint_index, transform_index
 from sambot_viz.topics.source_robot import SourceRobot
 
 SECONDS = 60
@@ -212,6 +214,35 @@ def test_a_joint_that_has_not_been_told_of_goes_back_to_its_start(
             wait_for_workers()
             positions = viz.joint_positions
             assert (positions["arm"], positions["lid"]) == pytest.approx(expected)
+
+
+def test_what_a_jump_has_not_looked_further_for_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sent: list[Sent] = [("/tf", 0.0, 0.0, {"old": "map", "odom": "map"})]
+    sent += [("/tf", n / 10, n / 10, {"odom": "map"}) for n in range(1, 600)]
+    path = written(tmp_path / "long.mcap", sent)
+    joints: list[tuple[str, float, Positions]] = [
+        ("/joint_states", 1.0 + n / 10, {"arm": 1.0}) for n in range(500)
+    ]
+    of_joints = with_joints(tmp_path / "joints.mcap", joints)
+    for most, told in ((10_000, False), (20, True)):
+        lower(monkeypatch, "SEARCHED", most)
+        monkeypatch.setattr(transform_index, "FEW", 10)
+        monkeypatch.setattr(joint_index, "FEW", 10)
+        assert (after_a_jump(path) == ["the frame old"]) == told
+        assert (after_a_jump(of_joints) == ["the joint lid"]) == told
+
+
+def after_a_jump(path: Path) -> list[str]:
+    """Return of what it is said that it was not looked for in all messages."""
+    with Visualizer(source=str(path), port=0) as viz:
+        viz.player.jump(viz.player.duration)
+        wait_for_workers()
+        told = session_of(viz).problems.shown.value.listed
+        found = [one for one in told if one.code == "not-looked-further"]
+        assert all("searched 20 messages back" in one.message for one in found)
+        return [one.message.partition(":")[0] for one in found]
 
 
 def test_a_second_jump_reads_only_what_holds(

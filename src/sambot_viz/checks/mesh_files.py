@@ -61,7 +61,7 @@ class MeshFiles:
         from sambot_viz.meshes.mesh import MeshError
         from sambot_viz.meshes.read_mesh import read_mesh
 
-        if self._spent > self._longest or _size(path) > limits.CHECKED_MESH.value:
+        if self._spent > self._longest or _is_large(path):
             return None
         try:
             return read_mesh(path, roots=self._roots)
@@ -69,11 +69,11 @@ class MeshFiles:
             return error.problem
 
 
-def _size(path: Path) -> int:
+def _is_large(path: Path) -> bool:
     try:
-        return path.stat().st_size
+        return path.stat().st_size > limits.CHECKED_MESH.value
     except OSError:
-        return 0
+        return False
 
 
 def _meshes_of(subject: Subject) -> Iterator[tuple[Link, Shape, MeshFile, Path]]:
@@ -89,11 +89,12 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
     users: dict[Path, tuple[Link, Shape]] = {}
     for link, shape, _, path in _meshes_of(subject):
         users.setdefault(path, (link, shape))
-    skipped: list[Path] = []
+    late: list[Path] = []
+    large: list[Path] = []
     for path, (link, shape) in users.items():
         found = subject.mesh(path)
         if found is None:
-            skipped.append(path)
+            (large if _is_large(path) else late).append(path)
             continue
         if not isinstance(found, Problem) and not any(map(_has_area, found.parts)):
             yield _invisible(link, shape, path)
@@ -107,8 +108,12 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
                 problem.hint or "export the mesh again",
                 cause=problem.cause,
             )
-    if skipped:
-        yield _not_read(skipped)
+    if late:
+        seconds = limits.CHECKED_TIME.value
+        yield _not_read(late, f"reading all takes longer than {seconds:,} s")
+    if large:
+        most = limits.CHECKED_MESH.value
+        yield _not_read(large, f"files above {most:,} bytes take too long")
 
 
 def _has_area(part: MeshPart) -> bool:
@@ -142,12 +147,12 @@ def _severity(problem: Problem) -> Severity:
     return "error" if problem.severity == "error" else "info"
 
 
-def _not_read(paths: Sequence[Path]) -> Problem:
+def _not_read(paths: Sequence[Path], why: str) -> Problem:
     some = f"{len(paths)} meshes were" if len(paths) > 1 else "one mesh was"
     return Problem(
         "info",
         "mesh-not-checked",
-        f"{some} not checked, because reading takes too long: "
+        f"{some} not checked, because {why}: "
         f"{listed(dict.fromkeys(path.name for path in paths))}",
         "open the robot with sambot-viz; the Problems panel lists what cannot be drawn",
     )

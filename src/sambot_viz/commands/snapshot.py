@@ -134,9 +134,8 @@ def _size(text: str) -> tuple[int, int]:
         1 <= width <= limits.PICTURE_SIDE.value
         and 1 <= height <= limits.PICTURE_SIDE.value
     ):
-        raise UsageError(
-            f"--size {text}: each side must be 1 to {limits.PICTURE_SIDE.value} pixels"
-        )
+        most = limits.PICTURE_SIDE.value
+        raise UsageError(f"--size {text}: each side must be 1 to {most:,} pixels")
     return width, height
 
 

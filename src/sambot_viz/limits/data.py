@@ -5,12 +5,11 @@ from __future__ import annotations
 from sambot_viz.limits.row import LimitRow
 
 MESSAGE = LimitRow(
-    "a message of an mcap, db3 or bag file, and a frame of a live robot",
+    "a message of an mcap, db3 or bag file, and of a live robot",
     256 * 2**20,
     "bytes",
     "it is left out without being read; its topic says so, and Problems or the "
-    "status of the source. The connection is made again only after a message that "
-    "came in several frames, or one of 16 times the size",
+    "status of the source",
 )
 CHUNK = LimitRow(
     "a chunk of an mcap file or a bag, as it stands in the file and decompressed",
@@ -136,13 +135,13 @@ BAG_HEADER = LimitRow(
     "the header of a record of a ROS 1 bag",
     2**20,
     "bytes",
-    "the file is read up to there; Problems says so",
+    "the file is read up to there, and from the next chunk on; Problems says so",
 )
 DEFINITION_RECORD = LimitRow(
     "the record of a channel or a type in an mcap file or a bag",
     2**26,
     "bytes",
-    "the record is left out; its topics say that their type is not known",
+    "the record is left out; Problems says so, and topics whose type is not known",
 )
 RECORDING_FILES = LimitRow(
     "files of the folder of a recording",
@@ -214,7 +213,7 @@ SEARCHED = LimitRow(
     "messages that are looked at to find a frame, or a joint, that must be there",
     20_000,
     "",
-    "a frame is not there, and displays say so; a joint is at its start",
+    "a frame is not there, and a joint is at its start; Problems says so",
 )
 REPAIRED = LimitRow(
     "places in a damaged mcap file that look like a record",
@@ -243,7 +242,7 @@ ASSET_NAME = LimitRow(
 ASSETS = LimitRow(
     "meshes of a described robot that a live robot is asked for",
     500,
-    "",
+    "meshes",
     "later ones are missing; Problems says so",
 )
 CALLS = LimitRow(

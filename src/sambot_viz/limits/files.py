@@ -218,7 +218,7 @@ PATTERN = LimitRow(
     "a regular expression of a display",
     1000,
     "characters",
-    "it is not taken; the page says so",
+    "it filters nothing; the config's problems say so, and a page does not take it",
 )
 POSES_FILE = LimitRow(
     "a file of poses of the joints",

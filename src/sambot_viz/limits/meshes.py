@@ -50,7 +50,7 @@ MESH_CUTTING = LimitRow(
     "work for polygons with inward corners: n² + 1000 for n corners",
     200_000_000,
     "",
-    "the mesh is missing; Problems says so",
+    "later ones may be drawn wrongly; Problems says so",
 )
 MESH_NAMES = LimitRow(
     "work for equal names of nodes in a glTF file",

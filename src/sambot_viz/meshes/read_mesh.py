@@ -73,8 +73,9 @@ def read_mesh(
             if source.budget.cut_short:
                 source.warn(
                     "mesh-polygons-tangled",
-                    "the mesh has too many or too large polygons with inward corners; "
-                    "some may be drawn wrongly",
+                    "the mesh has too many or too large polygons with inward corners "
+                    "(n² + 1000 for n corners of each, together more than "
+                    f"{limits.MESH_CUTTING.value:,}); some may be drawn wrongly",
                     "triangulate the mesh before exporting it",
                 )
             return assemble(pieces, source)

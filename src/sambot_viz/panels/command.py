@@ -9,11 +9,11 @@ checks, and whether a viewer may call it: by default not.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from sambot_viz import limits
 from sambot_viz.panels.rows.row import Json
 
 P = ParamSpec("P")
@@ -35,8 +35,8 @@ class Argument:
 
     type: type[bool | int | float | str | list[Any]]
     optional: bool = False
-    least: float = -limits.PAGE_NUMBER.value
-    most: float = limits.PAGE_NUMBER.value
+    least: float = -math.inf
+    most: float = math.inf
 
 
 TEXT, NUMBER, INTEGER = Argument(str), Argument(float), Argument(int)

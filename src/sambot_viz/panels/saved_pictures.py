@@ -75,7 +75,7 @@ class PicturesPanel(Panel):
             most = limits.PAGE_PICTURE.value
             if not SHORTEST_SIDE <= length <= most:
                 raise UsageError(
-                    f"a picture has {SHORTEST_SIDE} to {most} pixels on a side"
+                    f"a picture has {SHORTEST_SIDE} to {most:,} pixels on a side"
                 )
         if self._drawing:
             raise UsageError("a picture is being drawn already")

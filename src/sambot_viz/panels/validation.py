@@ -107,8 +107,10 @@ def validate(row: Row, value: Json) -> Any:
 
 def _number(row: Row, value: Json) -> float:
     number = None if isinstance(value, bool) else finite(value)
-    if number is None or abs(number) > limits.PAGE_NUMBER.value:
+    if number is None:
         raise UsageError(f"'{text(row.name)}' needs a number, not {_shown(value)}")
+    if abs(number) > limits.PAGE_NUMBER.value:
+        raise UsageError(f"'{text(row.name)}' {_too_large(number)}")
     low = -math.inf if row.least is None else row.least
     high = math.inf if row.most is None else row.most
     if not low <= number <= high:
@@ -120,6 +122,10 @@ def _number(row: Row, value: Json) -> float:
     if row.kind == "int" and number != int(number):
         raise UsageError(f"'{text(row.name)}' needs a whole number")
     return int(number) if row.kind == "int" else number
+
+
+def _too_large(number: float) -> str:
+    return f"cannot be {number:g}: numbers up to {limits.PAGE_NUMBER.value:,} are taken"
 
 
 def _option(row: Row, value: Json) -> str:
@@ -143,10 +149,12 @@ def _short(name: str, value: str) -> str:
 def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
     parts = cast("Sequence[object]", value) if isinstance(value, list) else ()
     numbers = [None if isinstance(part, bool) else finite(part) for part in parts]
-    most = limits.PAGE_NUMBER.value
-    known = tuple(n for n in numbers if n is not None and abs(n) <= most)
+    known = tuple(n for n in numbers if n is not None)
     if len(known) != count or len(numbers) != count:
         raise UsageError(f"'{text(row.name)}' needs {count} numbers")
+    largest = max(known, key=abs, default=0.0)
+    if abs(largest) > limits.PAGE_NUMBER.value:
+        raise UsageError(f"'{text(row.name)}' {_too_large(largest)}")
     return known
 
 
@@ -211,6 +219,8 @@ def _scalar(name: str, part: Json, least: float, most: float) -> Any:
         return _short(name, part)
     if isinstance(part, int | float) and not isinstance(part, bool):
         number = finite(part)
+        if number is not None and abs(number) > limits.PAGE_NUMBER.value:
+            raise UsageError(f"'{name}' {_too_large(number)}")
         if number is None or not least <= number <= most:
             raise UsageError(f"'{name}' needs a number, not {_shown(part)}")
     return part

@@ -29,11 +29,11 @@ Motion = tuple[Numbers, Numbers | Mapping[str, Numbers]]
 
 def picture_of(server: Server, size: Size) -> bytes:
     """Return the 3D view as a PNG file, as `Visualizer.snapshot` says."""
+    width, height = _checked(size)
     server.sessions.require_open()
     session = server.sessions.shared
     if session is None:
         raise UsageError("a picture is taken of a shared session, not of private ones")
-    width, height = _checked(size)
     # The camera looks at all that is drawn.
     with session.looked_at(), Chromium() as chromium:
         server.sessions.wait_for_meshes(LONGEST_WAIT)
@@ -54,7 +54,7 @@ def _checked(size: Size) -> Size:
         and 1 <= height <= limits.PICTURE_SIDE.value
     ):
         raise UsageError(
-            f"{size}: each side must be 1 to {limits.PICTURE_SIDE.value} pixels"
+            f"{size}: each side must be 1 to {limits.PICTURE_SIDE.value:,} pixels"
         )
     return width, height
 
@@ -102,7 +102,7 @@ def _motion_of(robot: Robot, joints: JointState, motion: Motion) -> Past:
         raise UsageError("the times of a motion are numbers [s] that grow")
     t = t - t[0]
     if t[-1] > limits.MOTION.value:
-        raise UsageError(f"a motion lasts {limits.MOTION.value:g} s at most")
+        raise UsageError(f"a motion lasts {limits.MOTION.value:,} s at most")
     if not isinstance(given, Mapping):
         given = _columns(robot, given, t.size)
     for name in given:

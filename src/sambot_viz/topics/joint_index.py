@@ -47,40 +47,53 @@ class JointIndex:
         self._blocks: dict[int, tuple[_Block, int]] = {}
         self._lock = threading.Lock()
 
-    def holding(self, at_ns: int, expected: Iterable[str] = ()) -> list[Recorded]:
-        """Return the messages that hold at a log time, in their order.
+    def holding(self, at_ns: int) -> list[Recorded]:
+        """Return the messages that hold at a log time [ns], in their order."""
+        return self.holding_of((), at_ns)[0]
+
+    def holding_of(
+        self, expected: Iterable[str], at_ns: int
+    ) -> tuple[list[Recorded], Collection[str]]:
+        """Return the messages that hold at a log time, and what was not found.
 
         Taken one after the other, they leave the joints where all messages up to that
         time do. The last one of each topic is among them.
 
         Args:
-            at_ns: the log time [ns].
             expected: joints for which it is looked further back.
+            at_ns: the log time [ns].
+
+        Returns:
+            The messages in their order, and the joints that were looked for, and not in
+            all messages of before.
         """
         recording, topics = self._recording, self._topics
         with self._lock:
-            times = self._times(at_ns, set(expected))
+            times, unfound = self._times(at_ns, set(expected))
         for topic in topics:
             last = recording.last(topic, at_ns)
             if last is not None:
                 times.add(last.log_ns)
-        return [
+        found = [
             message
             for time in sorted(times)
             for message in recording.messages(time, time, topics)
         ]
+        return found, unfound
 
-    def _times(self, at_ns: int, missing: set[str]) -> set[int]:
-        """Return the log times of the last message that names each joint [ns]."""
+    def _times(self, at_ns: int, missing: set[str]) -> tuple[set[int], set[str]]:
+        """Return when each joint was named last [ns], and what was not found."""
         start = self._recording.start_ns
         if start is None or not self._topics:
-            return set()
+            return set(), set()
         times, seen, looked = set[int](), set[str](), 0
+        unfound = set[str]()
         last = (at_ns - start) // BLOCK
         for number in range(last, -1, -1):
             known = self._blocks.get(number)
             if known is None:
                 if looked >= (limits.SEARCHED.value if missing else FEW):
+                    unfound = missing
                     break
                 begin = start + number * BLOCK
                 known = self._look(begin, min(begin + BLOCK - 1, at_ns))
@@ -94,7 +107,7 @@ class JointIndex:
                     seen.update(names)
                     times.add(time)
             missing -= seen
-        return times
+        return times, unfound
 
     def _look(self, begin: int, end: int) -> tuple[_Block, int]:
         """Return what the messages of a time name, and how many there are."""

@@ -70,6 +70,7 @@ class JointStateTopics:
         self._decode = decode
         self._index = index
         self._named: set[str] = set()
+        self._unfound: Collection[str] = ()
         self._last: dict[str, float] = {}
         self._changed: dict[str, float] = {}
         self._templates: dict[TopicChannel, list[JointStateTemplate]] = {}
@@ -125,7 +126,18 @@ class JointStateTopics:
     def until(self, recording: Bag, at_ns: int) -> Sequence[Recorded]:
         """Return the messages that hold at a log time [ns], in their order."""
         del recording
-        return () if self._index is None else self._index.holding(at_ns, self._named)
+        if self._index is None:
+            return ()
+        found, self._unfound = self._index.holding_of(self._named, at_ns)
+        return found
+
+    @property
+    def unfound(self) -> Collection[str]:
+        """The joints that the last jump did not look for in all messages of before."""
+        if not self._unfound:
+            return ()
+        self._spread()
+        return [name for name in self._unfound if name not in self._last]
 
     def clear(self) -> None:
         """Forget what was taken."""

@@ -27,11 +27,16 @@ def fetch_files(source: Source, text: str, folder: Path) -> tuple[Problem, ...]:
     if "files" not in source.capabilities:
         return ()
     asked: dict[str, tuple[Path, Future[bytes]]] = {}
+    later: dict[str, None] = {}
     for uri, package, rest in _FILE.findall(text):
         path = folder / package / rest
         inside = ".." not in Path(rest).parts and package not in (".", "..")
-        if inside and uri not in asked and len(asked) < limits.ASSETS.value:
+        if not inside or uri in asked:
+            continue
+        if len(asked) < limits.ASSETS.value:
             asked[uri] = (path, source.fetch_asset(uri))
+        else:
+            later[uri] = None
     wait([future for _, future in asked.values()], FILES_WITHIN)
     missing: list[Problem] = []
     for uri, (path, future) in asked.items():
@@ -48,4 +53,8 @@ def fetch_files(source: Source, text: str, folder: Path) -> tuple[Problem, ...]:
         manifest = folder / uri.split("/")[2] / "package.xml"
         if not manifest.exists():
             manifest.write_text("<package/>", encoding="utf-8")
+    if later:
+        size = limits.ASSETS.said(len(asked) + len(later))
+        what = f"the description names {size}: {next(iter(later))} and all later ones"
+        missing.append(Problem("warning", "mesh-not-served", f"{what} are missing", ""))
     return tuple(missing)

@@ -60,11 +60,13 @@ class HoldingMessages:
             forgotten then [ns].
         were_moving: frames with a static transform of before which had moved after it,
             and before that time: they have no place.
+        unfound: frames that were looked for, and not in all messages of before.
     """
 
     spans: Sequence[Span] = ()
     begin_ns: int = 0
     were_moving: frozenset[str] = frozenset()
+    unfound: Collection[str] = ()
 
 
 @dataclass(slots=True)
@@ -157,27 +159,32 @@ class TransformIndex:
         if self._recording.start_ns is None or not self._topics:
             return HoldingMessages()
         with self._lock:
-            known = self._known_until(at_ns, expected)
+            known, unfound = self._known_until(at_ns, expected)
             begin = self._turn(known)
             blocks = [part for block in known if (part := block.since(begin)).logs]
             spans = _joined(self._needed(blocks, fixed))
-            return HoldingMessages(spans, begin, self._moved(known, fixed, begin))
+            moved = self._moved(known, fixed, begin)
+            return HoldingMessages(spans, begin, moved, unfound)
 
     # Looking through the recording
 
-    def _known_until(self, at_ns: int, expected: Collection[str]) -> list[_Block]:
-        """Return the blocks up to a time of which all after the first are known."""
+    def _known_until(
+        self, at_ns: int, expected: Collection[str]
+    ) -> tuple[list[_Block], Collection[str]]:
+        """Return blocks up to a time, all after the first known, and what they lack."""
         start = self._recording.start_ns or 0
         last = (at_ns - start) // BLOCK
         nearest = last - DEPTH // BLOCK - 1
         missing, looked = set(expected), 0
         found: list[_Block] = []
+        unfound = set[str]()
         for number in range(last, -1, -1):
             block = self._blocks.get(number)
             if block is None:
                 if number < nearest and looked >= (
                     limits.SEARCHED.value if missing else FEW
                 ):
+                    unfound = missing
                     break
                 block = self._blocks[number] = self._look(start + number * BLOCK)
                 looked += len(block.logs)
@@ -186,7 +193,7 @@ class TransformIndex:
             if missing:
                 missing.difference_update(*(self._children[g] for g in block.highs))
         found.reverse()
-        return found
+        return found, unfound
 
     def _look(self, begin: int) -> _Block:
         block = _Block()

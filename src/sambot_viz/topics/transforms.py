@@ -162,6 +162,11 @@ class TransformTopics:
         return sorted((*fixed, *moving), key=lambda message: message.log_ns)
 
     @property
+    def unfound(self) -> Collection[str]:
+        """The frames that the last jump did not look for in all messages of before."""
+        return [one for one in self._holding.unfound if one not in self._placed]
+
+    @property
     def newest_ns(self) -> int:
         """The newest stamp of what moves [ns]; 0 without any."""
         return max((group.newest for group in self._groups.values()), default=0)
@@ -349,6 +354,7 @@ def problems_of_transforms(
     found = [problem for problem, _ in problems_of_parents(transforms)]
     if transforms.limit.left_out:
         found.append(too_many_frames(transforms.limit.left_out, name))
+    found += not_looked_further("frame", transforms.unfound, name)
     if transforms.turned_back_by:
         back = transforms.turned_back_by * 1e-9
         found.append(
@@ -365,6 +371,27 @@ def problems_of_transforms(
             )
         )
     return tuple(found)
+
+
+def not_looked_further(
+    kind: str, unfound: Collection[str], name: str
+) -> Iterator[Problem]:
+    """Say of what a jump has not looked through all messages.
+
+    Args:
+        kind: "frame" or "joint".
+        unfound: the names.
+        name: of the recording.
+    """
+    if unfound:
+        rest = f" and {len(unfound) - 1:,} more" if len(unfound) > 1 else ""
+        yield Problem(
+            "info",
+            "not-looked-further",
+            f"the {kind} {min(unfound)}{rest}: {name} was searched "
+            f"{limits.SEARCHED.value:,} messages back from this time, and not further",
+            "play from an earlier time, or record what rarely comes as latched",
+        )
 
 
 def problems_of_parents(

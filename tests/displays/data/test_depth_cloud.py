@@ -12,6 +12,7 @@ import pytest
 from camera_messages import file, image, info
 from glb_parts import document_of, numbers_of
 from inside import session_of
+from lower_limit import lower
 from made_messages import Make
 from PIL import Image
 
@@ -51,6 +52,18 @@ def points(opened: Any) -> list[Any]:
 
 def style(opened: Any) -> dict[str, Any]:
     return document_of(opened.glb())["meshes"][0]["extras"]
+
+
+def test_an_image_of_too_many_pixels_is_not_drawn_and_says_so(
+    shown: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "DEPTH_POINTS", 4)
+    wide = np.concatenate([MILLIMETRES, MILLIMETRES[:, :1]], axis=1)
+    opened = shown(info(INFO, NUMBERS, (2, 3)), depth(wide))
+    said = "It has 6 pixels: at most 4 are drawn"
+    assert said in [text for _, text in opened.statuses.values()]
+    assert opened.node_names() == []
+    assert points(shown(info(INFO, NUMBERS, (2, 2)), depth())) == POINTS
 
 
 @pytest.mark.parametrize("pixels", [MILLIMETRES, METRES])

@@ -29,6 +29,7 @@ from interactive_messages import (
     six_degrees,
     update,
 )
+from lower_limit import lower
 from made_messages import Make
 
 from sambot_viz.displays.by_topic import displays_of_topic
@@ -518,11 +519,15 @@ def test_thousands_of_controls_are_refused(shown: Open) -> None:
     assert "1,001 controls" in opened.statuses["many"][1]
 
 
-def test_more_markers_than_are_shown_are_said(shown: Open) -> None:
-    names = [str(number) for number in range(501)]
+def test_more_markers_than_are_shown_are_said(
+    shown: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "INTERACTIVE_MARKERS", 120)
+    names = [str(number) for number in range(121)]
     made = update(*(lambda t, n=n: marker(t, n, controls=[control(t)]) for n in names))
     opened = shown(made)
-    assert len(known(opened)) == 500
-    assert opened.statuses["Markers"][0] == "Warn"
+    assert len(known(opened)) == 120
+    said = ("Warn", "More than the 120 markers that are shown")
+    assert opened.statuses["Markers"] == said
     # Not all of them have a row.
     assert len(opened.statuses) < 110

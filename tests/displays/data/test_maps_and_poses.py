@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from inside import session_of
+from lower_limit import lower
 from panel_rows import panel_of
 
 from sambot_viz.panels.displays.displays_panel import DisplaysPanel
@@ -221,6 +222,16 @@ def test_odometry_keeps_poses_that_are_apart(messages: Open) -> None:
     assert kept(shown) == 3
     shown.set("Keep", 2)
     assert kept(shown) == 2
+
+
+def test_of_all_poses_the_newest_are_drawn(
+    messages: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "ODOMETRY_POSES", 3)
+    shown = messages("Odometry", *(odometry(float(x)) for x in range(5)), Keep=0)
+    assert kept(shown) == 3
+    (keep,) = (one for one in shown.display.properties if one.name == "Keep")
+    assert "here up to 10,000" in keep.help
 
 
 def test_a_quaternion_of_another_length_is_refused(messages: Open) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from inside import session_of
+from lower_limit import lower
 from PIL import Image
 
 from sambot_viz import limits
@@ -272,6 +273,18 @@ def test_markers_that_are_too_old_for_a_jump_are_said_to_be_missing(
     assert "Messages" not in shown.statuses
 
 
+def test_markers_that_are_too_many_bytes_for_a_jump_are_said_to_be_missing(
+    messages: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "MARKER_JUMP", 1000)
+    shown = messages("Marker", *(marker(number) for number in range(9)))
+    drawn = {number for _, number in names(shown)}
+    assert drawn == set(range(9 - len(drawn), 9)) and 0 < len(drawn) < 9
+    level, text = shown.statuses["Messages"]
+    assert level == "Ok"
+    assert "1,000 bytes: markers that were sent before are missing" in text
+
+
 def test_a_lone_marker_is_shown_however_old_it_is(messages: Open) -> None:
     far = [other_topic] * 700
     shown = messages("Marker", marker(0), *far)
@@ -296,7 +309,7 @@ def test_more_markers_than_can_wait_between_two_pictures_are_doubtful(
         shown.display.messages_came()
     level, text = shown.statuses["Messages"]
     assert level == "Warn"
-    assert text.startswith("More than 10,000 messages or 1 MB")
+    assert text.startswith("More than 10,000 messages or 1,000,000 bytes")
 
 
 def test_of_large_messages_between_two_pictures_the_newest_are_drawn(

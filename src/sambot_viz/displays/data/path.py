@@ -91,7 +91,8 @@ class PathDisplay(MessageFilterDisplay[Poses]):
             "Buffer Length",
             default=1,
             minimum=1,
-            help=f"So many of the newest paths are shown, up to {limits.PATHS.value}.",
+            help="So many of the newest paths are shown, up to "
+            f"{limits.PATHS.value:,}.",
             acts_up_to=limits.PATHS.value,
         ),
         VectorProperty(

@@ -98,7 +98,7 @@ def vector_properties(along: str, about: str) -> tuple[Property, ...]:
             maximum=100_000,
             acts_up_to=limits.VECTORS.value,
             help="So many of the newest messages are shown, up to "
-            f"{limits.VECTORS.value}.",
+            f"{limits.VECTORS.value:,}.",
         ),
     )
 

@@ -119,7 +119,7 @@ class GltfFile:
         """Refuse a file that announces numbers which it has no bytes for."""
         for name in ("bufferViews", "accessors"):
             if len(self.document.get(name, ())) > limits.MESH_NODES.value:
-                raise ValueError(f"it has more than {limits.MESH_NODES.value} {name}")
+                raise ValueError(f"it has more than {limits.MESH_NODES.value:,} {name}")
         views = range(len(self.document.get("bufferViews", ())))
         announced = sum(len(self.view(number)) for number in views)
         for accessor in self.document.get("accessors", ()):

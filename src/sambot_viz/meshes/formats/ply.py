@@ -56,6 +56,9 @@ def _check(data: bytes) -> int:
     """Return how many faces a file announces, once its header and text are sound."""
     head, end, _ = data[: limits.PLY_HEADER.value].partition(b"end_header")
     lines = [line.split() for line in head.decode("latin-1").splitlines()]
+    if lines[:1] == [["ply"]] and not end and len(data) > limits.PLY_HEADER.value:
+        most = limits.PLY_HEADER.value
+        raise ValueError(f"its header does not end in its first {most:,} bytes")
     if lines[:1] != [["ply"]] or not end:
         raise ValueError("it has no PLY header")
     kind = lines[1][1] if len(lines[1]) > 1 and lines[1][0] == "format" else ""

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from sambot_viz.errors import Problem
 from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.packages.package_index import PackageIndex, places_of
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xml.element import Element
@@ -151,7 +151,7 @@ class FileFinder:
         if package == "":
             reason, hint = "it names no package", "write package://PACKAGE/…"
         elif package is not None:
-            searched = ", ".join(found.searched[:4]) or "nowhere"
+            searched = places_of(found.searched)
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
             hint = self._with_near_package(filename, found) or hint

@@ -22,6 +22,8 @@ _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
 _PLAUSIBLE = re.compile(r"\w[\w.-]*")
 """A possible name of a package. A model may ask for any text, such as "/"."""
 _MAX_UP = 6
+_MOST_NAMED = 6
+_NOT_ALL = "not all below"
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +41,12 @@ class Lookup:
     path: Path | None
     searched: tuple[str, ...] = ()
     known: tuple[str, ...] = ()
+
+
+def places_of(searched: Sequence[str]) -> str:
+    """Return the places of a look-up for a message, and what was not searched."""
+    rest = [place for place in searched[_MOST_NAMED:] if place.startswith(_NOT_ALL)]
+    return ", ".join([*searched[:_MOST_NAMED], *rest]) or "nowhere"
 
 
 def package_name(folder: Path) -> str | None:
@@ -132,7 +140,7 @@ class PackageIndex:
         known: dict[str, None] = dict.fromkeys(self._given)
         by_folder: Path | None = None
         for label, scan in self._sources():
-            searched.append(label)
+            searched += [label, scan.left_out] if scan.left_out else [label]
             known.update(dict.fromkeys(scan.packages))
             if name in scan.packages:
                 return Lookup(name, scan.packages[name], tuple(searched))
@@ -152,7 +160,7 @@ class PackageIndex:
             scan = self._scan(folder, budget)
             budget -= scan.size
             yield str(folder), scan
-            if budget <= 0:
+            if scan.has_more:
                 break
         for entry in self._path_variable("ROS_PACKAGE_PATH"):
             yield (
@@ -209,12 +217,21 @@ class PackageIndex:
 
 
 class _Scan:
-    """The packages at and below one folder, nearest first."""
+    """The packages at and below one folder, nearest first.
+
+    Attributes:
+        packages: their folders, by their names.
+        folders: each folder, by its name.
+        size: how many folders were looked at.
+        has_more: more folders are there than could be looked at.
+        left_out: says that not all was searched; empty when it was.
+    """
 
     def __init__(self, top: Path, budget: int, done: Mapping[Path, _Scan]) -> None:
         self.packages: dict[str, Path] = {}
         self.folders: dict[str, Path] = {}
         self.size = 0
+        self.left_out = ""
         queue: deque[tuple[Path, int]] = deque([(top, 0)])
         while queue and self.size < budget:
             folder, depth = queue.popleft()
@@ -225,8 +242,16 @@ class _Scan:
             children = self._enter(folder)
             if depth < limits.SEARCHED_DEPTH.value:
                 queue.extend((child, depth + 1) for child in children)
+            elif children:
+                most = limits.SEARCHED_DEPTH.value
+                self.left_out = f"{_NOT_ALL} {top}: {most:,} folders deep at most"
+        self.has_more = bool(queue)
+        if queue:
+            most = limits.SEARCHED_FOLDERS.value
+            self.left_out = f"{_NOT_ALL} {top}: {most:,} folders at most"
 
     def _take_over(self, other: _Scan) -> None:
+        self.left_out = self.left_out or other.left_out
         for name, path in other.packages.items():
             self.packages.setdefault(name, path)
         for name, path in other.folders.items():

@@ -56,13 +56,56 @@ class _ModelFile:
     includes: tuple[str, ...]
 
 
-def models_in(folder: Path) -> list[Path]:
+@dataclass(slots=True)
+class ModelWalk:
+    """A walk through a folder that looks for files with the ending of a model.
+
+    Attributes:
+        left_out: what the walk did not search, as a sentence; "" when it was all.
+    """
+
+    left_out: str = ""
+
+    def files(self, top: Path) -> Iterator[Path]:
+        """Yield the files; other packages inside the folder are left out.
+
+        When the folder is no package itself, all packages in it are searched.
+        """
+        in_package = package_name(top) is not None
+        count = 0
+        for place, folders, names in os.walk(top):
+            folder = Path(place)
+            depth = len(folder.relative_to(top).parts)
+            if in_package and depth and not set(names).isdisjoint(MANIFESTS):
+                folders.clear()
+                continue
+            folders[:] = sorted(f for f in folders if _worth_entering(f))
+            count += 1
+            if folders and depth >= limits.MODEL_DEPTH.value:
+                self._leave_out(f"{limits.MODEL_DEPTH.value:,} folders deep")
+                folders.clear()
+            if count > limits.MODEL_FOLDERS.value:
+                self._leave_out(f"{limits.MODEL_FOLDERS.value:,} folders")
+                return
+            for name in sorted(names):
+                if name.endswith(MODEL_ENDINGS):
+                    yield folder / name
+
+    def _leave_out(self, most: str) -> None:
+        self.left_out = f"not all of it was searched: {most} at most"
+
+
+def models_in(folder: Path, walk: ModelWalk) -> list[Path]:
     """Return the files of a folder that may be shown by themselves, sorted.
 
     Files without links, with nothing but macros, or included by another file are
     left out. Models for tests count only when there are no others.
+
+    Args:
+        folder: is searched.
+        walk: searches it, and says afterwards what it has left out.
     """
-    paths = list(_walk(folder))
+    paths = list(walk.files(folder))
     products = [p for p in paths if not _is_for_tests(p.relative_to(folder))]
     return (
         _complete_models(products)
@@ -120,28 +163,6 @@ def choose_model(folder: Path, models: Sequence[Path]) -> Path | None:
             return found[0]
         models = found or models
     return None
-
-
-def _walk(top: Path) -> Iterator[Path]:
-    """Files with the ending of a model; other packages inside the folder are left out.
-
-    When the folder is no package itself, all packages in it are searched.
-    """
-    in_package = package_name(top) is not None
-    count = 0
-    for place, folders, names in os.walk(top):
-        folder = Path(place)
-        depth = len(folder.relative_to(top).parts)
-        if in_package and depth and not set(names).isdisjoint(MANIFESTS):
-            folders.clear()
-            continue
-        folders[:] = sorted(f for f in folders if _worth_entering(f))
-        if depth >= limits.MODEL_DEPTH.value or count > limits.MODEL_FOLDERS.value:
-            folders.clear()
-        count += 1
-        for name in sorted(names):
-            if name.endswith(MODEL_ENDINGS):
-                yield folder / name
 
 
 def _worth_entering(name: str) -> bool:

@@ -70,7 +70,15 @@ class RegexProperty(StringProperty):
         return compile_pattern(value) if value else None
 
     def _parse(self, node: Scalar, report: Report) -> str:
-        if node.text and self.compiled(node.text) is None:
+        size = len(node.text)
+        if size > limits.PATTERN.value:
+            report(
+                node,
+                f"the expression of '{self.name}' has {limits.PATTERN.said(size)}; it "
+                "filters nothing",
+                "write a shorter expression or leave it empty",
+            )
+        elif node.text and self.compiled(node.text) is None:
             report(
                 node,
                 f"'{self.name}' is not a regular expression that can be searched here: "

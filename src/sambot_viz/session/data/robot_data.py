@@ -29,7 +29,7 @@ from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
-from sambot_viz.topics.transforms import problems_of_transforms
+from sambot_viz.topics.transforms import not_looked_further, problems_of_transforms
 
 AGEING_PERIOD = 0.5
 """So often frames grow older [s]."""
@@ -87,7 +87,7 @@ class RobotData:
         self._change = change
         self._worker = worker
         self._period = 1 / 30
-        self._said: tuple[int, str] = (0, "")
+        self._said: tuple[object, ...] = (0, "")
         self._doubted = ""
         self._renamed = 0
         self._looked = float("-inf")
@@ -244,7 +244,9 @@ class RobotData:
     def _tell_problems(self) -> None:
         is_live, name = self.player is None, self.name
         of_frames = problems_of_transforms(self.transforms, name, is_live=is_live)
-        self.problems.set((*self.moved_by.hidden, *of_frames))
+        unfound = self._joint_states.unfound
+        of_joints = not_looked_further("joint", unfound, name)
+        self.problems.set((*self.moved_by.hidden, *of_frames, *of_joints))
 
     def _take(self, message: Recorded) -> None:
         if message.topic in self.transforms.topics:
@@ -253,7 +255,12 @@ class RobotData:
             self._joint_states.take(message)
 
     def _draw(self, jumped: bool) -> None:
-        said = (self.transforms.turned_back_by, self.transforms.limit.left_out)
+        said = (
+            self.transforms.turned_back_by,
+            self.transforms.limit.left_out,
+            *self.transforms.unfound,
+            *self._joint_states.unfound,
+        )
         if said != self._said:
             self._said = said
             self._tell_problems()

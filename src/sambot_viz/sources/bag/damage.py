@@ -36,7 +36,7 @@ class Damage:
         self.in_wal = 0
         self.lacks = ""
         self._broken: list[tuple[int, int]] = []
-        self._unreadable: list[tuple[int, int]] = []
+        self._unreadable: list[tuple[int, int, str]] = []
         self._latest: dict[int, int] = {}
         self._seen = 0
         self._step_back: tuple[int, int, int] | None = None
@@ -45,9 +45,9 @@ class Damage:
         """Note that the messages between two log times [ns] are lost."""
         self._broken.append((start, end))
 
-    def add_unreadable(self, at: int, end: int) -> None:
-        """Note that some bytes of the file make no sense."""
-        self._unreadable.append((at, end))
+    def add_unreadable(self, at: int, end: int, why: str = "") -> None:
+        """Note that some bytes of the file make no sense, or why they are not read."""
+        self._unreadable.append((at, end, f": {why}" if why else ""))
 
     def add_times(self, times: Times, channels: Numbers) -> None:
         """Note the log times of a stretch that was read, in the order of the file.
@@ -91,7 +91,8 @@ class Damage:
         found: list[Problem] = []
         if start is None or end is None:
             if self._unreadable and not cause:
-                cause = "bytes {:,} to {:,} make no sense".format(*self._unreadable[0])
+                first, last, why = self._unreadable[0]
+                cause = f"bytes {first:,} to {last:,} make no sense{why}"
             found.append(no_messages(self.path, cause, remedy))
         else:
             found += self._about_end(start, end)
@@ -161,8 +162,8 @@ class Damage:
                 for first, last in sorted(self._broken)
             ]
             places = [
-                f"bytes {first:,} to {last:,}"
-                for first, last in sorted(self._unreadable)
+                f"bytes {first:,} to {last:,}{why}"
+                for first, last, why in sorted(self._unreadable)
             ]
             listed = ", ".join([*times, *places][:5]) + (", …" if parts > 5 else "")
             count = "one part" if parts == 1 else f"{parts:,} parts"

@@ -19,6 +19,10 @@ _HINT_CHUNK = (
     "record again with smaller chunks ('chunkSize' in the file of 'ros2 bag record "
     "--storage-config-file'); the rest is shown"
 )
+_HINT_RECORD = (
+    "record again with shorter definitions; topics that need it say that their type is "
+    "not known"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,7 @@ class LeftOut:
         self._messages: dict[int, dict[int, int]] = {}
         self._chunks: list[_Chunk] = []
         self._topic = ""
+        self._records: list[str] = []
 
     def add_message(self, channel: int, time: int, size: int) -> bool:
         """Note a message that is too large; False when it was noted before."""
@@ -66,6 +71,11 @@ class LeftOut:
             channels: that have messages in it; empty when that is not known.
         """
         self._chunks.append(_Chunk(at, error, channels))
+
+    def add_record(self, at: int, size: int) -> None:
+        """Note a record of a channel or of a type that is too large, at its place."""
+        said = limits.DEFINITION_RECORD.said(size)
+        self._records.append(f"at byte {at:,}, with {said}")
 
     def add_topic(self, topic: str) -> None:
         """Note a topic that is one too many."""
@@ -128,6 +138,14 @@ class LeftOut:
                 f"{path.name}: {large[0].sentence}{rest}: what is too large is left out"
             )
             yield _problem(path, what, _HINT_CHUNK)
+        if self._records:
+            count = len(self._records)
+            rest = f"; so do {count - 1:,} more" if count > 1 else ""
+            what = (
+                f"{path.name}: the record of a channel or of a type "
+                f"{self._records[0]}{rest}: what is too large is left out"
+            )
+            yield _problem(path, what, _HINT_RECORD)
         if self._topic:
             what = (
                 f"{path.name} has more than {limits.CHANNELS.value:,} channels: "

@@ -186,9 +186,14 @@ class McapBag(BlockBag):
             if is_behind_data or self._is_cut(window, at, opcode, length, end):
                 break
             found: int | None = None
-            for place in find_record(self._file, at, end):
-                found = place
-                yield 1000
+            try:
+                for place in find_record(self._file, at, end):
+                    found = place
+                    yield 1000
+            except BrokenPieceError as why:
+                self.damage.end = "whole"
+                self.damage.add_unreadable(at, end, str(why))
+                break
             if found is None:
                 self._note_end(at, end)
                 break
@@ -232,6 +237,7 @@ class McapBag(BlockBag):
 
     def _define_at(self, window: ReadAhead, at: int, opcode: int, length: int) -> bool:
         if length > limits.DEFINITION_RECORD.value:
+            self.left_out.add_record(at, length)
             return True
         try:
             self._define(opcode, window.get(at + HEAD.size, length))

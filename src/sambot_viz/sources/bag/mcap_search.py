@@ -34,6 +34,9 @@ def find_record(file: FileBytes, at: int, end: int) -> Iterator[int | None]:
 
     Yields:
         None after each megabyte; at last the place, if there is one.
+
+    Raises:
+        BrokenPieceError: more places look like a record than are looked at.
     """
     window, candidates = ReadAhead(file), 0
     begin = at + 1
@@ -41,10 +44,11 @@ def find_record(file: FileBytes, at: int, end: int) -> Iterator[int | None]:
         data = file.read_at(begin, min(_STEP + HEAD.size, end - begin))
         for match in _LIKELY.finditer(data):
             candidates += 1
+            if candidates > limits.REPAIRED.value:
+                most = limits.REPAIRED.value
+                raise BrokenPieceError(f"{most:,} places there look like a record")
             if _is_record(window, begin + match.start(), end):
                 yield begin + match.start()
-                return
-            if candidates > limits.REPAIRED.value:
                 return
         begin += _STEP
         yield None

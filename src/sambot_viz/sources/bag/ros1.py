@@ -43,6 +43,10 @@ _STEP = 2**20
 _Header = dict[bytes, bytes]
 
 
+class _LongHeaderError(BrokenPieceError):
+    """The header of a record is there, and longer than any is."""
+
+
 @dataclass(slots=True, eq=False)
 class Ros1Block(Block):
     """A chunk.
@@ -131,11 +135,15 @@ class Ros1Bag(BlockBag):
                 record = self._record(ahead, at)
                 if record.op == _CONNECTION:
                     self._connect(ahead, record)
-            except BrokenPieceError:
+            except BrokenPieceError as error:
                 found = self._next_chunk(at)
+                why = f"{error}" if isinstance(error, _LongHeaderError) else ""
+                if why:
+                    self.damage.add_unreadable(at, found or self._file.size, why)
                 if found is None:
                     break
-                self.damage.add_unreadable(at, found)
+                if not why:
+                    self.damage.add_unreadable(at, found)
                 at = found
                 continue
             if record.op == _CHUNK:
@@ -182,6 +190,8 @@ class Ros1Bag(BlockBag):
     def _connect(self, ahead: ReadAhead, record: _Record) -> None:
         # Of one that is too large the topic is known, and that its type is not.
         is_large = record.size > limits.DEFINITION_RECORD.value
+        if is_large and _number(record.header, b"conn", _U32) not in self._channels:
+            self.left_out.add_record(record.at, record.size)
         data = b"" if is_large else ahead.get(record.at, record.size)
         self._define(record.header, data)
 
@@ -210,8 +220,11 @@ class Ros1Bag(BlockBag):
         if len(length) < 4:
             raise BrokenPieceError("the file ends")
         (size,) = _U32.unpack(length)
+        if limits.BAG_HEADER.value < size <= self._file.size - at:
+            said = limits.BAG_HEADER.said(size)
+            raise _LongHeaderError(f"a header has {said}")
         if size > limits.BAG_HEADER.value:
-            raise BrokenPieceError("a header is too long")
+            raise BrokenPieceError("the file ends")
         data = ahead.get(at + 4, size + 4)
         if len(data) < size + 4:
             raise BrokenPieceError("the file ends")

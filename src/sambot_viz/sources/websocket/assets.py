@@ -46,8 +46,9 @@ class AssetStore:
         # Nobody can cancel it: the answer is on its way.
         future.set_running_or_notify_cancel()
         if len(uri) > limits.ASSET_NAME.value:
+            size = limits.ASSET_NAME.said(len(uri))
             future.set_exception(
-                SourceError(f"the address {text(uri, 60)} is too long")
+                not_served(uri, f"the address has {size}", "give the file a short name")
             )
             return future
         with self._lock:

@@ -95,12 +95,13 @@ class Conversation(ABC):
     def topic_of(self, head: bytes) -> str:
         """Return the topic of a message by its first bytes; "" when they do not say."""
 
-    def leave_out(self, head: bytes, size: int) -> None:
+    def leave_out(self, head: bytes, size: int, is_new: bool) -> None:
         """Take note of a message that was too large to be read.
 
         Args:
             head: its first bytes.
-            size: of all of it [bytes].
+            size: of what is known of it [bytes].
+            is_new: whether it was not noted before.
         """
         topic = self.topic_of(head)
         known = self.large.get(topic)
@@ -109,7 +110,7 @@ class Conversation(ABC):
         if known is None:
             known = self.large[topic] = LargeMessages()
         self.topics_changed = True
-        known.count += 1
+        known.count += is_new
         known.largest = max(known.largest, size)
 
     def left_out(self, topic: str) -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import socket
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
 from websockets.asyncio.client import ClientConnection
 
 from sambot_viz import limits
-from sambot_viz.sources.websocket.large_frames import LargeFrames
+from sambot_viz.sources.websocket.large_frames import LargeFrames, OnLarge
 
 PACE = 0.010
 """After a read that emptied the socket the next one comes so much later [s]."""
@@ -29,14 +28,16 @@ class PacedConnection(ClientConnection):
     A message that is too large is not read, and the connection goes on.
 
     Attributes:
-        on_large: called with the first bytes of such a message, and its size [bytes].
+        on_large: called with the first bytes of such a message, its size up to now
+            [bytes], and whether it is a new one.
     """
 
     def __init__(self, *parts: Any, **options: Any) -> None:
         super().__init__(*parts, **options)
-        self.on_large: Callable[[bytes, int], object] = lambda head, size: None
+        self.on_large: OnLarge = lambda head, size, is_new: None
         self._large = LargeFrames(
-            limits.MESSAGE.value, lambda head, size: self.on_large(head, size)
+            limits.MESSAGE.value,
+            lambda head, size, is_new: self.on_large(head, size, is_new),
         )
 
     def data_received(self, data: bytes) -> None:

@@ -96,7 +96,7 @@ class InteractiveMarkers:
         most = limits.INTERACTIVE_MARKERS.value
         if before is None and len(self.known) >= most:
             self._rows.say_of_all(
-                "Warn", f"More than the {most} markers that are shown"
+                "Warn", f"More than the {most:,} markers that are shown"
             )
             return
         try:

@@ -31,16 +31,6 @@ DUPLICATES, MESSAGES = "Duplicate Marker Check", "Messages"
 FEWEST = 5
 """So many messages between two pictures are read whatever their size, as many as RViz
 keeps: a computer that is slow goes on to show the newest."""
-OLDER = (
-    f"Of what was before a jump the last {KEPT_DEPTH_S:.0f} s are shown, up to "
-    f"{limits.MARKER_JUMP.value / 1e6:.0f} MB: markers that were sent before are "
-    "missing; to see them, play from an earlier time"
-)
-TOO_MANY = (
-    f"More than {limits.MARKER_MESSAGES.value:,} messages or "
-    f"{limits.MARKER_BURST.value / 1e6:.0f} MB came between two pictures: markers of "
-    "the oldest ones may be missing"
-)
 ROS1_TOPIC = "Marker Topic"
 """What files of ROS 1 call the topic."""
 _NAMESPACES = GroupProperty(
@@ -167,9 +157,9 @@ class MarkerDisplay(MessageFilterDisplay[None]):
         super().messages_came()
         self.show_taken()
         if self._is_after_jump and (subscription.has_older or self._has_left_out):
-            self.status.set(MESSAGES, "Ok", OLDER)
+            self.status.set(MESSAGES, "Ok", _older())
         elif self._has_left_out:
-            self.status.set(MESSAGES, "Warn", TOO_MANY)
+            self.status.set(MESSAGES, "Warn", _too_many())
         self._is_after_jump = False
 
     def time_passed(self) -> None:
@@ -253,6 +243,23 @@ class MarkerDisplay(MessageFilterDisplay[None]):
         if self.shown:
             self._markers.follow_box(namespace)
             self.show_taken()
+
+
+def _older() -> str:
+    messages, size = limits.MARKER_MESSAGES.value, limits.MARKER_JUMP.value
+    return (
+        f"Of what was before a jump the last {KEPT_DEPTH_S:.0f} s are shown, up to "
+        f"{messages:,} messages and {size:,} bytes: markers that were sent before are "
+        "missing; to see them, play from an earlier time"
+    )
+
+
+def _too_many() -> str:
+    messages, size = limits.MARKER_MESSAGES.value, limits.MARKER_BURST.value
+    return (
+        f"More than {messages:,} messages or {size:,} bytes came between two pictures: "
+        "markers of the oldest ones may be missing"
+    )
 
 
 class MarkerArrayDisplay(MarkerDisplay):

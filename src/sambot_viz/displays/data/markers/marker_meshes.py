@@ -64,7 +64,9 @@ class MeshFinder:
         self._apply = context.apply
         self._found = found
         self.resource = resource
-        if context.models is None or len(resource) > limits.ASSET_NAME.value:
+        if len(resource) > limits.ASSET_NAME.value:
+            self.reason = f"the address has {limits.ASSET_NAME.said(len(resource))}"
+        if context.models is None or self.reason:
             self.is_done = True
             return
         text = (

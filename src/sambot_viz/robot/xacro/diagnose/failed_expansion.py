@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.robot.packages.package_index import places_of
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
 from sambot_viz.robot.xacro.diagnose.source_files import (
@@ -106,7 +107,7 @@ class FailedExpansion:
     def searched(self) -> str:
         """The places where a package was looked for."""
         package = self.failure.missing_package
-        return ", ".join(package.searched[:6]) if package else "nowhere"
+        return places_of(package.searched) if package else "nowhere"
 
     @property
     def near_package(self) -> str:
