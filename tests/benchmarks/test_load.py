@@ -55,9 +55,12 @@ IDS = 30_000_000
 """So many messages are sent for 50 joints at 60 Hz within three hours."""
 SOAK = float(os.environ.get("SAMBOT_VIZ_SOAK", "0"))
 """How long thirty browsers look on; other long ones run then too [s]."""
+_ASKED = pytest.mark.skipif(not SOAK, reason="SAMBOT_VIZ_SOAK says for how long [s]")
 
 
-soak = pytest.mark.skipif(not SOAK, reason="SAMBOT_VIZ_SOAK says for how long [s]")
+def soak(test: Callable[..., None]) -> Callable[..., None]:
+    """Mark a test that takes minutes; it runs when it is said for how long."""
+    return pytest.mark.soak(_ASKED(test))
 
 
 def sweep(seconds: float = SECONDS) -> list[float]:

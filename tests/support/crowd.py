@@ -45,8 +45,8 @@ class _Head(msgspec.Struct):
 
     type: str
     name: str = ""
-    wxyz: list[float] | None = None
-    position: list[float] | bytes | None = None
+    wxyz: Any = None
+    position: Any = None
     number: int | None = None
 
 
