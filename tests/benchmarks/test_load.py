@@ -22,7 +22,7 @@ from typing import Any
 import large_scene
 import pytest
 import viser
-from crowd import Crowd, Light
+from crowd import LONGEST, Crowd, Light
 from protocol_client import ProtocolClient
 from slow_line import slow_line
 from steps import RECORD, Times, delays, drag, p95, report
@@ -333,7 +333,8 @@ def test_laptops_that_sleep_are_let_go_and_the_others_notice_nothing(
             laptops.sleep()
             times = move(user, awake, 60.0)
             laptops.wake()
-            end = time.monotonic() + 10.0
+            # They have to read first what was sent before they were let go.
+            end = time.monotonic() + LONGEST
             while left := [light for light in laptops.look() if not light.closed]:
                 if time.monotonic() > end:
                     break
