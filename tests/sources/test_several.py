@@ -87,6 +87,36 @@ def test_the_same_topics_without_a_prefix_hide_each_other(tmp_path: Path) -> Non
         assert not [p for p in inputs.problems() if p.code == "topic-hidden"]
 
 
+def test_a_recording_that_has_ended_is_no_robot_that_fell_silent(
+    tmp_path: Path,
+) -> None:
+    one = run(tmp_path, "one")
+    told = [("/tf", second / 2, {"base": "odom"}) for second in range(80)]
+    times = [*(1.0 + count / 20 for count in range(20)), 30.0]
+    scans = [(time, time) for time in times]
+    texts = {"/robot_description": described("base")}
+    other = write_recording(tmp_path / "other.mcap", texts, told, None, scans)
+    source = [f"a={one}", f"b={other}"]
+    with Visualizer(source=source, source_prefix={"a": "robot1"}, port=0) as viz:
+        said = {}
+        for seconds in (2.0, 9.0, 39.0):
+            viz.player.jump(seconds)
+            accounts = viz.topics
+            said[seconds] = {
+                n: "" if a.reason is None else a.reason.text
+                for n, a in accounts.items()
+            }
+        assert said[2.0]["/robot1/tf"] == said[9.0]["/tf"] == said[39.0]["/tf"] == ""
+        ended = "its recording ended at 2.0 s: go back there with the time bar or --at"
+        assert said[9.0]["/robot1/tf"].startswith(ended)
+        assert said[39.0]["/robot1/tf"].startswith(ended)
+        assert viz.topics["/robot1/tf"].reason.severity == "info"
+        silent = "silent from 2.0 s to 30.0 s: look at what publishes it"
+        assert said[9.0]["/scan"] == silent
+        last = "its last message came at 30.0 s: go back there with the time bar or --"
+        assert last in said[39.0]["/scan"]
+
+
 def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
     before = run(tmp_path, "before")
     source = [f"before={before}", f"now={peer.uri}"]

@@ -98,6 +98,14 @@ def test_a_root_that_one_robot_hangs_elsewhere_is_shared_no_longer(
         (["/a/tf", "/b/tf_static"], [], ["/a", "/b"]),
         (["/tf", "/a/tf"], ["/a/robot_description"], []),
         (["/tf", "/a/tf"], ["/a/robot_description", "/robot_description"], ["/a"]),
+        (["/tf", "/a/tf"], ["/a/robot_description", "/b/robot_description"], ["/a"]),
+        # A robot without transforms has its name space all the same.
+        (["/a/tf"], ["/a/robot_description", "/b/robot_description"], ["/a", "/b"]),
+        (["/a/tf"], ["/a/robot_description", "/robot_description"], ["/a"]),
+        ([], ["/a/robot_description", "/b/robot_description"], ["/a", "/b"]),
+        (["/a/tf"], ["/b/robot_description"], []),
+        (["/tf"], ["/a/robot_description", "/b/robot_description"], []),
+        (["/moves"], ["/a/robot_description", "/b/robot_description"], []),
         # Foxglove's transforms are global, whatever their topics are called.
         (["/camera/pose", "/lidar/pose"], [], []),
     ],

@@ -156,6 +156,7 @@ class DisplayContext:
         nodes: the frames as scene nodes.
         assets: the mesh files and textures.
         fixed_frame: the frame everything is drawn in.
+        meant: returns the frames that a config may mean by a name.
         background: colour behind the scene, 0 to 255.
         robot: the robot that was opened, or None.
         moving: child frame → the joint type that moves it.
@@ -197,6 +198,7 @@ class DisplayContext:
     displays: Callable[[], Sequence[Display]] = tuple
     apply: Callable[[Callable[[], None]], None] = lambda action: action()
     place: Callable[[Set[str]], None] = lambda frames: None
+    meant: Callable[[str], Sequence[str]] = lambda name: (name,)
 
     def color_of(self, link: str) -> Rgb | None:
         """Return the colour in place of a link's own, if a program has set one."""
@@ -206,7 +208,12 @@ class DisplayContext:
 
     def frame(self, name: object) -> str:
         """Return the frame a Reference Frame property means."""
-        return self.fixed_frame if name == FIXED_FRAME else str(name)
+        return self.fixed_frame if name == FIXED_FRAME else self.only_meant(str(name))
+
+    def only_meant(self, name: str) -> str:
+        """Return the frame that a name means here; itself where it may be several."""
+        found = self.meant(name)
+        return found[0] if len(found) == 1 else name
 
     def above(self, frame: str) -> str:
         """The name of the node at a frame; the world ("") for the fixed frame."""
@@ -410,6 +417,13 @@ class Display:
 
     def assets_read(self) -> None:
         """Draw mesh files and textures that were read in the background."""
+
+    def unseen_topics(self) -> Iterable[tuple[str, TopicReason]]:
+        """Return topics of which it shows nothing, or not all, and why; as its status.
+
+        What is told of all topics together, such as a loop of transforms, is left out.
+        """
+        return ()
 
     def time_passed(self) -> None:
         """Look at the time; called twice a second where messages come."""

@@ -14,6 +14,7 @@ from typing import Literal, Protocol, TypeAlias
 
 from sambot_viz.errors import Problem, RobotError
 from sambot_viz.robot.model import Robot
+from sambot_viz.topics.reasons import TopicReason
 
 ModelResult: TypeAlias = "Robot | RobotError"
 """A robot, or the reason why its file gave none."""
@@ -31,6 +32,7 @@ class Description:
         level: of the status of the topic.
         sentence: why there is no robot, or what is doubtful, with the remedy.
         instead: a topic to use in place of this one; empty when none is meant.
+        reason: why the robot is not seen at a place, though its topic is read.
     """
 
     topic: str
@@ -40,6 +42,7 @@ class Description:
     level: Literal["Ok", "Warn", "Error"] = "Ok"
     sentence: str = "OK"
     instead: str = ""
+    reason: TopicReason | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +77,7 @@ class Descriptions(Protocol):
         """Return the topics that move the joints of a further robot, as it is one."""
         ...
 
-    def transform_doubts(self) -> Mapping[str, str]:
+    def transform_doubts(self) -> Mapping[str, TopicReason]:
         """Return what is wrong with topics of transforms, by their names."""
         ...
 

@@ -20,7 +20,6 @@ from sambot_viz.server.live_model import FRAMES_WITHIN, LiveModel
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
-from sambot_viz.session.data.descriptions import descriptions_of
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.first_sight import is_map, show_topics
 from sambot_viz.session.own_config import fit_own_config, fit_robot
@@ -143,7 +142,7 @@ class ShownInputs:
     def _show_data(self, document: RvizConfig, moved_by: SourceRobot) -> None:
         """Show what the sources have, in the config that comes with the program."""
         points_of = moved_by.first_messages.points_of
-        robots = descriptions_of(moved_by.topics)
+        robots = moved_by.topics.descriptions
         show_topics(document, moved_by.types, points_of, robots)
         missing = moved_by.description is None and self._inputs.options.model is None
         document.fits_frames = missing and moved_by.can("seek")

@@ -126,8 +126,17 @@ class Session:
             scene.context.is_paced = self.data.is_paced
             scene.context.messages = self.data.messages
             is_given, redraw = options.model is not None, self._redraw
-            self._descriptions = SourceDescriptions(moved_by, is_given, worker, redraw)
+            topics = self.data.topics
+            self._descriptions = SourceDescriptions(
+                moved_by,
+                is_given,
+                worker,
+                redraw,
+                topics.reason,
+            )
+            connect([topics.looked], self._descriptions.look_again)
             scene.context.descriptions = self._descriptions
+            scene.context.meant = moved_by.meant_frames
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from sambot_viz import limits
-from sambot_viz.displays.data.topic_display import TopicDisplay
 from sambot_viz.displays.display import Display, robot_displays
 from sambot_viz.errors import Problem, SambotVizError
 from sambot_viz.meshes.asset import Asset
@@ -191,14 +190,12 @@ def problems_of_topics(displays: Iterable[Display]) -> Iterator[Problem]:
     """
     told: set[tuple[str, TopicReason]] = set()
     for display in displays:
-        if not isinstance(display, TopicDisplay) or not display.shown:
-            continue
-        why = display.unseen()
-        if why is None or why.severity == "info" or (display.topic, why) in told:
-            continue
-        told.add((display.topic, why))
-        name = display.topic or f"the display {display.config.name}"
-        yield Problem(why.severity, why.code, f"{name}: {why.text}")
+        for topic, why in display.unseen_topics() if display.shown else ():
+            if why.severity == "info" or (topic, why) in told:
+                continue
+            told.add((topic, why))
+            name = topic or f"the display {display.config.name}"
+            yield Problem(why.severity, why.code, f"{name}: {why.text}")
 
 
 class _State(NamedTuple):

@@ -76,8 +76,8 @@ class Evidence(Protocol):
         """Return why nothing comes of it."""
         ...
 
-    def of_transforms(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms, or what hides them."""
+    def of_robot(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms or its robot, or what hides them."""
         ...
 
     def to_come(self, name: str) -> TopicReason | None:
@@ -149,7 +149,7 @@ def _reasons(
     yield evidence.unreceived(name)
     yield unread(decoder)
     yield looked.undecodable(evidence.topic(name).count)
-    yield evidence.of_transforms(name)
+    yield evidence.of_robot(name)
     drawing = drawing or Drawing(None)
     if not drawing.has_looked and reasons.drawn_by(name, decoder.type_name) is None:
         drawing = Drawing(reasons.no_display(decoder.type_name, looked.fields))

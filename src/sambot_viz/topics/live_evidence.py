@@ -92,9 +92,9 @@ class LiveEvidence:
             return reasons.no_message_yet(name) if waited > SILENT_AFTER else None
         return found
 
-    def of_transforms(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms, or what hides them."""
-        return self._placement.of_transforms(name)
+    def of_robot(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms or its robot, or what hides them."""
+        return self._placement.of_robot(name)
 
     def to_come(self, name: str) -> TopicReason | None:
         """Return None: nobody knows what a robot will say."""
@@ -102,6 +102,8 @@ class LiveEvidence:
     def unplaced(self, name: str) -> TopicReason | None:
         """Return why the frame of its newest message has no place."""
         looked = self.looked(name)
+        if name in self._moved_by.topics.descriptions:
+            return self._placement.unplaced_robot(name, self._fault_of)
         if not looked.frame or name in self._moved_by.topics.all:
             return None
         stamp = None if looked.stamps is None else looked.stamps[1]

@@ -24,6 +24,8 @@ _OF_A_ROBOT = frozenset({"base_link", "base_footprint"})
 """Frames that are part of a robot, also where nothing says what holds it (REP 105)."""
 _MOST_KEPT = 1000
 _MOST_NAMES = 4 * limits.FRAMES.value
+_OF_TF = ("tf", "tf_static")
+"""Topics that have name spaces; Foxglove's transforms are those of all robots."""
 _PARTS = ("markers", "controls")
 """Arrays of messages whose elements have headers, or such arrays."""
 
@@ -139,6 +141,36 @@ class NameSpaces:
         put = _put(prefix, link)
         return put if known is None else known.given.get(prefix, put)
 
+    def meant(self, frame: str, preferred: Iterable[str] = ()) -> tuple[str, ...]:
+        """Return the frames that are meant by a name that knows no name space.
+
+        Args:
+            frame: the name, as a config has it.
+            preferred: topics of the robots that are meant before others.
+
+        Returns:
+            The frame itself where it is one, or nobody calls one so.
+        """
+        frame = plain_name(frame)
+        with self._lock:
+            if frame in self._names:
+                return (frame,)
+            known = self._known.get(frame)
+            given = {} if known is None else dict(known.given)
+            if known is None:
+                given = self._of_its_space(frame)
+        if not given:
+            return (frame,)
+        named = {self.prefix_of(topic) for topic in preferred}
+        found = [name for prefix, name in given.items() if prefix in named]
+        return tuple(found) if len(found) == 1 else tuple(sorted(given.values()))
+
+    def _of_its_space(self, frame: str) -> dict[str, str]:
+        """Return what a frame is called whose name has a name space before it."""
+        prefix = self.prefix_of(f"/{frame}")
+        known = self._known.get(frame.removeprefix(prefix)) if prefix else None
+        return {p: n for p, n in known.given.items() if p == prefix} if known else {}
+
     def name_frames(self, topic: str, message: Any) -> None:
         """Give the headers of a message the names of the frames that they mean."""
         if not self._spaces:
@@ -225,21 +257,23 @@ def _put(prefix: str, frame: str) -> str:
 def separate_spaces(transforms: Iterable[str], described: Iterable[str]) -> list[str]:
     """Return the name spaces whose frames are to be kept apart.
 
+    Transforms without a name space are those of all robots that have none in their
+    own. Without such, each robot has its name space.
+
     Args:
         transforms: topics of transforms.
         described: topics of descriptions.
 
     Returns:
-        None where the transforms come in one name space, or all robots but one have
-        none.
+        None where there is one robot, or all robots share the same transforms.
     """
     spaces = {
-        space_of(topic)
+        space_of(topic) if topic.rpartition("/")[2] in _OF_TF else ""
         for topic in transforms
-        if topic.rpartition("/")[2] in ("tf", "tf_static")
     }
-    named = sorted(space for space in spaces if space)
-    if len(named) > 1:
-        return named
-    robots = {space_of(topic) for topic in described}
-    return named if "" in spaces and {"", *named} <= robots else []
+    robots, told = {space_of(topic) for topic in described}, spaces - {""}
+    if "" in spaces:
+        is_apart = len(told) > 1 or bool(told and told < robots)
+        return sorted(told) if is_apart else []
+    is_apart = len(told) > 1 or (len(robots) > 1 and told <= robots)
+    return sorted((told | robots) - {""}) if is_apart else []

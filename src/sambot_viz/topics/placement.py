@@ -6,13 +6,18 @@ display draws: both say the same.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.history import DURATION
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics import reasons
+from sambot_viz.topics.described_links import DescribedLinks
 from sambot_viz.topics.name_spaces import space_of
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import TransformTopics, problems_of_parents
 
@@ -73,11 +78,15 @@ class Placement:
             "use_sim_time",
         )
 
-    def of_transforms(self, name: str) -> TopicReason | None:
-        """Return what is wrong with the transforms of a topic, or what hides them."""
+    def of_robot(self, name: str) -> TopicReason | None:
+        """Return what is wrong with transforms or a robot, or what hides them."""
         topics = self._robot.topics
+        if name in topics.descriptions:
+            return self._hidden_robot(name)
         taken = (*topics.moving, *topics.static)
         if name in taken:
+            if doubt := self._unfit(name):
+                return doubt
             for found, of_topics in problems_of_parents(self._transforms):
                 if name in of_topics:
                     return TopicReason(found.code, f"{found.message}; {found.hint}")
@@ -91,6 +100,49 @@ class Placement:
             f"its frames are hidden by those of {taken[0]}: with "
             f"{space_of(name)}/robot_description both robots are shown apart",
         )
+
+    def _unfit(self, name: str) -> TopicReason | None:
+        """Return that tf2's listeners get nothing of a topic; what is recorded came."""
+        known = self._robot.source.topics().get(name)
+        if known is None or self._robot.has_recorded(name):
+            return None
+        is_static = name in self._robot.topics.static
+        return reasons.transforms_qos(known.qos, is_static=is_static)
+
+    def _hidden_robot(self, name: str) -> TopicReason | None:
+        """Return which robot has the frames of that of a topic."""
+        topics = self._robot.topics.descriptions
+        for other in topics[: topics.index(name)]:
+            space = space_of(name) or space_of(other)
+            shared = self._links(name).held & self._links(other).held
+            if space_of(name) == space_of(other) or not shared:
+                continue
+            return TopicReason(
+                "topic-hidden",
+                f"its frames, such as {min(shared)}, are those of {other} too, and "
+                "both robots are drawn at one place: publish the transforms of one on "
+                f"{space}/tf, or with a frame_prefix",
+            )
+        return None
+
+    def unplaced_robot(
+        self, name: str, fault_of: Callable[[str], LookupRefused | None]
+    ) -> TopicReason | None:
+        """Return why a further robot has no place; None for other topics.
+
+        Args:
+            name: of the topic of its description.
+            fault_of: returns why a frame has no place.
+        """
+        root = self._links(name).root if name in self._robot.topics.others else ""
+        refused = fault_of(root) if root else None
+        # It is drawn where its frames were last, whatever their times.
+        if refused is None or refused.times is not None:
+            return None
+        return self.reason(name, refused, None)
+
+    def _links(self, name: str) -> DescribedLinks:
+        return self._robot.links_in_frames(name, self._transforms.pairs())
 
     def _remedy(self, refused: LookupRefused, at_ns: int | None) -> str:
         """Return what to do; empty where the next transforms bring the place."""
@@ -127,14 +179,17 @@ class Placement:
         if hints:
             return "; ".join(hints)
         topics = self._robot.topics
-        if topics.moving and not topics.static and self._robot.recording is not None:
+        recorded = self._robot.recording is not None and not topics.spaces
+        if topics.moving and not topics.static and recorded:
             return (
                 "/tf_static is not in this recording: record it too (ros2 bag record "
                 "-a, or name it)"
             )
+        top = top_frame(refused.source, self._transforms.pairs())
+        words = f"0 0 0 0 0 0 {refused.target} {top}"
         return (
-            "add it: --static-transform, or ros2 run tf2_ros "
-            f"static_transform_publisher 0 0 0 0 0 0 {refused.target} {refused.source}"
+            f'add it: --static-transform "{words}", or ros2 run tf2_ros '
+            f"static_transform_publisher {words}"
         )
 
     def _begin(self, at_ns: int | None, *, is_later: bool = False) -> str:

@@ -36,6 +36,7 @@ SEVERITIES: Mapping[str, Severity] = {
     "wrong-type": "warning",
     "off": "info",
     "stale": "warning",
+    "ended": "info",
     "lagging": "warning",
     "topic-hidden": "warning",
     "tf-loop": "warning",
@@ -43,6 +44,8 @@ SEVERITIES: Mapping[str, Severity] = {
 }
 """All reasons of topics."""
 
+OF_PARENTS = ("tf-loop", "two-parents")
+"""Reasons of transforms that are problems of the whole tree."""
 QOS_WORDS = {
     "reliable": "Reliable",
     "best_effort": "Best Effort",
@@ -267,6 +270,24 @@ def stale(age: float, period: float | None) -> TopicReason | None:
     if period is None or age <= max(STALE, PERIODS * period):
         return None
     return TopicReason("stale", f"its messages come no more: {_LOOK}")
+
+
+def over(last: float, coming: float | None, has_ended: bool) -> TopicReason:
+    """Say why a topic of a recording is silent at a time, and where it is not.
+
+    Args:
+        last: when its last message came [s from the first message].
+        coming: when the next one comes; None for never.
+        has_ended: its recording ended, beside one that goes on.
+    """
+    back = f"go back there with the time bar or --at {last:.1f}"
+    if has_ended:
+        return TopicReason("ended", f"its recording ended at {last:.1f} s: {back}")
+    if coming is not None:
+        text = f"silent from {last:.1f} s to {coming:.1f} s: {_LOOK}"
+        return TopicReason("stale", text)
+    text = f"its last message came at {last:.1f} s: {back}, or {_LOOK}"
+    return TopicReason("stale", text)
 
 
 def lagging(dropped: int, where: str) -> TopicReason | None:

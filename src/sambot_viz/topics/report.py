@@ -117,9 +117,9 @@ class TopicReport:
         """Return why nothing of it was recorded."""
         return reasons.unreceived(self._topics[name])
 
-    def of_transforms(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms, or what hides them."""
-        return self._placement.of_transforms(name)
+    def of_robot(self, name: str) -> TopicReason | None:
+        """Return what is wrong with its transforms or its robot, or what hides them."""
+        return self._placement.of_robot(name)
 
     def to_come(self, name: str) -> TopicReason | None:
         """Return that it begins later than the time that is looked at."""
@@ -134,6 +134,8 @@ class TopicReport:
     def unplaced(self, name: str) -> TopicReason | None:
         """Return why the frame of its messages has no place, where they have one."""
         looked = self.survey.of(name)
+        if name in self._recorded.topics.descriptions:
+            return self._placement.unplaced_robot(name, self._fault_of)
         if not looked.frame or name in self._recorded.topics.all:
             return None
         if looked.stamps is not None:
@@ -146,14 +148,29 @@ class TopicReport:
                 return self._placement.reason(name, refused, None)
         return None if self.at_ns is None else self._unplaced_at(name, self.at_ns)
 
+    def _fault_of(self, frame: str) -> LookupRefused | None:
+        """Return why a frame has no place in the picture; None when it has one."""
+        fixed = self._fixed_frame()
+        if self._tree is None or fixed not in self._tree:
+            return self.survey.lookup_fault(frame)
+        try:
+            self._tree.drawn(fixed, frame)
+        except LookupRefused as refused:
+            return refused
+        return None
+
     def silent(self, name: str) -> TopicReason | None:
         """Return that its last message came long before the time that is looked at."""
-        rate = self.rate(name)
-        if self.at_ns is None or rate is None:
+        rate, recording, now = self.rate(name), self._recording, self.at_ns
+        last = None if now is None or rate is None else self.last_ns(name, now)
+        if now is None or rate is None or last is None:
             return None
-        last = self.last_ns(name, self.at_ns)
-        age = 0.0 if last is None else (self.at_ns - last) * 1e-9
-        return reasons.stale(age, 1 / rate)
+        if reasons.stale((now - last) * 1e-9, 1 / rate) is None:
+            return None
+        start, coming = recording.start_ns or 0, recording.next(name, now)
+        seconds = None if coming is None else (coming.log_ns - start) * 1e-9
+        has_ended = (recording.ends_at(name) or 0) < now
+        return reasons.over((last - start) * 1e-9, seconds, has_ended)
 
     def _unplaced_at(self, name: str, at_ns: int) -> TopicReason | None:
         """Return why the last message up to a time has no place then."""

@@ -31,6 +31,7 @@ class RobotTopics:
         spaces: name spaces whose frames are kept apart; none where there is one.
         joints_of: further description → the topics of the positions of its joints.
         all: every topic of which messages are taken.
+        descriptions: of all robots, its own first.
     """
 
     description: str | None = None
@@ -43,9 +44,11 @@ class RobotTopics:
         default_factory=dict[str, tuple[str, ...]]
     )
     all: frozenset[str] = field(init=False, repr=False, compare=False)
+    descriptions: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         own = () if self.description is None else (self.description,)
+        object.__setattr__(self, "descriptions", (*own, *self.others))
         taken = frozenset((*own, *self.moving, *self.static, *self.joint_states))
         object.__setattr__(self, "all", taken)
 
@@ -54,8 +57,9 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
     """Choose the topics of a robot.
 
     Without a namespace where there is such a robot, else those of the first namespace
-    that has a description. Transforms without a namespace belong to every robot. Where
-    robots have namespaces, all transforms are taken (see `NameSpaces`).
+    that has a description; one that transforms place comes before those that none
+    does. Transforms without a namespace belong to every robot. Where robots have
+    namespaces, all transforms are taken (see `NameSpaces`).
 
     Args:
         types: topic → the name of its type, as ``std_msgs/msg/String``.
@@ -69,12 +73,18 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
         or (name in named and meaning_of(kind) is Meaning.TEXT)
     ]
     wanted = next((name for name in named if name in found), "")
-    found.sort(key=lambda name: (name != wanted, name.count("/"), name))
+    every = _all_of(types, Meaning.TRANSFORMS)
+    spaces = separate_spaces(every, found)
+    told = {space_of(name) for name in every}
+
+    def order(name: str) -> tuple[bool, bool, int, str]:
+        lacks = bool(spaces) and told.isdisjoint(("", space_of(name)))
+        return name != wanted, lacks, name.count("/"), name
+
+    found.sort(key=order)
     description = found[0] if found else None
     space = "" if description is None else space_of(description)
     others = {name: space_of(name) for name in found[1:] if space_of(name) != space}
-    every = _all_of(types, Meaning.TRANSFORMS)
-    spaces = separate_spaces(every, found)
     transforms = every if spaces else _near(every, space)
     joints = _all_of(types, Meaning.JOINTS, "joint_states")
     return RobotTopics(

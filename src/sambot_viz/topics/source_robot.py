@@ -5,13 +5,14 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.frames import FrameHistory, FrameTree
 from sambot_viz.frames.data_frames import DataFrames
-from sambot_viz.frames.frame_prefix import frame_prefix, joints_of
+from sambot_viz.frames.frame_prefix import frame_prefix, joints_of, other_prefix
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.robot_frames import hang_robot
 from sambot_viz.joints import JointState
@@ -21,6 +22,7 @@ from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import Capability, Source
 from sambot_viz.sources.subscriber import jump
 from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.described_links import DescribedLinks, described_links
 from sambot_viz.topics.first_messages import FirstMessages
 from sambot_viz.topics.first_topics import shown_at_first
 from sambot_viz.topics.joint_index import JointIndex
@@ -114,6 +116,8 @@ class SourceRobot:
         self._framed = threading.Condition()
         self._seen = 0
         self._texts: dict[str, str] = {}
+        self._links: dict[str, tuple[str, DescribedLinks]] = {}
+        self._followed: set[str] = set()
         self._index: TransformIndex | None = None
         self._joint_indexes: dict[tuple[str, ...], JointIndex] = {}
         self.first_messages = FirstMessages(self.recording, self.decode)
@@ -294,10 +298,47 @@ class SourceRobot:
             robot: the opened one.
             pairs: (parent, child) of all transforms that are known.
         """
-        topic = self.topics.description or ""
-        likely = f"{space_of(topic)}/".removeprefix("/")
-        prefix = self.spaces.prefix_of(topic)
-        return prefix or frame_prefix(joints_of(robot), pairs, likely)
+        links = DescribedLinks(plain_name(robot.root), tuple(joints_of(robot)))
+        return self._prefix(self.topics.description or "", links, [*pairs])
+
+    def _prefix(
+        self, topic: str, links: DescribedLinks, pairs: Sequence[tuple[str, str]]
+    ) -> str:
+        space = space_of(topic).removeprefix("/")
+        prefix = self.spaces.prefix_of(topic) or frame_prefix(
+            links.joints, pairs, f"{space}/"
+        )
+        if prefix or not space:
+            return prefix
+        # The name space of its topic, where only its root is known.
+        names = {link for joint in links.joints for link in joint} | {links.root}
+        frames = {frame for pair in pairs for frame in pair}
+        found = other_prefix(names, names, frames, space)
+        return f"{space}/" if found == space else ""
+
+    def links_in_frames(
+        self, topic: str, pairs: Iterable[tuple[str, str]]
+    ) -> DescribedLinks:
+        """Return the links of the robot of a topic by the names of their frames.
+
+        Args:
+            topic: a description; of one that has not come there are none.
+            pairs: (parent, child) of all transforms that are known.
+        """
+        text = self.text_of(topic) or ""
+        if self._links.get(topic, ("", None))[0] != text:
+            self._links[topic] = text, described_links(text)
+        known = self._links.get(topic)
+        if known is None:
+            return DescribedLinks()
+        root, joints = known[1].root, known[1].joints
+        if self.spaces.prefix_of(topic):
+            name = partial(self.spaces.link_frame, topic)
+        else:
+            name = self._prefix(topic, known[1], [*pairs]).__add__
+        return DescribedLinks(
+            name(root) if root else "", tuple((name(a), name(b)) for a, b in joints)
+        )
 
     def frames(self, robot: Robot, joints: JointState) -> FrameTree:
         """Return where all frames are at the time to look at, or else at the end.
@@ -353,6 +394,11 @@ class SourceRobot:
             self._joint_indexes[key] = JointIndex(recording, key, names_of)
         return self._joint_indexes.get(key)
 
+    def meant_frames(self, frame: str) -> tuple[str, ...]:
+        """Return the frames that a config means by a name (see `NameSpaces.meant`)."""
+        there = [topic for topic in self.named if topic in self.topics.descriptions]
+        return self.spaces.meant(frame, there)
+
     def new_decoding(self) -> Decoding:
         """Return what decodes the messages for a session."""
         return Decoding(self.decoding.types, self.spaces)
@@ -373,11 +419,17 @@ class SourceRobot:
         """Return what reads the transforms of a message; it raises DecodeError."""
         return self.new_decoding().transforms
 
-    def last_text(self, topic: str) -> str | None:
-        """Return the last text that a topic of a recording has sent, if it has."""
+    def text_of(self, topic: str) -> str | None:
+        """Return the last text that a topic has sent, if it has.
+
+        That of a robot on the network is asked for, and `on_status` tells that it came.
+        """
         recording = self.recording
-        if recording is None:
-            return None
+        if recording is None or topic not in recording.topics:
+            if topic == self.topics.description:
+                return self.description
+            self._follow_text(topic)
+            return self._texts.get(topic)
         if topic not in self._texts:
             latched = [m for m in recording.latched() if m.topic == topic]
             # Not every topic of strings is latched, or has the name of one that is.
@@ -440,7 +492,7 @@ class SourceRobot:
         """Take what a recording says of the robot, at whatever time."""
         main, decode = self.topics.description or "", self.transform_decoder()
         if self.has_recorded(main):
-            self.description = self.last_text(main)
+            self.description = self.text_of(main)
         moving = [name for name in self.topics.moving if self.has_recorded(name)]
         self._index = TransformIndex(recording, moving, decode)
         # What the begin tells of frames; every session starts from it.
@@ -457,6 +509,10 @@ class SourceRobot:
         if main is not None and main != before.description:
             if not self.has_recorded(main):
                 live.subscribe(main, self._describe)
+        if len(self.topics.descriptions) > 1:
+            # The frames of one may be those of another.
+            for topic in self.topics.others:
+                self._follow_text(topic)
         for topic in (*self.topics.moving, *self.topics.static):
             if self._seen < ENOUGH and not self.has_recorded(topic):
                 live.subscribe(topic, self._expect)
@@ -466,6 +522,20 @@ class SourceRobot:
         if text and text != self.description:
             self.description = text
             self.on_description(text)
+            self.tell_status()
+
+    def _follow_text(self, topic: str) -> None:
+        """Ask a live source for the texts of a topic, once."""
+        live = self.source.live
+        if live is None or topic in self._followed or self.has_recorded(topic):
+            return
+        self._followed.add(topic)
+        live.subscribe(topic, self._take_text)
+
+    def _take_text(self, message: Recorded) -> None:
+        text = self.decoding.text(message)
+        if text and text != self._texts.get(message.topic):
+            self._texts[message.topic] = text
             self.tell_status()
 
     def _expect(self, message: Recorded) -> None:

@@ -6,17 +6,15 @@ topic so many are decoded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 
 from sambot_viz import limits
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameHistory, FrameTree, LookupRefused
-from sambot_viz.frames.frame_prefix import frame_prefix
-from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.transform import Transform
-from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.element import Element, parse_xml
 from sambot_viz.sources.message import Recorded
+from sambot_viz.topics.described_links import DescribedLinks
 from sambot_viz.topics.looked import Looked
 from sambot_viz.topics.robot_topics import top_frame
 from sambot_viz.topics.source_robot import SourceRobot
@@ -135,66 +133,34 @@ class Survey:
     def _frames(self) -> tuple[FrameTree, str]:
         """Return all frames, and the one at the top of the robot's tree."""
         tree = FrameTree(self.transforms.history)
-        root, joints = self._robot()
-        pairs = list(self.transforms.pairs())
-        self._hang(tree, joints, pairs)
-        if root:
-            root = frame_prefix(joints, pairs) + root
+        pairs, robots = list(self.transforms.pairs()), self._robots()
+        _hang(tree, robots, pairs)
+        root = robots[0].root if robots else ""
         first = root or next((parent for parent, _ in pairs), "")
+        joints = [joint for robot in robots for joint in robot.joints]
         return tree, top_frame(first, (*joints, *pairs))
 
-    def _robot(self) -> tuple[str, list[tuple[str, str]]]:
-        """Return root and joints of the robot, by the names of frames."""
-        root, joints = _robot_of(self.recorded.description)
-        spaces, topic = self.recorded.spaces, self.recorded.topics.description or ""
-        if not spaces:
-            return root, joints
-        named = [tuple(spaces.link_frame(topic, one) for one in j) for j in joints]
-        return spaces.link_frame(topic, root), [(one, other) for one, other in named]
+    def _robots(self) -> list[DescribedLinks]:
+        """Return the links of all robots, by the names of their frames."""
+        pairs, recorded = list(self.transforms.pairs()), self.recorded
+        return [
+            recorded.links_in_frames(topic, pairs)
+            for topic in recorded.topics.descriptions
+        ]
 
     def with_joints(self, tree: FrameTree) -> FrameTree:
         """Hang the links in a tree where messages do not say where they are."""
-        _, joints = self._robot()
-        self._hang(tree, joints, list(self.transforms.pairs()))
+        _hang(tree, self._robots(), list(self.transforms.pairs()))
         return tree
 
-    def _hang(
-        self,
-        tree: FrameTree,
-        joints: Sequence[tuple[str, str]],
-        pairs: Sequence[tuple[str, str]],
-    ) -> None:
-        if set(joints).isdisjoint(pairs) and not frame_prefix(joints, pairs):
-            for parent, child in joints:
-                try:
+
+def _hang(
+    tree: FrameTree,
+    robots: Iterable[DescribedLinks],
+    pairs: Sequence[tuple[str, str]],
+) -> None:
+    for robot in robots:
+        if set(robot.joints).isdisjoint(pairs):
+            for parent, child in robot.joints:
+                with suppress(FrameError):
                     tree.set_static(parent, child, Transform.identity())
-                except FrameError:
-                    continue
-
-
-_FLOATING = ("floating", "ball", "universal", "revolute2", "gearbox", "screw")
-"""Types of joints that robot_state_publisher leaves out, in URDF and in SDF."""
-
-
-def _robot_of(description: str | None) -> tuple[str, list[tuple[str, str]]]:
-    """Return the root of a robot, and (parent, child) of the joints that hold links."""
-    try:
-        robot = parse_xml(description or "<robot/>", "")
-    except XmlFault:
-        return "", []
-    # In SDF the names are texts, and there is a <model> around the links.
-    robot = robot.find("model") or robot
-    pairs: list[tuple[str, str]] = []
-    for joint in (one for one in robot.iter() if one.tag == "joint"):
-        parent, child = joint.find("parent"), joint.find("child")
-        is_floating = joint.attributes.get("type") in _FLOATING
-        if parent is None or child is None or is_floating:
-            continue
-        pairs.append((_link(parent, "link"), _link(child, "link")))
-    children = {child for _, child in pairs}
-    links = (_link(one, "name") for one in robot.children if one.tag == "link")
-    return next((link for link in links if link not in children), ""), pairs
-
-
-def _link(element: Element, attribute: str) -> str:
-    return plain_name(element.attributes.get(attribute) or element.text.strip())

@@ -101,8 +101,9 @@ class TransformTopics:
         self.renamed = 0
         self._spaces = NameSpaces() if spaces is None else spaces
         self._named = self._spaces.version
-        # The last one of each group of frames, to be taken again by other names.
-        self._fixed: dict[tuple[str, tuple[FramePair, ...]], Recorded] = {}
+        # The last one of each group of frames, to be taken again by other names; its
+        # frames are kept, so that no others get their id.
+        self._last: dict[int, tuple[tuple[FramePair, ...], Recorded]] = {}
         self.topics = (*moving, *static)
         self.always = frozenset(static)
         self.faults: Counter[tuple[str, str]] = Counter()
@@ -131,9 +132,9 @@ class TransformTopics:
     def take(self, message: Recorded) -> None:
         """Take the transforms of a message, as tf2's listener does."""
         is_static = message.topic in self.always
-        for stamp, edges, poses in self._transforms_of(message):
+        for stamp, edges, poses in self._transforms_of(message, self.take):
+            self._keep(message, edges)
             if is_static:
-                self._keep(message, edges)
                 self._take_static(message, edges, poses)
             else:
                 self._take_moving(message.topic, stamp, edges, poses)
@@ -181,6 +182,10 @@ class TransformTopics:
         self._forget(lambda source: source is None)
 
     def _forget(self, is_outdated: Callable[[str | None], bool]) -> None:
+        for key, (_, message) in [*self._last.items()]:
+            if message.topic not in self.always:
+                if is_outdated(self._source_of(message.topic)):
+                    del self._last[key]
         groups = self._groups.items()
         gone = {k: g for k, g in groups if is_outdated(self._source_of(g.topic))}
         if len(gone) == len(self._groups):
@@ -196,14 +201,16 @@ class TransformTopics:
     def expect(self, messages: Iterable[Recorded]) -> None:
         """Learn from messages, without taking them, which frames there will be."""
         for message in messages:
-            for _, edges, poses in self._transforms_of(message):
-                for parent, child in edges:
-                    self._note_parent(message.topic, parent, child)
-                self._note_first(message.log_ns, edges, poses)
-                if message.topic in self.always:
-                    self._keep(message, edges)
-                else:
-                    self._moving.update((plain_name(c), None) for _, c in edges)
+            self._expect(message)
+
+    def _expect(self, message: Recorded) -> None:
+        for _, edges, poses in self._transforms_of(message, self._expect):
+            for parent, child in edges:
+                self._note_parent(message.topic, parent, child)
+            self._note_first(message.log_ns, edges, poses)
+            self._keep(message, edges)
+            if message.topic not in self.always:
+                self._moving.update((plain_name(c), None) for _, c in edges)
 
     def expect_as(self, other: TransformTopics) -> None:
         """Know what another has learnt to expect, and take the same frames."""
@@ -231,11 +238,19 @@ class TransformTopics:
             changed.update(dict.fromkeys(group.children))
         return changed.keys()
 
-    def _transforms_of(self, message: Recorded) -> Transforms:
+    def _transforms_of(
+        self, message: Recorded, again: Callable[[Recorded], object]
+    ) -> Transforms:
+        """Return the transforms of a message.
+
+        Args:
+            message: of one of the topics.
+            again: takes the last messages once more, if frames have other names by now.
+        """
         try:
             found = self._decode(message)
             if self._named != self._spaces.version:
-                self._take_again()
+                self._take_again(again)
                 found = self._decode(message)
             return self.limit.through(found)
         except DecodeError:
@@ -243,14 +258,14 @@ class TransformTopics:
             return ()
 
     def _keep(self, message: Recorded, edges: tuple[FramePair, ...]) -> None:
-        key = message.topic, edges
-        if key in self._fixed or len(self._fixed) < limits.FRAMES.value:
-            self._fixed[key] = message
+        if id(edges) in self._last or len(self._last) < limits.FRAMES.value:
+            self._last[id(edges)] = edges, message
 
-    def _take_again(self) -> None:
-        """Forget what was known of frames that have other names by now."""
+    def _take_again(self, again: Callable[[Recorded], object]) -> None:
+        """Take what was known of frames that have other names by now."""
         self._named = self._spaces.version
         self.renamed += 1
+        last, self._last = self._last, {}
         self.history.forget_all()
         self._forget(lambda source: True)
         self.limit = FrameLimit()
@@ -259,9 +274,8 @@ class TransformTopics:
         self._moving.clear()
         self._changed.clear()
         self._changed_groups.clear()
-        fixed, self._fixed = self._fixed, {}
-        for message in fixed.values():
-            self.take(message)
+        for _, message in last.values():
+            again(message)
 
     def _read(self, message: Recorded) -> Transforms:
         """Return the transforms of a message that is not taken, and not counted."""

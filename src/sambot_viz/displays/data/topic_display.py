@@ -171,6 +171,11 @@ class TopicDisplay(Display):
                 return TopicReason(row.code or "not-drawn", row.text)
         return None
 
+    def unseen_topics(self) -> Iterator[tuple[str, TopicReason]]:
+        """Yield its topic, if it shows nothing of it, or not all."""
+        if (why := self.unseen()) is not None:
+            yield self.topic, why
+
     def pick_geometry(self) -> PickGeometry:
         """Return what it shows now, for rays."""
         return PlacedShapes(tuple(self.placed()))

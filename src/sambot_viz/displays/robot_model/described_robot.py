@@ -92,6 +92,12 @@ class DescribedRobot:
         return descriptions.link_frame(topic, frame)
 
     @property
+    def is_kept_apart(self) -> bool:
+        """Whether its frames have the name space of its topic, whatever its prefix."""
+        robot = self.robot
+        return robot is not None and self.frame_of(robot.root, "") != robot.root
+
+    @property
     def topic(self) -> str:
         """The topic of the robot; "" for one that no topic describes."""
         name = self._wanted_topic()[0].removeprefix("/")

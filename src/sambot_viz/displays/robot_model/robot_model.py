@@ -53,6 +53,7 @@ from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.robot_topics import describes_robot
 
 Kind = Literal["visual", "collision"]
@@ -113,7 +114,7 @@ class RobotModelDisplay(TriangleDisplay):
             return
         self._find_prefix()
         self._listen()
-        if self.publish():
+        if self._publish():
             self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
         entries = self.entries_of(robot)
         alpha = float(self.config.get("Alpha"))
@@ -202,6 +203,12 @@ class RobotModelDisplay(TriangleDisplay):
         """This display: it shows a robot."""
         return self
 
+    def unseen_topics(self) -> Iterator[tuple[str, TopicReason]]:
+        """Yield its topic, if the robot has no place, or that of another one."""
+        described = self._source.described
+        if described is not None and described.reason is not None:
+            yield described.topic, described.reason
+
     def refusal(self, path: str, value: object) -> str | None:
         """Refuse a model file that lies outside the folders that were opened."""
         if path != FILE or not isinstance(value, str) or not value:
@@ -256,6 +263,12 @@ class RobotModelDisplay(TriangleDisplay):
         return Status("Error", "\n".join(lines))
 
     def publish(self) -> bool:
+        """Set the transforms of a robot from a file in a tree that was cleared."""
+        # What another robot has by now is moved by its joints.
+        self._hung.clear()
+        return self._publish()
+
+    def _publish(self) -> bool:
         """Set the transforms of a robot from a file, unless they are set already."""
         robot = self.own_robot
         if not self.shown or robot is None:

@@ -34,7 +34,7 @@ def meant_prefix(
         source: of the robot.
         frame_of: link → frame, with the present prefix.
     """
-    if source.robot is None:
+    if source.robot is None or source.is_kept_apart:
         return None
     space = "" if source.described is None else space_of(source.described.topic)
     links = dict.fromkeys(map(plain_name, source.robot.links))

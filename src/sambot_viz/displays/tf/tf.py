@@ -35,7 +35,8 @@ from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.geometry import Vector3
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import DisplayConfig, RegexProperty
-from sambot_viz.text import text
+from sambot_viz.text import capitalized, text
+from sambot_viz.topics.reasons import OF_PARENTS, TopicReason
 
 AXES_LENGTH, AXES_DIAMETER = 0.2, 0.02
 SHAFT_COLOR, HEAD_COLOR = (204, 204, 76), (255, 25, 153)
@@ -251,10 +252,19 @@ class TfDisplay(TriangleDisplay):
         rows = {frame: said(frame, "Warn") for frame in frames}
         descriptions = self.context.descriptions
         if descriptions is not None:
-            doubts = descriptions.transform_doubts()
-            told = {topic: Status("Warn", why) for topic, why in doubts.items()}
+            doubts = descriptions.transform_doubts().items()
+            told = {
+                topic: Status("Warn", capitalized(why.text), why.code)
+                for topic, why in doubts
+            }
             rows = {**told, **rows}
         self.status.replace(rows)
+
+    def unseen_topics(self) -> Iterator[tuple[str, TopicReason]]:
+        """Yield topics of transforms with what is wrong; parents are told elsewhere."""
+        for topic, row in self.status.rows.items():
+            if row.code and row.code not in OF_PARENTS:
+                yield topic, TopicReason(row.code, row.text)
 
     def clear(self) -> None:
         """Take all overlays out of the scene."""

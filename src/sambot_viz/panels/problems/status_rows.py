@@ -143,6 +143,8 @@ def fixed_frame_missing(scene: Scene) -> str:
     fixed, frames = scene.context.fixed_frame, scene.context.tree.frames
     if fixed in frames or not frames:
         return ""
+    if len(scene.context.meant(fixed)) > 1:
+        return scene.global_status().text
     names = listed(sorted(frames), FEW_FRAMES)
     return f"Frame [{fixed}] does not exist. There are: {names}"
 

@@ -68,7 +68,10 @@ def followed_of(scene: Scene, view: View, target: Target) -> Followed:
     at = (*components(target.position), target.yaw)
     if not has_target(scene, view):
         return Followed("", True, view.follows_yaw, at)
-    name, nodes = str(view.config.get("Target Frame")), scene.context.nodes
+    name, nodes = (
+        scene.context.frame(view.config.get("Target Frame")),
+        scene.context.nodes,
+    )
     node = (nodes.path(name) or "") if nodes.connected(name) else ""
     return Followed(node, bool(node), view.follows_yaw, at)
 

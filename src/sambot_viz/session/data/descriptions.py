@@ -10,11 +10,10 @@ from typing import Literal
 from sambot_viz.displays.robot_display import Description, WantedQos
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.worker import Worker
-from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
 from sambot_viz.text import capitalized
 from sambot_viz.topics import reasons
-from sambot_viz.topics.robot_topics import RobotTopics
+from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
 
 Level = Literal["Warn", "Error"]
@@ -32,6 +31,7 @@ class SourceDescriptions:
             source's.
         worker: runs `changed`.
         changed: called when a topic says something else.
+        reason_of: returns why nothing of a topic is seen (see `account.py`).
     """
 
     def __init__(
@@ -40,23 +40,21 @@ class SourceDescriptions:
         is_given: bool,
         worker: Worker,
         changed: Callable[[], None],
+        reason_of: Callable[[str], TopicReason | None],
     ) -> None:
         self._moved_by = moved_by
         self._is_given = is_given
-        self._worker = worker
         self._changed = changed
-        self._decoding = moved_by.new_decoding()
-        self._texts: dict[str, str] = {}
-        self._subscribed: dict[str, Callable[[Recorded], object]] = {}
-        self._doubts: Mapping[str, str] = {}
+        self._reason_of = reason_of
+        self._doubts: Mapping[str, TopicReason] = {}
         self._told: dict[tuple[str, WantedQos], Description] = {}
-        self._look = partial(worker.post, self._look_again)
+        self._look = partial(worker.post, self.look_again)
         moved_by.on_topics.append(self._look)
         moved_by.on_status.append(self._look)
 
     def topics(self) -> Sequence[str]:
         """Return the topics that describe robots."""
-        return descriptions_of(self._moved_by.topics)
+        return self._moved_by.topics.descriptions
 
     def link_frame(self, topic: str, link: str) -> str:
         """Return the frame of a link of the robot of a topic, in its name space."""
@@ -72,22 +70,15 @@ class SourceDescriptions:
         """Return the topics that move the joints of a further robot, as it is one."""
         return self._moved_by.topics.joints_of.get(topic, ())
 
-    def transform_doubts(self) -> Mapping[str, str]:
-        """Return the topics of transforms that RViz would get nothing from.
-
-        What was recorded has come.
-        """
+    def transform_doubts(self) -> Mapping[str, TopicReason]:
+        """Return what is wrong with topics of transforms, by their names."""
         topics, known = self._moved_by.topics, self._moved_by.source.topics()
-        doubts: dict[str, str] = {}
-        for name in (*topics.moving, *topics.static):
-            if name not in known or self._moved_by.has_recorded(name):
-                continue
-            doubt = reasons.transforms_qos(
-                known[name].qos, is_static=name in topics.static
-            )
-            if doubt is not None:
-                doubts[name] = capitalized(doubt.text)
-        return doubts
+        told = {
+            name: self._reason_of(name)
+            for name in (*topics.moving, *topics.static)
+            if name in known
+        }
+        return {n: why for n, why in told.items() if why and why.severity != "info"}
 
     def of(self, topic: str, qos: WantedQos) -> Description:
         """Return what a topic says, and ask for its messages."""
@@ -116,12 +107,17 @@ class SourceDescriptions:
         described = self._described(topic)
         if topic == main and moved_by.refusal:
             return _with(described, moved_by.refusal, "Error")
-        if moved_by.has_recorded(topic):
-            return described
-        refused = reasons.qos_mismatch(known.qos, wanted_qos(qos))
-        if refused is not None:
-            return _with(described, refused.text)
+        is_recorded = moved_by.has_recorded(topic)
+        if not is_recorded:
+            refused = reasons.qos_mismatch(known.qos, wanted_qos(qos))
+            if refused is not None:
+                return _with(described, refused.text)
         if described.is_opened or described.text is not None:
+            why = self._reason_of(topic)
+            if why is None or why.severity == "info":
+                return described
+            return replace(_with(described, why.text), reason=why)
+        if is_recorded:
             return described
         silent = reasons.unreceived(known)
         why = "no message yet: wait for its publisher, or start it again"
@@ -135,12 +131,8 @@ class SourceDescriptions:
         ):
             is_opened = moved_by.description is not None
             return Description(topic, is_opened=is_opened)
-        if not moved_by.has_recorded(topic):
-            self._subscribe(topic)
-            text = self._texts.get(topic)
-            return Description(topic, text, moved_by.label_of(topic))
-        text = moved_by.last_text(topic)
-        if text is not None:
+        text = moved_by.text_of(topic)
+        if text is not None or not moved_by.has_recorded(topic):
             return Description(topic, text, moved_by.label_of(topic))
         none = reasons.unreceived(moved_by.source.topics()[topic])
         why = "none of its messages can be read: record it again"
@@ -150,11 +142,8 @@ class SourceDescriptions:
         """Take nothing any more."""
         self._moved_by.on_topics.remove(self._look)
         self._moved_by.on_status.remove(self._look)
-        for topic, receive in self._subscribed.items():
-            self._moved_by.source.unsubscribe(topic, receive)
-        self._subscribed.clear()
 
-    def _look_again(self) -> None:
+    def look_again(self) -> None:
         """Let displays draw again when a topic that one asked for says otherwise."""
         told = [(key, self._of(*key)) for key in self._told]
         doubts, before = self.transform_doubts(), self._doubts
@@ -162,28 +151,6 @@ class SourceDescriptions:
             self._doubts = doubts
             self._told.clear()
             self._changed()
-
-    def _subscribe(self, topic: str) -> None:
-        def receive(message: Recorded) -> None:
-            """Leave it to the worker; runs in the thread of the source."""
-            self._worker.post(partial(self._take, message))
-
-        if topic not in self._subscribed:
-            self._subscribed[topic] = receive
-            self._moved_by.source.subscribe(topic, receive)
-
-    def _take(self, message: Recorded) -> None:
-        """Keep a description; runs in the worker."""
-        text = self._decoding.text(message)
-        if text and self._texts.get(message.topic) != text:
-            self._texts[message.topic] = text
-            self._look_again()
-
-
-def descriptions_of(topics: RobotTopics) -> tuple[str, ...]:
-    """Return the topics of descriptions, the robot's own first."""
-    own = () if topics.description is None else (topics.description,)
-    return (*own, *topics.others)
 
 
 def stands_for_opened(topic: str, known: Sequence[str]) -> bool:

@@ -77,7 +77,7 @@ class SourceTopics:
         self._is_ticking = False
         # Topic → what was said of it, and the log time from which that may be wrong.
         self._until: dict[str, tuple[TopicReason | None, int]] = {}
-        self._is_surveyed = False
+        self._is_surveyed = self._is_closed = False
         self._report = report
         self._survey = None if report is None else report.survey
         if player is not None:
@@ -144,6 +144,7 @@ class SourceTopics:
 
     def close(self) -> None:
         """Look at nothing more."""
+        self._is_closed = True
         self._moved_by.on_topics.remove(self._tell)
         self._viewers.clear()
         self._listen()
@@ -159,14 +160,29 @@ class SourceTopics:
     def account(self, name: str) -> Account:
         """Return what is to be said of a topic now."""
         if (recorded := self._recorded(name)) is not None:
-            made = recorded[0].account(name, self._drawing_of)
-            self._until[name] = made.reason, self._holds_until(made, *recorded)
+            made, until = self._of_recorded(name, *recorded)
+            self._until[name] = made.reason, until
             return made
         live, count, rate = self._evidence, self.count(name), self.rate(name)
         drawing = self._drawing_of(name, live.decoder(name).type_name)
         made = account_of(live, name, count, rate, drawing)
         self._said[name] = "" if made.reason is None else made.reason.code
         return made
+
+    def reason(self, name: str) -> TopicReason | None:
+        """Return why nothing of a topic is seen, or what to know of it.
+
+        `looked` tells when that changes.
+        """
+        recorded = self._recorded(name)
+        if self._is_closed:
+            return None
+        if recorded is None:
+            return self.account(name).reason
+        made, until = self._of_recorded(name, *recorded)
+        # What others were told before is still to be told anew.
+        self._until.setdefault(name, (made.reason, until))
+        return made.reason
 
     def unheard(self, name: str) -> TopicReason | None:
         """Return why a topic gives displays nothing, or not all that it should."""
@@ -227,6 +243,13 @@ class SourceTopics:
         report.at_ns = player.time_ns
         return report, player
 
+    def _of_recorded(
+        self, name: str, report: TopicReport, player: Player
+    ) -> tuple[Account, int]:
+        """Return an account, and the log time until which it holds [ns]."""
+        made = report.account(name, self._drawing_of)
+        return made, self._holds_until(made, report, player)
+
     def _holds_until(
         self, account: Account, report: TopicReport, player: Player
     ) -> int:
@@ -235,7 +258,7 @@ class SourceTopics:
         name, rate = account.name, account.rate
         if code == "not-here-yet":
             return report.first_ns(name) or NEVER
-        if code == "stale":
+        if code in ("stale", "ended"):
             coming = player.recording.next(name, now)
             return NEVER if coming is None else coming.log_ns
         last = report.last_ns(name, now)

@@ -8,7 +8,7 @@ from typing import Any
 
 from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.errors import UsageError
-from sambot_viz.rviz import FIXED_FRAME, RvizConfig, ViewConfig
+from sambot_viz.rviz import RvizConfig, ViewConfig
 from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
 from sambot_viz.rviz.yaml.yaml_nodes import copied_map
 from sambot_viz.session.document.document import ShownDocument
@@ -198,8 +198,8 @@ def view_of(config: ViewConfig) -> View:
 
 def has_target(scene: Scene, view: View) -> bool:
     """Tell whether a view follows another frame than the fixed one."""
-    name = view.config.get("Target Frame")
-    return name not in (FIXED_FRAME, scene.context.fixed_frame)
+    context = scene.context
+    return context.frame(view.config.get("Target Frame")) != context.fixed_frame
 
 
 def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
@@ -213,7 +213,7 @@ def target_of(scene: Scene, view: View, last: Target = WORLD) -> Target:
     if not has_target(scene, view):
         return WORLD
     fixed, tree = scene.context.fixed_frame, scene.context.tree
-    name = str(view.config.get("Target Frame"))
+    name = scene.context.frame(view.config.get("Target Frame"))
     if not tree.can_lookup(fixed, name):
         return last
     T = tree.lookup(fixed, name).matrix

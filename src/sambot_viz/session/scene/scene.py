@@ -73,6 +73,7 @@ class Scene:
         self._keys = 0
         self._tree_drawn = tree.version
         self._background: tuple[int, int, int] | None = None
+        self._fixed_frame = self.context.fixed_frame
         change.finish = self._finish
         # Files are asked for, and arrive, only where displays are drawn.
         connect([self.statuses], self._tell_progress)
@@ -105,7 +106,8 @@ class Scene:
 
     def take_options(self, options: ConfigItem) -> None:
         """Take the fixed frame and the background of a document."""
-        self.context.fixed_frame = str(options.get("Fixed Frame"))
+        self._fixed_frame = str(options.get("Fixed Frame"))
+        self.context.fixed_frame = self.context.only_meant(self._fixed_frame)
         background = options.get("Background Color")
         if background != self._background:
             self._background = self.context.background = background
@@ -126,6 +128,8 @@ class Scene:
     def draw_frames(self) -> None:
         """Draw after a change of frames or of the fixed frame."""
         self._tree_drawn = self.context.tree.version
+        # Which robot is meant is known once its frames are.
+        self.context.fixed_frame = self.context.only_meant(self._fixed_frame)
         self.context.nodes.sync(self.context.tree, self.context.fixed_frame)
         self.anchors.place()
         self.redraw()
@@ -195,6 +199,8 @@ class Scene:
         if fixed in frames:
             return Status("Ok", "OK")
         text = f"Frame [{fixed}] does not exist"
+        if len(meant := self.context.meant(fixed)) > 1:
+            text = f"{text}: each robot has one, choose {' or '.join(meant)}"
         if frames:
             return Status("Error", text)
         if fixed == self.assumed_frame():

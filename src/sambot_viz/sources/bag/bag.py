@@ -85,6 +85,10 @@ class Bag(Protocol):
         """Return the newest message of a topic before a log time."""
         ...
 
+    def ends_at(self, topic: str) -> int | None:
+        """Return when the recording of a topic ends, of several beside each other."""
+        ...
+
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics by log time, collected at opening."""
         ...

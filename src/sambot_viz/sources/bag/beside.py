@@ -44,7 +44,7 @@ def beside_each_other(given: Sequence[Beside]) -> Recording:
         bags.append(bag)
         seen.update(dict.fromkeys(bag.topics))
     whole = [(g.name, RenamedBag(g.bag, g.prefix).topics) for g in given]
-    return Recording(bags, hidden_topics(whole))
+    return Recording(bags, hidden_topics(whole), are_beside=True)
 
 
 def _shift_ns(before: Sequence[Bag], bag: Bag) -> int:

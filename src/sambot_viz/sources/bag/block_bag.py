@@ -332,6 +332,11 @@ class BlockBag(ABC):
             why = self.left_out.cause, self.left_out.remedy
             return (*self.damage.problems(self.start_ns, self.end_ns, *why), *large)
 
+    def ends_at(self, topic: str) -> int | None:
+        """Return the log time of the last message of all topics [ns]."""
+        del topic
+        return self.end_ns
+
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics, by log time."""
         with self._lock:

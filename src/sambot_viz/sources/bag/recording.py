@@ -20,16 +20,24 @@ if TYPE_CHECKING:
 class Recording:
     """One recording out of some files; see `Bag` for what can be asked of it."""
 
-    def __init__(self, bags: Sequence[Bag], problems: Iterable[Problem] = ()) -> None:
+    def __init__(
+        self,
+        bags: Sequence[Bag],
+        problems: Iterable[Problem] = (),
+        *,
+        are_beside: bool = False,
+    ) -> None:
         """Join open files, which are closed with the recording.
 
         Args:
             bags: the files.
             problems: what is wrong beside that of the files themselves.
+            are_beside: they are recordings beside each other, not parts of one.
         """
         # At one time the file that begins first is first, as at the seam of a split.
         self._bags = sorted(bags, key=lambda bag: (bag.start_ns is None, bag.start_ns))
         self._problems = tuple(problems)
+        self._are_beside = are_beside
         self._topics: tuple[Sequence[object], Mapping[str, SourceTopic]] = (), {}
 
     @property
@@ -141,6 +149,11 @@ class Recording:
     def previous(self, topic: str, before_ns: int) -> Recorded | None:
         """Return the newest message of a topic before a log time."""
         return self.last(topic, before_ns - 1)
+
+    def ends_at(self, topic: str) -> int | None:
+        """Return when the recording of a topic ends, of several beside each other."""
+        owner = next((bag for bag in self._bags if topic in bag.topics), None)
+        return owner.end_ns if self._are_beside and owner else self.end_ns
 
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics by log time, collected at opening."""

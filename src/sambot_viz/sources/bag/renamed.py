@@ -111,6 +111,11 @@ class RenamedBag:
         """Return the newest message of a topic before a log time."""
         return self.last(topic, before_ns - 1)
 
+    def ends_at(self, topic: str) -> int | None:
+        """Return the log time of the last message of all topics [ns]."""
+        del topic
+        return self.end_ns
+
     def latched(self) -> Sequence[Recorded]:
         """Return the messages of latched topics by log time."""
         found = [self._prefix.message(m, self._shift_ns) for m in self._bag.latched()]
