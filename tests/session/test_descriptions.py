@@ -174,12 +174,18 @@ def test_a_robot_in_a_namespace_needs_no_config(tmp_path: Path) -> None:
         assert display.config.get(TOPIC) == "/r1/robot_description"
 
 
-def test_without_a_robot_the_status_says_how_to_give_one(tmp_path: Path) -> None:
+def test_without_a_robot_it_is_said_how_to_give_one(tmp_path: Path) -> None:
     path = write_recording(tmp_path / "none.mcap", {}, MOVES)
     with Visualizer(path, port=0) as viz:
-        display, *_ = models(session_of(viz))
+        session = session_of(viz)
+        said = {one.code: one for one in session.problems.shown.value.listed}
+        assert "no robot model in none.mcap" in said["no-description"].message
+        assert said["no-description"].hint == "add --model ROBOT.urdf.xacro"
+        # Who wants one all the same reads it at the display.
+        display, *_ = models(session)
+        assert not display.shown
+        session.display_edits.set_enabled(display, True)
         assert "no robot model in none.mcap" in say(display)
-        assert "--model ROBOT.urdf.xacro" in say(display)
 
 
 @pytest.fixture

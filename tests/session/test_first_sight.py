@@ -7,6 +7,7 @@ from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 from any_recording import Given, write_any
 from inside import session_of
@@ -20,6 +21,7 @@ from sambot_viz.session.first_sight import dot_size
 from sambot_viz.session.session import Session
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.topics.first_topics import shown_at_first
+from sambot_viz.views.camera import Camera
 
 Show = Callable[..., Session]
 
@@ -67,10 +69,10 @@ def kinds(config: RvizConfig) -> list[str]:
 def test_axes_of_frames_without_a_robot_follow_how_far_these_are_apart(
     bags: Path, shown: Show
 ) -> None:
-    """This recording has nothing but frames, with a metre between them at first."""
+    """This recording has nothing but frames, with one to three metres between them."""
     session = shown(bags / "c14")
     (tf,) = (one for one in session.document.config.displays if one.name == "TF")
-    eventually(lambda: tf.get("Marker Scale") == 1.0)
+    eventually(lambda: tf.get("Marker Scale") == 2.0)
 
 
 def test_all_that_a_recording_has_is_shown_in_the_order_of_need(
@@ -226,3 +228,56 @@ def test_a_live_robot_shows_its_topics_as_they_come(repository: Path) -> None:
         eventually(lambda: "/late" in data.moved_by.source.topics())
         with session.lock:
             assert "LaserScan" not in kinds(session.document.config)
+
+
+RECORDINGS = (
+    *("reported/recordings/" + name for name in ("nav2_12", "two_robots_ns")),
+    *("reported/recordings/" + name for name in ("tf_clock_back", "tf_gap")),
+    *("reported/bags/c14/c14", "reported/bags/c13_tworoots/c13_tworoots"),
+    *("bags/made/" + name for name in ("square", "mixed", "clock_back")),
+    *("bags/made/" + name for name in ("two_parents", "old_names", "static_three")),
+)
+SIZE = (640, 480)
+
+
+@pytest.mark.parametrize("name", RECORDINGS)
+def test_the_robot_or_else_all_frames_are_seen_at_each_time(
+    shared: Path, shown: Show, name: str
+) -> None:
+    """The camera of the first sight shows a robot in at least 24 of 480 pixels."""
+    session = shown(shared / "data" / f"{name}.mcap")
+    assert session.data is not None and session.data.player is not None
+    player, view = session.data.player, session.document_view
+    player.pause()
+    first, begin = view.camera_on_robot(*SIZE), view.target.position
+    asked = 0
+    for part in (0.0, 0.5, 1.0):
+        player.jump(player.start_ns + round(part * (player.end_ns - player.start_ns)))
+        with session.change():
+            robot, context = session.picker.link_box(), session.scene.context
+            by = view.target.position - begin
+            poses = [context.pose(frame) for frame in context.tree.frames]
+        camera = Camera(first.position + by, first.look_at + by, first.up)
+        if robot is not None:
+            middle, size = (robot[0] + robot[1]) / 2, np.max(robot[1] - robot[0])
+            away = np.linalg.norm(middle - camera.position)
+            assert size / (2 * away * math.tan(camera.fov / 2)) >= 24 / 480
+            seen = [middle]
+        else:
+            seen = [T[:3, 3] for T in poses if T is not None]
+        asked += len(seen)
+        assert all(camera.shows(at, *SIZE) for at in seen)
+    assert asked
+
+
+def test_frames_alone_give_no_error_and_sizes_of_the_whole_run(
+    recordings: Path, shown: Show
+) -> None:
+    session = shown(recordings / "tf_clock_back.mcap")
+    (tf,) = (one for one in session.document.config.displays if one.name == "TF")
+    # The frame moves 39 m away in four seconds.
+    eventually(lambda: 5.0 <= tf.get("Marker Scale") <= 50.0)
+    assert {display.status.level for display in session.scene.displays} == {"Ok"}
+    assert "RobotModel" not in kinds(session.document.config)
+    said = {p.code: p.severity for p in session.problems.shown.value.listed}
+    assert said.get("no-description") == "info"

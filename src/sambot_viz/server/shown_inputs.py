@@ -24,7 +24,7 @@ from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.first_sight import is_map, show_topics
 from sambot_viz.session.own_config import fit_own_config, fit_robot
 from sambot_viz.session.undo import History
-from sambot_viz.topics.robot_topics import STAND_IN_LINK, RobotTopics
+from sambot_viz.topics.robot_topics import STAND_IN_LINK, STAND_IN_NAME, RobotTopics
 from sambot_viz.topics.source_robot import SourceRobot
 
 PANELS_WITHOUT_ROBOT = 1.0
@@ -146,7 +146,7 @@ class ShownInputs:
         show_topics(document, moved_by.types, points_of, robots)
         missing = moved_by.description is None and self._inputs.options.model is None
         document.fits_frames = missing and moved_by.can("seek")
-        if document.unasked and document.fits_frames:
+        if document.fits_frames:
             _without_robot(document)
 
     def _take_frame(
@@ -231,7 +231,7 @@ class ShownInputs:
         given = self._inputs.options.fixed_frame
         fixed = document.global_options.get("Fixed Frame")
         if fixed in (STAND_IN_LINK, root, top, given):
-            _show_motion(document, top, root)
+            _show_motion(document, robot, top, root)
             fit_robot(document, robot)
             _set_fixed_frame(document, given)
         for display in document.displays:
@@ -247,7 +247,7 @@ class ShownInputs:
             if moved_by is not None and moved_by.can("seek"):
                 _name_description(document, moved_by.topics)
                 root, top = moved_by.root_and_top(robot)
-                _show_motion(document, top, root)
+                _show_motion(document, robot, top, root)
             _set_fixed_frame(document, self._inputs.options.fixed_frame)
             self._assume_frame(document)
 
@@ -275,11 +275,12 @@ class ShownInputs:
         self._reloader = reloader
 
 
-def _show_motion(document: RvizConfig, top: str, root: str) -> None:
+def _show_motion(document: RvizConfig, robot: Robot, top: str, root: str) -> None:
     """Let a robot that moves in a frame be seen to move, and not leave the picture."""
     document.global_options.set("Fixed Frame", top)
-    # What stands beside a map is seen to move when the map stands still.
-    if top != root and not any(is_map(display) for display in document.displays):
+    # Without a robot a map stands still, and what moves beside it is seen to move.
+    has_map = any(is_map(display) for display in document.displays)
+    if top != root and not (has_map and robot.name == STAND_IN_NAME):
         document.view.set("Target Frame", root)
 
 

@@ -134,8 +134,10 @@ class SizeOfRobot:
             return None
         tree, box = self._scene.context.tree, self._picker.link_box()
         if box is None:
-            # Axes follow how far frames are apart, whatever lies between.
-            apart = frame_spacing(tree, 0.0) if self._document.config.fits_frames else 0
+            # Axes follow how far frames are apart over the whole recording, so that
+            # they are seen at each time of it.
+            is_alone = self._document.config.fits_frames
+            apart = self._scene.whole_run().spacing if is_alone else 0.0
             return SceneSize(2 * apart, apart) if apart else None
         length = float(np.max(box[1] - box[0]))
         return SceneSize(length, frame_spacing(tree, length))

@@ -11,6 +11,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Generator
 from contextlib import contextmanager
+from functools import cache, partial
 
 import viser
 
@@ -49,6 +50,7 @@ from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.topics.whole_run import whole_run
 from sambot_viz.views.camera import Camera
 
 
@@ -137,6 +139,7 @@ class Session:
             connect([topics.looked], self._descriptions.look_again)
             scene.context.descriptions = self._descriptions
             scene.context.meant = moved_by.meant_frames
+            scene.whole_run = cache(partial(whole_run, moved_by))
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker)

@@ -189,10 +189,12 @@ class SourceRobot:
         told = f"topics: {', '.join(topics[:_NAMED])}{more}" if topics else "no topic"
         frames = any(True for _ in self._told.pairs())
         shown = "showing frames only" if frames else "no transforms either"
-        severity: Severity = "warning"
         if shown_at_first(self.types):
-            # Who wants to see a sensor has not asked for a robot.
-            severity, shown = "info", "showing its data"
+            shown = "showing its data"
+        # Who wants to see frames or a sensor has not asked for a robot.
+        severity: Severity = (
+            "info" if frames or shown == "showing its data" else "warning"
+        )
         missing = Problem(
             severity,
             "no-description",

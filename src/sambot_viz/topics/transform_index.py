@@ -198,20 +198,33 @@ class TransformIndex:
     def _look(self, begin: int) -> _Block:
         block = _Block()
         end = begin + BLOCK - 1
+        found: list[tuple[int, int, tuple[FramePair, ...], Poses]] = []
         for message in self._recording.messages(begin, end, self._topics):
             try:
                 transforms = self._decode(message)
             except DecodeError:
                 continue
             for stamp, edges, poses in transforms:
+                found.append((message.log_ns, stamp, edges, poses))
+        # All numbers at once: one by one they cost as much as to decode them.
+        numbers = [poses for _, _, _, poses in found]
+        is_good = not number_faults(np.concatenate(numbers)) if numbers else True
+        # By id, which a decoder gives again for the same frames: to hash them is slow.
+        known: dict[int, int | None] = {}
+        for log, stamp, edges, poses in found:
+            group = known.get(id(edges), -1) if is_good else -1
+            if group == -1:
                 group = self._group(edges, taken_children(edges, poses))
-                if group is not None:
-                    block.add(message.log_ns, group, stamp)
+                known[id(edges)] = group
+            if group is not None:
+                block.add(log, group, stamp)
         return block
 
-    def _group(self, edges: Sequence[FramePair], names: tuple[str, ...]) -> int | None:
+    def _group(
+        self, edges: tuple[FramePair, ...], names: tuple[str, ...]
+    ) -> int | None:
         """Return the number of frames that come together; None for one too many."""
-        key = tuple(edges), names
+        key = edges, names
         number = self._numbers.get(key)
         if number is None and len(self._numbers) < limits.FRAMES.value:
             number = self._numbers[key] = len(self._children)

@@ -96,7 +96,7 @@ class RobotFraming:
             if all_read:
                 self._missing = missing
             return None
-        found = first_box(self._document, self._picker)
+        found = first_box(self._document, self._scene, self._picker)
         if found is not None:
             self._window, self._missing = window, missing
             self._data_drawn = max(drawn, self._data_drawn)

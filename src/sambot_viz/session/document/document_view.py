@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from sambot_viz.displays.picking.triangle_mesh import Corners
 from sambot_viz.errors import UsageError
-from sambot_viz.rviz import RvizConfig, ViewConfig
+from sambot_viz.rviz import FIXED_FRAME, RvizConfig, ViewConfig
 from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
 from sambot_viz.rviz.yaml.yaml_nodes import copied_map
 from sambot_viz.session.document.document import ShownDocument
@@ -60,7 +62,7 @@ class DocumentView:
         """
         view = self.view
         target = self._target(view)
-        box = first_box(self._document, self._picker)
+        box = first_box(self._document, self._scene, self._picker)
         if box is not None:
             for path, value in view.fit(*box, width, height, target).items():
                 view.config.set(path, value)
@@ -149,12 +151,20 @@ class DocumentView:
             config.view.fill()
 
 
-def first_box(document: ShownDocument, picker: Picker) -> Corners | None:
+def first_box(document: ShownDocument, scene: Scene, picker: Picker) -> Corners | None:
     """Return the box around what is seen at first; None when nothing is drawn.
 
-    That is the robot, and all data where no config says what of it is shown.
+    That is the robot, and all data where no config says what of it is shown. Frames
+    alone are seen at each time of their recording.
     """
-    return picker.first_box() if document.config.unasked else picker.robot_box()
+    if document.config.unasked:
+        return picker.first_box()
+    box = picker.robot_box()
+    follows = document.config.view.get("Target Frame") != FIXED_FRAME
+    if box is None or follows or not document.config.fits_frames:
+        return box
+    run = scene.whole_run().box(scene.context.fixed_frame) or box
+    return np.minimum(box[0], run[0]), np.maximum(box[1], run[1])
 
 
 def require_kind(kind: str) -> None:

@@ -17,6 +17,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import ConfigItem, DisplayConfig
 from sambot_viz.session.scene.anchors import Anchors
 from sambot_viz.session.signals import Audience, Change, Signal, connect
+from sambot_viz.topics.whole_run import WholeRun
 from sambot_viz.viser_private import fill_background
 
 
@@ -41,6 +42,7 @@ class Scene:
         data: what displays draw of messages.
         progress: how many files of how many have been read; None when all have been.
         assumed_frame: returns the fixed frame that no user has asked for; "" for none.
+        whole_run: returns where frames are over the length of a recording.
     """
 
     def __init__(
@@ -65,6 +67,7 @@ class Scene:
         self.anchors = Anchors(self.context)
         self.displays: list[Display] = []
         self.assumed_frame: Callable[[], str] = str
+        self.whole_run: Callable[[], WholeRun] = WholeRun
         self.statuses = Signal(change, None)
         self.frames = Signal(change, None)
         self.data = Signal(change, None)

@@ -20,6 +20,8 @@ from sambot_viz.views.view import Name
 
 LETTER_WIDTH, LINE_HEIGHT = 0.55, 1.5
 """Of a usual letter and of a line, by the size of letters."""
+AROUND = 4.0
+"""A robot is seen with so many of its lengths around it, whatever is farther."""
 BESIDE = 0.05
 """What is this near to a box, by its diagonal, counts as in it."""
 
@@ -183,15 +185,19 @@ class PickScene:
         return self._box(lambda item: item is not None and item.kind == "link")
 
     def first_box(self) -> Corners | None:
-        """Return the box around the robot and all data; None when nothing is drawn.
+        """Return the box around the robot and the data; None when nothing is drawn.
 
-        Without these it is the box around all that is drawn.
+        Without these it is the box around all that is drawn. What is far from a robot
+        is left out, so that the robot is seen.
         """
-        box = self.link_box()
+        robot = box = self.link_box()
         for display in self._shown():
             for _, part in display.parts(lambda _: True) if display.is_data else ():
                 box = _union(part.box(), box)
-        return box or self._box(lambda _: True)
+        if box is None or robot is None:
+            return box or self._box(lambda _: True)
+        room = AROUND * float(np.max(robot[1] - robot[0]))
+        return np.maximum(box[0], robot[0] - room), np.minimum(box[1], robot[1] + room)
 
     @property
     def data_drawn(self) -> int:
