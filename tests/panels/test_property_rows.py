@@ -8,7 +8,7 @@ import pytest
 
 from sambot_viz.displays.registry import DISPLAYS
 from sambot_viz.panels.rows.property_rows import kind_of, property_rows
-from sambot_viz.panels.rows.row import Row
+from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,
@@ -91,6 +91,28 @@ def test_setting_a_row_changes_the_property_at_its_path() -> None:
         assert set_value is not None
         set_value(value)
     assert item.changes == [("Style", "Billboards"), ("Style/Width", 0.2)]
+
+
+@pytest.mark.parametrize(
+    ("prop", "typed", "said"),
+    [
+        (TfFrameProperty("P", default="map"), "/odom", "'/odom' was taken as 'odom'"),
+        (FloatProperty("P", default=1.0, maximum=2.0), 3.0, "'3.0' was taken as '2.0'"),
+        (TfFrameProperty("P", default="map"), "odom", None),
+        (FloatProperty("P", default=1.0), 1, None),
+        (ColorProperty("P"), "red", None),
+    ],
+)
+def test_a_value_that_is_taken_as_another_one_is_said(
+    prop: Property, typed: Any, said: str | None
+) -> None:
+    item = ConfigItem(Map(), (prop,), ConfigFindings(None))
+    (row,) = property_rows(
+        item, "d1", lambda path, value: item.set(path, value) and None
+    )
+    assert row.set is not None
+    answer = row.set(typed)
+    assert (answer.say if isinstance(answer, Answer) else answer) == said
 
 
 def test_a_property_that_depends_on_another_is_listed_while_it_counts() -> None:

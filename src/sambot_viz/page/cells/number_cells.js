@@ -7,7 +7,7 @@ import { Field } from "./field.js";
 import { Slide, useFollowed } from "./followed.js";
 import { goesOn } from "./key_steps.js";
 import { Icon } from "../window/icons.js";
-import { refusals } from "../window/notices.js";
+import { refusals, tell } from "../window/notices.js";
 import {
   clamped,
   fittingNumber,
@@ -18,7 +18,7 @@ import {
   writtenNumber,
 } from "./numbers.js";
 import { degrees, useData } from "../state.js";
-import { formula, outside, shownUnit, unitBeside, withinTurn } from "./units.js";
+import { formula, outside, shownUnit, taken, unitBeside } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -107,10 +107,11 @@ function NumberField({ row, tab, held, room }) {
   const accept = (typed) => {
     const read = parseNumber(typed, unit);
     if ("error" in read) return read.error;
-    const value = withinTurn(row, row.kind === "int" ? Math.round(read.value) : read.value);
+    const { value, said } = taken(row, read.value);
     const why = outside(row, value);
-    if (!why) held.put(clamped(value, row));
-    return why;
+    if (why) return why;
+    held.put(clamped(value, row));
+    if (said) tell(said, "info");
   };
   /** @param {number} count @param {Key} event */
   const move = (count, event) => {

@@ -23,11 +23,19 @@ export function shownUnit(row, inDegrees = degrees.value) {
  * @param {Row} row @param {string} unit as it is shown */
 export const unitBeside = (row, unit) => (row.name?.endsWith(`(${unit})`) ? "" : unit);
 
-/** A typed value; of a joint that turns without limits, the same angle from −π to π.
- * @param {Row} row @param {number} value */
-export function withinTurn(row, value) {
-  const turns = Math.round(value / (2 * Math.PI));
-  return row.wheel && Math.abs(value) > Math.PI ? value - turns * 2 * Math.PI : value;
+/** A typed number as its row takes it: whole where only those are, and of a joint that turns without
+ * limits the same angle from −π to π. Where that is another one, `said` is what to tell.
+ * @param {Row} row @param {number} typed @returns {{value: number, said: string}} */
+export function taken(row, typed) {
+  const turns = row.wheel && Math.abs(typed) > Math.PI ? Math.round(typed / (2 * Math.PI)) : 0;
+  const value = row.kind === "int" ? Math.round(typed) : typed - turns * 2 * Math.PI;
+  if (value === typed) return { value, said: "" };
+  const { unit, factor } = shownUnit(row);
+  const [from, to] = [typed, value].map((one) =>
+    `${writtenNumber(one * factor, limitDigits(unit))} ${unit}`.trim(),
+  );
+  const why = turns ? "a continuous joint turns within ±180°" : "whole numbers only";
+  return { value, said: `${from} was taken as ${to}: ${why}` };
 }
 
 /** Why a number is outside the limits of its row. @param {Row} row @param {number} value */

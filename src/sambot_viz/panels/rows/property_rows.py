@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
-from sambot_viz.panels.rows.row import Kind, Row
+from sambot_viz.panels.rows.row import Answer, Kind, Row
 from sambot_viz.rviz import (
     BoolProperty,
     ColorProperty,
@@ -117,12 +118,18 @@ def property_row(
         help=prop.help,
         extra=_extra(prop),
         client_local=client_local,
-        set=None if kind == "group" or prop.read_only else _setter(change, path),
+        set=None
+        if kind == "group" or prop.read_only
+        else partial(_set, item, declared, change),
     )
 
 
-def _setter(change: Change, path: str) -> Callable[[Any], object]:
-    return lambda value: change(path, value)
+def _set(item: ConfigItem, declared: Declared, change: Change, value: Any) -> object:
+    """Set a property; a value that is taken as another one is said."""
+    answer, now = change(declared.path, value), item.get(declared.path)
+    if answer is not None or now == value or isinstance(now, tuple):
+        return answer
+    return Answer(f"'{value}' was taken as '{now}'", level="info")
 
 
 def _step(prop: Property) -> float | None:
