@@ -117,19 +117,41 @@ def test_ctrl_k_finds_what_is_called_otherwise_than_it_is(user: User) -> None:
         assert [one for one in found if one.startswith(wanted)], (wanted, found)
 
 
-@pytest.mark.parametrize("tab", ["Joints", "Frames", "Selection", "Drive"])
 @pytest.mark.usefixtures("closed")
-def test_ctrl_k_finds_each_button_that_is_on_the_screen(user: User, tab: str) -> None:
-    user.tab(tab)
-    shown = set(user.page.evaluate(SHOWN))
-    assert "Randomize" in shown or tab != "Joints"
-    options(user, "")
-    for name in sorted(shown):
-        user.keys("Control+a")
-        user.type(name)
-        user.until(
-            lambda name=name: user.page.evaluate(FOUND) == [name, True], why=name
-        )
+def test_ctrl_k_finds_each_button_whatever_tab_is_in_front(user: User) -> None:
+    tabs = ["Joints", "Frames", "Selection", "Drive"]
+    shown: set[str] = set()
+    for tab in tabs:
+        user.tab(tab)
+        shown |= set(user.page.evaluate(SHOWN))
+    assert {"Randomize", "Degrees", "Back to start"} <= shown
+    for tab in tabs:
+        user.tab(tab)
+        options(user, "")
+        for name in sorted(shown):
+            user.keys("Control+a")
+            user.type(name)
+            user.until(
+                lambda name=name: user.page.evaluate(FOUND) == [name, True],
+                why=f"{name} with {tab} in front",
+            )
+        user.keys("Escape")
+
+
+def test_ctrl_k_presses_a_button_of_a_tab_that_is_not_in_front(
+    user: User, viz_for_all: Visualizer
+) -> None:
+    drive = session_of(viz_for_all).drive
+    user.tab("Joints")
+    go_to(user, "forwards")
+    user.until(lambda: user.find("button", "Forwards").state("focused"))
+    user.tab("Joints")
+    drive.set_velocity(0.1, 0.0)
+    user.until(lambda: drive.pose.x > 0)
+    go_to(user, "back to start")
+    user.until(lambda: not drive.moving and drive.pose.x == 0.0)
+    assert user.find("tab", "Drive").state("selected")
+    user.tab("Joints")
 
 
 def test_ctrl_k_presses_a_button(user: User) -> None:

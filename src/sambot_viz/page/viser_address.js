@@ -7,7 +7,16 @@
  * viser's worker asks for a server that has gone whenever viser tells it to, once a second: what
  * viser tells it is dropped, and `wire/retries.js` says when.
  * What the worker has received is taken apart first, where it says what has moved (viser_poses.js).
+ * The view is hidden until it has the camera of its server (view/camera.js): at first viser shows
+ * one of its own.
  * This runs before viser, not as a module. */
+
+if (new URLSearchParams(location.search).get("channel") !== "none") {
+  const { classList } = document.documentElement;
+  classList.add("no-camera");
+  // Whatever has failed: a view with another camera is more than none.
+  setTimeout(() => classList.remove("no-camera"), 10000);
+}
 
 {
   const query = new URLSearchParams(location.search);

@@ -66,6 +66,19 @@ export function reveal(panel, id, focus = true) {
   wantedFocus.set({ panel, id, focus });
 }
 
+/** Whether trees are drawn at all. */
+let drawn = true;
+
+/** Draw panels without their rows. @param {() => void} draw */
+export function withoutRows(draw) {
+  drawn = false;
+  draw();
+  drawn = true;
+}
+
+/** @param {any} props as those of `RowTree` */
+export const Tree = (props) => drawn && html`<${RowTree} ...${props} />`;
+
 /**
  * @param {{panel: string, label: string, finds?: (row: Row) => boolean, split?: boolean,
  *   hover?: boolean, onKey?: (event: Key, row: Row) => boolean | void,
@@ -79,7 +92,7 @@ export function reveal(panel, id, focus = true) {
  *   split: whether the width of the names can be moved
  *   hover: whether the help of a row is shown on hover
  */
-export function Tree(props) {
+function RowTree(props) {
   const { panel, label, finds, split = panel !== "joints", hover = true } = props;
   const wanted = useSearch(panel, finds);
   useRow(`panel:${panel}`);

@@ -47,6 +47,9 @@ let report = () => undefined;
 
 const page = () => window.__viserMutable;
 
+/** The view has its camera; until then viser_address.js hides it. */
+const beSeen = () => globalThis.document?.documentElement?.classList.remove("no-camera");
+
 /** Send reports by this function. @param {(report: Report) => void} send */
 export function reportCamera(send) {
   report = send;
@@ -73,6 +76,7 @@ export function loseCamera() {
   told = sent = last = null;
   isNew = false;
   shown.number = null;
+  beSeen();
 }
 
 /** @param {Vector} a @param {Vector} b @param {number} [k] @returns {Vector} a + k b */
@@ -233,6 +237,7 @@ function place() {
     last = pose;
   } else follow(root, pose);
   isNew = false;
+  beSeen();
 }
 
 /** Called before each picture, when viser has placed the nodes in it. */

@@ -9,6 +9,7 @@ import { reveal } from "../tree/tree.js";
 import { rows } from "../wire/channel.js";
 import { actAtOnce } from "../view/new_tool.js";
 import { takeTyped } from "./files.js";
+import { hiddenButtons, shownButtons } from "./buttons.js";
 import { Icon } from "./icons.js";
 import { listMenus } from "./menus.js";
 import { openPanel, panelList, SHEET } from "./panels.js";
@@ -22,39 +23,6 @@ import { toggleFullScreen } from "./toolbar.js";
 const MOST = 60;
 /** What PageUp and PageDown pass over. */
 const FAR = 8;
-
-/** What is listed as a menu's entry, a panel or a row. */
-const NOT_LISTED = "[role=row] *, [role=tab], [role=menubar] *";
-
-/** The name of the part of the window that an element is in. @param {Element} element */
-function partOf(element) {
-  const part = element.parentElement?.closest(
-    "[role=tabpanel], section[aria-label], aside[aria-label], [role=toolbar], footer[aria-label]",
-  );
-  return part?.getAttribute("aria-label") || "Window";
-}
-
-/** The buttons that are on the screen and can be pressed, as they are. @returns {Target[]} */
-function shownButtons() {
-  const all = document.querySelectorAll(".window button:enabled");
-  return /** @type {HTMLElement[]} */ ([...all])
-    .filter((button) => !button.matches(NOT_LISTED) && button.getClientRects().length > 0)
-    .map((button) => ({
-      kind: "command",
-      icon: "button",
-      name: nameOf(button),
-      where: partOf(button),
-      keys: button.getAttribute("aria-keyshortcuts")?.replace("Control", "Ctrl"),
-      words: button.title,
-      // One that acts while it is held is gone to.
-      does: () => (button.matches(".way") ? button.focus() : button.click()),
-    }))
-    .filter(({ name }) => name);
-}
-
-/** What a button is called. @param {HTMLElement} button */
-const nameOf = (button) =>
-  (button.getAttribute("aria-label") || button.innerText).replace(/\s+/g, " ").trim();
 
 /** What can be done also while its button is not on the screen. @returns {Target[]} */
 function calls() {
@@ -84,6 +52,9 @@ function calls() {
     }));
 }
 
+/** The buttons of the panels that were not shown when the palette was opened. @type {Target[]} */
+let hidden = [];
+
 /** @returns {Target[]} */
 function commands() {
   const inMenus = listMenus(() => [], togglePanels, goTo).flatMap((menu) =>
@@ -105,7 +76,8 @@ function commands() {
   const named = [...panels, ...calls(), ...others, { ...full, does: toggleFullScreen }];
   // What is offered in two places is listed once.
   const known = new Set(named.map(({ name }) => name));
-  return [...named, ...shownButtons().filter(({ name }) => !known.has(name))];
+  const buttons = [...shownButtons(), ...hidden];
+  return [...named, ...buttons.filter(({ name }) => !known.has(name))];
 }
 
 /** The key that opens the palette. */
@@ -237,6 +209,8 @@ function Palette({ close }) {
 /** Open the palette; what is being typed is accepted, as when its field is left. */
 export function goTo() {
   takeTyped();
+  // Panels cannot be drawn while the palette is.
+  hidden = hiddenButtons();
   show(Palette);
 }
 
