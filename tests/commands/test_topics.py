@@ -9,6 +9,9 @@ from shutil import copy
 import pytest
 
 from sambot_viz.cli import main
+from sambot_viz.commands.topics import topics_text
+from sambot_viz.topics.account import Account
+from sambot_viz.topics.reasons import TopicReason
 
 Capture = pytest.CaptureFixture[str]
 
@@ -152,3 +155,9 @@ def test_two_parents_have_one_remedy(made: Path, capsys: Capture) -> None:
     (row,) = (line for line in out.splitlines() if line.startswith("/odom "))
     assert "Publish odom -> base_link" in row
     assert "static_transform_publisher" not in row
+
+
+def test_a_remedy_is_never_cut_off() -> None:
+    words = "0 0 0 0 0 0 map " + "warehouse_robot_number_seven/" * 20
+    reason = TopicReason("no-transform", f'add it: --static-transform "{words}"')
+    assert words in topics_text([Account("/a", "", 1, None, True, reason)])

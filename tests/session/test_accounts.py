@@ -120,6 +120,30 @@ def test_a_loop_is_said_of_the_topic_that_tells_of_it(shared: Path) -> None:
         assert said in in_panel(session)["/tf"]
 
 
+def test_a_loop_is_in_the_status_of_tf(shared: Path) -> None:
+    path = shared / "data" / "reported" / "recordings" / "tf_ring_direct.mcap"
+    with opened(path) as (viz, session), session.change():
+        (tf,) = (one for one in session.scene.displays if one.config.name == "TF")
+        assert tf.status.rows["/tf"].text == sentence(viz.topics["/tf"])
+        assert tf.status.level == "Warn"
+        assert tf.status.rows["/tf"].code == "tf-loop"
+
+
+def test_a_clock_that_goes_back_is_a_problem_before_it_is_played(shared: Path) -> None:
+    path = shared / "data" / "bags" / "made" / "clock_back.mcap"
+    with Visualizer(path, port=0) as viz:
+        viz.player.pause()
+        session = session_of(viz)
+        assert viz.player.time == 0.0
+
+        def codes() -> set[str]:
+            return {one.code for one in session.problems.shown.value.listed}
+
+        until(lambda: "clock-back" in codes(), WAIT)
+        viz.player.jump(viz.player.duration)
+        assert "clock-back" in codes()
+
+
 def test_transforms_that_are_not_taken_say_what_hides_them(tmp_path: Path) -> None:
     told = [("/tf", 0.0, {"base": "odom"}), ("/b/tf", 1.0, {"base": "odom"})]
     path = write_recording(

@@ -21,7 +21,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.subscriber import jump
-from sambot_viz.topics import joint_index, transform_index
+from sambot_viz.topics import seconds
 from sambot_viz.topics.source_robot import SourceRobot
 
 SECONDS = 60
@@ -228,8 +228,7 @@ def test_what_a_jump_has_not_looked_further_for_is_said(
     of_joints = with_joints(tmp_path / "joints.mcap", joints)
     for most, told in ((10_000, False), (20, True)):
         lower(monkeypatch, "SEARCHED", most)
-        monkeypatch.setattr(transform_index, "FEW", 10)
-        monkeypatch.setattr(joint_index, "FEW", 10)
+        monkeypatch.setattr(seconds, "FEW", 10)
         assert (after_a_jump(path) == ["the frame old"]) == told
         assert (after_a_jump(of_joints) == ["the joint lid"]) == told
 

@@ -1,29 +1,30 @@
 """Which messages of a recording say where its joints are at a time.
 
 Of each joint the last message that names it counts, however long ago it came, and each
-publisher names other joints. So a recording is looked through once, a second at a time
-and from the time that is asked for back to the start; of each second it is kept which
-joints were named last, and when.
+publisher names other joints. So a recording is looked through once (see `Seconds`); of
+each second it is kept which joints were named when.
 """
 
 from __future__ import annotations
 
 import threading
+from array import array
+from bisect import bisect_right
 from collections.abc import Callable, Collection, Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.sources.message import Recorded
-from sambot_viz.topics.transform_index import BLOCK, FEW
+from sambot_viz.topics.seconds import Seconds
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
 
 _Names = tuple[str, ...]
-_Block = dict[_Names, int]
-"""The joints that one message names → the log time of the last such message [ns]."""
+_Block: TypeAlias = "dict[_Names, array[int]]"
+"""The joints that one message names → the log times of those, ascending [ns]."""
 
 
 class JointIndex:
@@ -44,7 +45,7 @@ class JointIndex:
         self._recording = recording
         self._topics = tuple(name for name in topics if name in recording.topics)
         self._names_of = names_of
-        self._blocks: dict[int, tuple[_Block, int]] = {}
+        self._seconds = Seconds(recording, self._look)
         self._lock = threading.Lock()
 
     def holding(self, at_ns: int) -> list[Recorded]:
@@ -81,33 +82,28 @@ class JointIndex:
         ]
         return found, unfound
 
-    def _times(self, at_ns: int, missing: set[str]) -> tuple[set[int], set[str]]:
+    def _times(self, at_ns: int, missing: set[str]) -> tuple[set[int], Collection[str]]:
         """Return when each joint was named last [ns], and what was not found."""
-        start = self._recording.start_ns
-        if start is None or not self._topics:
-            return set(), set()
-        times, seen, looked = set[int](), set[str](), 0
-        unfound = set[str]()
-        last = (at_ns - start) // BLOCK
-        for number in range(last, -1, -1):
-            known = self._blocks.get(number)
-            if known is None:
-                if looked >= (limits.SEARCHED.value if missing else FEW):
-                    unfound = missing
-                    break
-                begin = start + number * BLOCK
-                known = self._look(begin, min(begin + BLOCK - 1, at_ns))
-                if begin + BLOCK - 1 <= at_ns:
-                    self._blocks[number] = known
-                looked += known[1]
-            elif number == last:
-                known = self._look(start + number * BLOCK, at_ns)
-            for names, time in sorted(known[0].items(), key=lambda one: -one[1]):
+        times, seen = set[int](), set[str]()
+        if not self._topics:
+            return times, ()
+        for block in self._seconds.back_from(at_ns, lambda: bool(missing)):
+            lasts = (
+                (logs[position - 1], names)
+                for names, logs in block.items()
+                if (position := bisect_right(logs, at_ns))
+            )
+            for time, names in sorted(lasts, reverse=True):
                 if not seen.issuperset(names):
                     seen.update(names)
                     times.add(time)
-            missing -= seen
-        return times, unfound
+            missing.difference_update(seen)
+        return times, missing if self._seconds.gave_up else ()
+
+    def look_on(self) -> bool:
+        """Look at one more second from the start on; False when enough was seen."""
+        with self._lock:
+            return bool(self._topics) and self._seconds.look_on()
 
     def _look(self, begin: int, end: int) -> tuple[_Block, int]:
         """Return what the messages of a time name, and how many there are."""
@@ -120,5 +116,5 @@ class JointIndex:
             except DecodeError:
                 continue
             if names in block or len(block) < limits.FRAMES.value:
-                block[names] = message.log_ns
+                block.setdefault(names, array("q")).append(message.log_ns)
         return block, count

@@ -401,6 +401,20 @@ class SourceRobot:
         there = [topic for topic in self.named if topic in self.topics.descriptions]
         return self.spaces.meant(frame, there)
 
+    def look_on(self) -> bool:
+        """Look at one more second of a recording; False when enough was seen.
+
+        A jump then finds what it needs, and it is known whether the time goes back.
+        """
+        joints = self.joint_index(self.topics.joint_states)
+        found = [one.look_on() for one in (self._index, joints) if one is not None]
+        return any(found)
+
+    @property
+    def turned_back_by(self) -> int:
+        """By how much the stamps go back in what `look_on` has seen [ns]; 0: never."""
+        return 0 if self._index is None else self._index.turned_back_by
+
     def new_decoding(self) -> Decoding:
         """Return what decodes the messages for a session."""
         return Decoding(self.decoding.types, self.spaces)

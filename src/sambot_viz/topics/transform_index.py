@@ -2,9 +2,8 @@
 
 tf2 keeps of each frame what is not more than ten seconds older than its newest
 transform. Which messages that are follows from all messages before: a frame may have
-been told of once, an hour ago. So a recording is looked through once, a second at a
-time and from the time that is asked for back to the start, and what was seen is kept as
-a few numbers of each second.
+been told of once, an hour ago. So a recording is looked through once (see `Seconds`),
+and what was seen is kept as a few numbers of each second.
 """
 
 from __future__ import annotations
@@ -31,6 +30,7 @@ from sambot_viz.frames.history import DURATION
 from sambot_viz.frames.samples import FramePair, Poses, name_fault, number_faults
 from sambot_viz.sources.message import Recorded
 from sambot_viz.topics.frame_limit import Transforms
+from sambot_viz.topics.seconds import BLOCK, Seconds
 
 # A page without a recording does without what opens one.
 if TYPE_CHECKING:
@@ -38,12 +38,8 @@ if TYPE_CHECKING:
 
 TURNED_BACK = 1_000_000_000
 """A stamp that is older than the newest of its frames by more is of a new time [ns]."""
-BLOCK = 1_000_000_000
-"""The length of a block of log time [ns]."""
 DEPTH = round(DURATION * 1e9)
 """How long a transform is kept after the newest of its frame [ns]."""
-FEW = 5_000
-"""So many messages are looked at in any case, before the time that is asked for."""
 
 Span = tuple[int, int]
 """The first and the last log time [ns]."""
@@ -140,7 +136,7 @@ class TransformIndex:
         self._recording = recording
         self._topics = tuple(name for name in topics if name in recording.topics)
         self._decode = decode
-        self._blocks: dict[int, _Block] = {}
+        self._seconds = Seconds(recording, self._look, DEPTH // BLOCK + 1)
         self._numbers: dict[tuple[tuple[FramePair, ...], tuple[str, ...]], int] = {}
         self._children: list[tuple[str, ...]] = []
         self._lock = threading.Lock()
@@ -160,7 +156,7 @@ class TransformIndex:
             return HoldingMessages()
         with self._lock:
             known, unfound = self._known_until(at_ns, expected)
-            begin = self._turn(known)
+            begin, _ = _turn(known)
             blocks = [part for block in known if (part := block.since(begin)).logs]
             spans = _joined(self._needed(blocks, fixed))
             moved = self._moved(known, fixed, begin)
@@ -172,32 +168,30 @@ class TransformIndex:
         self, at_ns: int, expected: Collection[str]
     ) -> tuple[list[_Block], Collection[str]]:
         """Return blocks up to a time, all after the first known, and what they lack."""
-        start = self._recording.start_ns or 0
-        last = (at_ns - start) // BLOCK
-        nearest = last - DEPTH // BLOCK - 1
-        missing, looked = set(expected), 0
-        found: list[_Block] = []
-        unfound = set[str]()
-        for number in range(last, -1, -1):
-            block = self._blocks.get(number)
-            if block is None:
-                if number < nearest and looked >= (
-                    limits.SEARCHED.value if missing else FEW
-                ):
-                    unfound = missing
-                    break
-                block = self._blocks[number] = self._look(start + number * BLOCK)
-                looked += len(block.logs)
-            block = block.until(at_ns) if number == last else block
-            found.append(block)
+        missing, found = set(expected), list[_Block]()
+        for block in self._seconds.back_from(at_ns, lambda: bool(missing)):
+            found.append(block if found else block.until(at_ns))
             if missing:
-                missing.difference_update(*(self._children[g] for g in block.highs))
+                missing.difference_update(*(self._children[g] for g in found[-1].highs))
         found.reverse()
-        return found, unfound
+        return found, missing if self._seconds.gave_up else ()
 
-    def _look(self, begin: int) -> _Block:
+    def look_on(self) -> bool:
+        """Look at one more second from the start on; False when enough was seen.
+
+        So a first jump finds what it needs.
+        """
+        with self._lock:
+            return bool(self._topics) and self._seconds.look_on()
+
+    @property
+    def turned_back_by(self) -> int:
+        """By how much the time last went back in what `look_on` has seen [ns]."""
+        with self._lock:
+            return _turn(self._seconds.from_start())[1]
+
+    def _look(self, begin: int, end: int) -> tuple[_Block, int]:
         block = _Block()
-        end = begin + BLOCK - 1
         found: list[tuple[int, int, tuple[FramePair, ...], Poses]] = []
         for message in self._recording.messages(begin, end, self._topics):
             try:
@@ -218,7 +212,7 @@ class TransformIndex:
                 known[id(edges)] = group
             if group is not None:
                 block.add(log, group, stamp)
-        return block
+        return block, len(block.logs)
 
     def _group(
         self, edges: tuple[FramePair, ...], names: tuple[str, ...]
@@ -232,26 +226,6 @@ class TransformIndex:
         return number
 
     # What of it holds
-
-    def _turn(self, blocks: Sequence[_Block]) -> int:
-        """Return the log time at which the time last went back; 0 for never [ns]."""
-        turn = 0
-        newest: dict[int, int] = {}
-        for block in blocks:
-            goes_on = all(
-                low >= newest.get(group, low) - TURNED_BACK
-                for group, low in block.lows.items()
-            )
-            if goes_on and not block.turns:
-                for group, high in block.highs.items():
-                    newest[group] = max(newest.get(group, high), high)
-                continue
-            for log, group, stamp in block.events():
-                if stamp < newest.get(group, stamp) - TURNED_BACK:
-                    newest.clear()
-                    turn = log
-                newest[group] = max(newest.get(group, stamp), stamp)
-        return turn
 
     def _needed(
         self, blocks: Sequence[_Block], fixed: Mapping[str, int]
@@ -315,3 +289,24 @@ def _joined(spans: Iterator[Span]) -> list[Span]:
         else:
             joined.append((begin, end))
     return joined
+
+
+def _turn(blocks: Iterable[_Block]) -> tuple[int, int]:
+    """Return when the time last went back, and by how much; 0 for never [ns]."""
+    turn, by = 0, 0
+    newest: dict[int, int] = {}
+    for block in blocks:
+        goes_on = all(
+            low >= newest.get(group, low) - TURNED_BACK
+            for group, low in block.lows.items()
+        )
+        if goes_on and not block.turns:
+            for group, high in block.highs.items():
+                newest[group] = max(newest.get(group, high), high)
+            continue
+        for log, group, stamp in block.events():
+            if stamp < newest.get(group, stamp) - TURNED_BACK:
+                turn, by = log, newest[group] - stamp
+                newest.clear()
+            newest[group] = max(newest.get(group, stamp), stamp)
+    return turn, by

@@ -356,7 +356,11 @@ class TransformTopics:
 
 
 def problems_of_transforms(
-    transforms: TransformTopics, name: str, *, is_live: bool = False
+    transforms: TransformTopics,
+    name: str,
+    *,
+    is_live: bool = False,
+    turned_back_by: int = 0,
 ) -> tuple[Problem, ...]:
     """Say what is wrong with the transforms of a recording.
 
@@ -364,13 +368,14 @@ def problems_of_transforms(
         transforms: what they have told up to now.
         name: of the recording, or of the live robot.
         is_live: whether it is one.
+        turned_back_by: by how much stamps go back that were not taken yet [ns].
     """
     found = [problem for problem, _ in problems_of_parents(transforms)]
     if transforms.limit.left_out:
         found.append(too_many_frames(transforms.limit.left_out, name))
     found += not_looked_further("frame", transforms.unfound, name)
-    if transforms.turned_back_by:
-        back = transforms.turned_back_by * 1e-9
+    if back_ns := transforms.turned_back_by or turned_back_by:
+        back = back_ns * 1e-9
         found.append(
             Problem(
                 "warning",

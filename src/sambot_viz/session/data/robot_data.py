@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from functools import partial
 
 from sambot_viz.errors import Problem
@@ -15,7 +16,7 @@ from sambot_viz.session.data.feed import Feed
 from sambot_viz.session.data.inbox import Inbox
 from sambot_viz.session.data.live_clock import LiveClock, wrong_clock
 from sambot_viz.session.data.player import Player
-from sambot_viz.session.data.source_topics import SourceTopics
+from sambot_viz.session.data.source_topics import PAUSE, SLICE, SourceTopics
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.drawings import drawing_of
 from sambot_viz.session.scene.scene import Scene
@@ -33,6 +34,8 @@ from sambot_viz.topics.transforms import not_looked_further, problems_of_transfo
 
 AGEING_PERIOD = 0.5
 """So often frames grow older [s]."""
+LOOKS_ON_AFTER = 2.0
+"""So long after the first page a recording is looked through, for jumps [s]."""
 RESTS_AFTER = 10.0
 """So long after the last page data are still drawn, which may be loaded again [s]."""
 
@@ -91,7 +94,7 @@ class RobotData:
         self._doubted = ""
         self._renamed = 0
         self._looked = float("-inf")
-        self._closed = False
+        self._closed = self._looks_on = False
         self._viewers: set[object] = set()
         self._left = 0.0
         source = self.source = moved_by.source.of_session()
@@ -170,6 +173,9 @@ class RobotData:
                 self._robot.messages_came()
             self._look_at_time(jumped=True)
         self._viewers.add(viewer)
+        if self.player is not None and not self._looks_on:
+            self._looks_on = True
+            self._worker.post_later(LOOKS_ON_AFTER, self._look_on)
 
     def leave(self, viewer: object) -> None:
         """Take note that one looks no longer; after the last one data rest, later."""
@@ -181,6 +187,17 @@ class RobotData:
         alone_s = self._worker.clock.now() - self._left
         if not self._viewers and not self._closed and alone_s >= RESTS_AFTER:
             self.rest()
+
+    def _look_on(self) -> None:
+        """Look at a little more of a recording, while nothing else is to be done."""
+        if self._closed:
+            return
+        end = time.perf_counter() + SLICE
+        while time.perf_counter() < end:
+            if not self.moved_by.look_on():
+                self._tell_problems()
+                return
+        self._worker.post_later(PAUSE, self._look_on)
 
     def resume(self) -> None:
         """Show what messages say now, after another robot is shown."""
@@ -243,7 +260,12 @@ class RobotData:
 
     def _tell_problems(self) -> None:
         is_live, name = self.player is None, self.name
-        of_frames = problems_of_transforms(self.transforms, name, is_live=is_live)
+        of_frames = problems_of_transforms(
+            self.transforms,
+            name,
+            is_live=is_live,
+            turned_back_by=self.moved_by.turned_back_by,
+        )
         unfound = self._joint_states.unfound
         of_joints = not_looked_further("joint", unfound, name)
         self.problems.set((*self.moved_by.hidden, *of_frames, *of_joints))
