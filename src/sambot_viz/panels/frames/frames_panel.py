@@ -99,7 +99,10 @@ class FramesPanel(Panel):
     def _asked(self) -> tuple[str, str]:
         """From and To; something that moves is a good first thing to look at."""
         context, tree = self._context, self._frames.tree
-        moving = next(iter(context.moving), None) or next(iter(tree.frames), "")
+        link = next(iter(context.moving), None)
+        # A robot with a name space or a prefix has it at a frame with that.
+        named = (f for f in tree.frames if link in (f, f.rpartition("/")[2]))
+        moving = next(named, link) or next(iter(tree.frames), "")
         return self._from or context.fixed_frame, self._to or moving
 
     def _answer(self) -> Explanation:
