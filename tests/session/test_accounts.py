@@ -21,6 +21,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.session import Session
+from sambot_viz.sources.bag import open_recording
 from sambot_viz.text import capitalized
 from sambot_viz.topics.account import Account
 from sambot_viz.topics.report import TopicReport
@@ -118,6 +119,49 @@ def test_a_loop_is_said_of_the_topic_that_tells_of_it(shared: Path) -> None:
     with opened(path) as (viz, session):
         assert said in sentence(viz.topics["/tf"])
         assert said in in_panel(session)["/tf"]
+
+
+OF_TIME = {"stale", "not-here-yet", "not-listened"}
+"""What is so of a robot, or of a recording, alone."""
+NEWEST_ONLY = "bags/made/flipped_payload"
+"""Of a robot the newest message is looked into, and one of thirty is broken here."""
+
+
+class WholePeer(BusyPeer):
+    until_s = 1e6
+
+
+def codes_of(viz: Visualizer) -> dict[str, str]:
+    return {n: a.reason.code if a.reason else "" for n, a in viz.topics.items()}
+
+
+@pytest.mark.parametrize("name", [one for one in RECORDINGS if one != NEWEST_ONLY])
+def test_a_robot_and_its_recording_give_the_same_reasons(
+    shared: Path, name: str
+) -> None:
+    path = shared / "data" / f"{name}.mcap"
+    with opened(path) as (viz, session):
+        recorded, fixed = codes_of(viz), session.scene.context.fixed_frame
+    with open_recording(path) as played:
+        peer = WholePeer(played)
+        try:
+            with Visualizer(source=peer.uri, fixed_frame=fixed, port=0) as viz:
+                session = session_of(viz)
+                assert session.data is not None
+                topics = session.data.topics
+
+                def agree() -> bool:
+                    with session.change():
+                        topics.follow("test", topics.names)
+                    live = codes_of(viz)
+                    return live.keys() == recorded.keys() and all(
+                        live[one] == code or {live[one], code} & OF_TIME
+                        for one, code in recorded.items()
+                    )
+
+                until(agree, WAIT, not_yet=(KeyError,))
+        finally:
+            peer.stop()
 
 
 def test_a_loop_is_in_the_status_of_tf(shared: Path) -> None:
