@@ -10,6 +10,7 @@ import pytest
 import viser
 from patience import patience
 
+from sambot_viz import viser_private
 from sambot_viz.displays.display import Status
 from sambot_viz.displays.robot_model import robot_model
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
@@ -77,20 +78,30 @@ def facts(session: Session) -> dict[str, str]:
 
 
 @pytest.fixture
-def sent(monkeypatch: pytest.MonkeyPatch) -> Callable[[Session], list[str]]:
-    """``sent(session)``: a list that gets what is sent from now on."""
+def sent(monkeypatch: pytest.MonkeyPatch) -> Callable[[Session], set[str]]:
+    """``sent(session)``: a set that gets the nodes of what is sent from now on."""
 
-    def watch(session: Session) -> list[str]:
-        names: list[str] = []
+    def watch(session: Session) -> set[str]:
+        names = set[str]()
         scene: Any = session.audience.scene
         buffer = scene._websock_interface
         queue = buffer.queue_message
 
-        def watched(message: object) -> None:
-            names.append(type(message).__name__)
+        def watched(message: Any) -> None:
+            names.add(message.name)
             queue(message)
 
+        # What has moved before is changed where it is in viser's buffer.
+        poses: Any = viser_private.MovingPoses.of(buffer._broadcast_buffer)
+        move = poses.move
+
+        def watched_move(*given: Any) -> Any:
+            moves = [given] if len(given) > 1 else list(given[0])
+            names.update(state.name for state, _, _ in moves)
+            return move(*given) if len(given) > 1 else move(moves)
+
         monkeypatch.setattr(buffer, "queue_message", watched)
+        monkeypatch.setattr(poses, "move", watched_move)
         return names
 
     return watch
@@ -128,7 +139,7 @@ def test_the_mark_follows_the_joints_and_tells_when_the_robot_falls(
 
 
 def test_what_does_not_move_the_mass_sends_nothing_for_it(
-    show: Show, sent: Callable[[Session], list[str]]
+    show: Show, sent: Callable[[Session], set[str]]
 ) -> None:
     session = show("      Mass Properties: {Balance: true}", robot=CRANE)
     names = sent(session)
@@ -139,7 +150,7 @@ def test_what_does_not_move_the_mass_sends_nothing_for_it(
 
 def test_nobody_weighs_a_robot_that_nobody_looks_at(
     show: Show,
-    sent: Callable[[Session], list[str]],
+    sent: Callable[[Session], set[str]],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     weighed: list[object] = []
