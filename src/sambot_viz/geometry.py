@@ -172,6 +172,20 @@ def wxyz_from_matrix(T: Matrix) -> Wxyz:
     return (w, x, y, z)
 
 
+def wxyzs_from_matrices(T: Matrix) -> list[Wxyz]:
+    """Return the same of each of (N, 4, 4) matrices, to the last digit."""
+    # As `xyzw_from_matrix`, where the trace is above 0.
+    trace: Matrix = T[:, 0, 0] + T[:, 1, 1] + T[:, 2, 2]
+    root = np.sqrt(np.maximum(trace, 0.0) + 1.0)
+    s = 0.5 / root
+    x, y, z = T[:, 2, 1] - T[:, 1, 2], T[:, 0, 2] - T[:, 2, 0], T[:, 1, 0] - T[:, 0, 1]
+    rows: list[list[float]] = np.stack([0.5 * root, s * x, s * y, s * z], 1).tolist()
+    found: list[Wxyz] = [(w, x, y, z) for w, x, y, z in rows]
+    for row in np.flatnonzero(~(trace > 0.0)).tolist():
+        found[row] = wxyz_from_matrix(T[row])
+    return found
+
+
 def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
     """Return a quaternion (w, x, y, z) with length 1; `IDENTITY` where it has none."""
     w, x, y, z = wxyz

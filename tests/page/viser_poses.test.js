@@ -24,21 +24,25 @@ const shift = (/** @type {string} */ name, /** @type {number} */ number, owner =
 /** A frame, at an odd place of a longer buffer. @param {[number, number[]][]} tracks */
 function frame(tracks) {
   const values = tracks.flatMap(([, value]) => value);
-  const bytes = new Uint8Array(3 + 4 + 4 * tracks.length + 8 * values.length);
-  const view = new DataView(bytes.buffer, 3);
-  view.setUint32(0, tracks.length, true);
-  tracks.forEach(([number], i) => view.setUint32(4 + 4 * i, number, true));
-  values.forEach((value, i) => view.setFloat64(4 + 4 * tracks.length + 8 * i, value, true));
-  return { type: "SetPositionMessage", name: "~poses", owner: "", position: bytes.subarray(3) };
+  const numbers = tracks.flatMap(([number]) => {
+    const low = number % 128,
+      high = Math.floor(number / 128);
+    return high ? [128 + low, high] : [low];
+  });
+  const bytes = new Uint8Array(3 + numbers.length + 1 + 8 * values.length);
+  bytes.set(numbers, 3);
+  const view = new DataView(bytes.buffer, 3 + numbers.length + 1);
+  values.forEach((value, i) => view.setFloat64(8 * i, value, true));
+  return { type: "SetPositionMessage", name: "~", owner: "", position: bytes.subarray(3) };
 }
 
 test("what has moved is told with the names that its numbers were told with", () => {
-  const first = [turn("/a", 2), shift("/b", 5, "7"), { type: "FrameMessage", name: "/c" }];
+  const first = [turn("/a", 2), shift("/b", 777, "7"), { type: "FrameMessage", name: "/c" }];
   assert.deepEqual(poses.unpacked(first), first);
   assert.deepEqual(
     poses.unpacked([
       frame([
-        [5, [1 / 3, 4e6, -2]],
+        [777, [1 / 3, 4e6, -2]],
         [2, [0.6, 0.8, 0, 0]],
       ]),
     ]),

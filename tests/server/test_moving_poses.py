@@ -7,6 +7,7 @@ from random import Random
 
 import pytest
 import viser
+from pose_tracks import PoseTracks
 from protocol_client import ProtocolClient, Received
 
 from sambot_viz import viser_private
@@ -136,6 +137,41 @@ def test_every_page_has_the_scene_whatever_happens(
         page.settle(server)
         assert seen(page.messages) == anything.poses()
     assert kept(server) == anything.poses()
+
+
+def test_a_page_that_is_behind_gets_no_pose_that_a_program_has_replaced(
+    server: viser.ViserServer,
+) -> None:
+    buffer = viser_private.broadcast_buffer(server)
+    nodes = [server.scene.add_frame(name, show_axes=False) for name in ("/a", "/b")]
+    page = PoseTracks()
+    for node in nodes:
+        viser_private.set_pose(node, None, (1.0, 0.0, 0.0))
+        *_, told = buffer.message_from_id.values()
+        fields = told.as_serializable_dict([])
+        page.unpacked(fields.pop("type"), fields)
+        viser_private.set_pose(node, None, (2.0, 0.0, 0.0))
+    # It has heard what the numbers are, and nothing since.
+    nodes[0].position = (3.0, 0.0, 0.0)
+    moved = viser_private.MovingPoses.of(buffer).between(-1, buffer.message_counter)
+    (only,) = page.unpacked("SetPositionMessage", vars(moved))
+    assert (only["name"], only["position"]) == ("/b", [2.0, 0.0, 0.0])
+
+
+def test_each_step_reaches_a_page_that_has_the_one_before(
+    server: viser.ViserServer, protocol: Connect
+) -> None:
+    nodes = [server.scene.add_frame(name, show_axes=False) for name in ("/a", "/b")]
+    page = protocol(server.get_port())
+    for step in range(6):
+        place = (float(step), 0.0, 0.0)
+        viser_private.set_pose(nodes[step % 2], None, place)
+        server.flush()
+        page.wait_until(
+            lambda name=nodes[step % 2].name, at=place: (
+                seen(page.messages)[name][1] == at
+            )
+        )
 
 
 def test_the_scene_of_one_client_moves_in_the_same_way(

@@ -21,6 +21,7 @@ from sambot_viz.server.listener import listen
 from sambot_viz.server.outgoing.news import News
 
 Connect = Callable[..., ProtocolClient]
+POSITION = "SetPositionMessage"
 A_LONG_TIME = 50_000_000
 """So many messages are sent for 50 joints at 60 Hz within five hours."""
 
@@ -236,6 +237,39 @@ def test_a_browser_that_reads_slowly_gets_fewer_clouds_and_never_an_old_one(
                     found.append(message.fields["updates"]["glb_data"][0])
     assert found == sorted(found)
     assert len(found) < count / 2
+
+
+def test_without_a_client_a_change_wakes_nobody(
+    server: viser.ViserServer, protocol: Connect, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    moved = server.scene.add_frame("/moved")
+    woken: list[object] = []
+    buffer = viser_private.broadcast_buffer(server)
+    wake = buffer.event_loop.call_soon_threadsafe
+
+    def counted(callback: Callable[..., object], *arguments: Any) -> Any:
+        woken.append(callback)
+        return wake(callback, *arguments)
+
+    def step(number: int) -> None:
+        with server.atomic():
+            viser_private.set_pose(moved, None, (number, 0.0, 0.0))
+        server.flush()
+
+    step(1)
+    monkeypatch.setattr(buffer.event_loop, "call_soon_threadsafe", counted)
+    step(2)
+    assert woken == []
+    monkeypatch.undo()
+    client = protocol(server.get_port())
+    for number in (3, 4):
+        step(number)
+        client.wait_until(
+            lambda at=number: (
+                [m for m in client.messages if m.type == POSITION][-1].fields
+                == {"name": "/moved", "position": [at, 0.0, 0.0]}
+            )
+        )
 
 
 def test_single_messages_are_collected_for_a_moment(

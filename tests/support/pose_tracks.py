@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Any
 
-MOVED = "~poses"
+MOVED = "~"
 """The name in a message with what has moved."""
 
 
@@ -32,9 +32,8 @@ class PoseTracks:
         return [fields]
 
     def _moved(self, content: bytes) -> list[dict[str, Any]]:
-        (count,) = struct.unpack_from("<I", content)
-        numbers = struct.unpack_from(f"<{count}I", content, 4)
-        at, found = 4 + 4 * count, list[dict[str, Any]]()
+        numbers, at = _numbers(content)
+        found = list[dict[str, Any]]()
         for number in numbers:
             length = 3 if number % 2 else 4
             value = list(struct.unpack_from(f"<{length}d", content, at))
@@ -45,3 +44,17 @@ class PoseTracks:
                 found.append({"type": kind, "name": name, key: value})
         assert at == len(content)
         return found
+
+
+def _numbers(content: bytes) -> tuple[list[int], int]:
+    """Numbers in seven bits a byte, up to a 0, and where they end."""
+    numbers, number, shift = list[int](), 0, 0
+    for at, byte in enumerate(content):
+        number |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            if not number:
+                return numbers, at + 1
+            numbers.append(number)
+            number = shift = 0
+    raise AssertionError("no end of the numbers")

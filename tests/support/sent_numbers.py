@@ -36,11 +36,12 @@ def bad_numbers(server: viser.ViserServer) -> Iterator[list[str]]:
     poses: Any = viser_private.MovingPoses.of(viser_private.broadcast_buffer(server))
     move = poses.move
 
-    def look_at_move(state: Any, kind: str, value: Any) -> bool:
-        found.extend(f"moved: {one}" for one in _bad_in(value, kind))
-        return move(state, kind, value)
+    def look_at_moves(moves: Any) -> Any:
+        for _, kind, value in moves:
+            found.extend(f"moved: {one}" for one in _bad_in(value, kind))
+        return move(moves)
 
-    handler.queue_message, poses.move = look, look_at_move
+    handler.queue_message, poses.move = look, look_at_moves
     try:
         yield found
     finally:

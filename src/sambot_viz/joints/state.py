@@ -142,7 +142,14 @@ class JointState:
         Raises:
             JointError: an unknown joint, one that cannot be set, no finite number.
         """
-        numbers = {name: self.checked(name, v) for name, v in values.items()}
+        free, most = self._free, limits.NUMBER.value
+        numbers = {
+            # What is not in order is looked at again, for what to say of it.
+            name: v
+            if type(v) is float and -most <= v <= most and name in free
+            else self.checked(name, v)
+            for name, v in values.items()
+        }
         changed = [n for n, v in numbers.items() if v != self._positions[n]]
         self._positions.update(numbers)
         return self._moved(changed)

@@ -6,7 +6,7 @@
 
 {
   /** The name in a message with what has moved. */
-  const MOVED = "~poses";
+  const MOVED = "~";
   /** By number, the message for what has moved, without its value. @type {Map<number, any>} */
   const tracks = new Map();
   /** The number of each rotation and position. @type {Map<string, number>} */
@@ -30,16 +30,34 @@
     numbers.delete(key);
   }
 
+  /** Numbers in seven bits a byte, the lowest first, up to a 0; and where they end.
+   * @param {Uint8Array} content */
+  function numbersOf(content) {
+    const found = [];
+    let at = 0;
+    for (;;) {
+      let number = 0,
+        scale = 1,
+        byte;
+      do {
+        byte = content[at++];
+        number += (byte & 127) * scale;
+        scale *= 128;
+      } while (byte > 127);
+      if (!number) return { numbers: found, at };
+      found.push(number);
+    }
+  }
+
   /** The messages of viser for what has moved.
-   * @param {Uint8Array} content how many (32 bits), the number of each (32), the values (64)
+   * @param {Uint8Array} content the number of each, 0, and the values (64 bits)
    * @returns {any[]} */
   function moved(content) {
     const view = new DataView(content.buffer, content.byteOffset, content.byteLength);
-    const messages = [],
-      count = view.getUint32(0, true);
-    let at = 4 + 4 * count;
-    for (let i = 0; i < count; i += 1) {
-      const number = view.getUint32(4 + 4 * i, true);
+    const known = numbersOf(content),
+      messages = [];
+    let { at } = known;
+    for (const number of known.numbers) {
       const isPosition = number % 2 === 1;
       const value = [];
       for (const end = at + (isPosition ? 24 : 32); at < end; at += 8)

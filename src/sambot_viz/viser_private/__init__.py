@@ -12,7 +12,7 @@ from sambot_viz.viser_private.connections import (
     quiet_websockets,
     without_banner,
 )
-from sambot_viz.viser_private.moving_poses import MovingPoses, set_pose
+from sambot_viz.viser_private.moving_poses import MovingPoses, set_pose, set_poses
 from sambot_viz.viser_private.outgoing import (
     Message,
     MessageBuffer,
@@ -70,6 +70,7 @@ __all__ = [
     "scene_bytes",
     "send_value",
     "set_pose",
+    "set_poses",
     "share_arrays",
     "tell_poses_of_remade_nodes",
     "without_banner",

@@ -14,6 +14,8 @@ from __future__ import annotations
 
 import itertools
 import struct
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from typing import Any, cast
 
 import viser
@@ -23,16 +25,24 @@ from viser import (
 
 from sambot_viz.geometry import Vector3, Wxyz
 
-FRAME = "~poses"
+FRAME = "~"
 """The name in a message with what has moved. To viser it is the position of a node that
 is not there."""
 _KINDS: dict[str, Any] = {
     "wxyz": _messages.SetOrientationMessage,
     "position": _messages.SetPositionMessage,
 }
+_TRACKS = {kind: f"sambot_{kind}" for kind in _KINDS}
+"""Where a node has its tracks: in viser's state of it."""
 _pairs = itertools.count(1)
 """Rotations have even numbers, positions odd ones; each number has one meaning as long
 as the program runs, so a node that is made again with the same name has others."""
+_SWEEP = 1000
+"""Nodes that are gone are forgotten when there are so many more tracks."""
+
+Value = tuple[float, ...]
+Move = tuple[Any, str, Value]
+"""viser's state of a node, "wxyz" or "position", and what that is now."""
 
 
 class _Track:
@@ -54,7 +64,7 @@ class _Track:
         self.state = state
         self.message = message
         self.place = place
-        self.value: tuple[float, ...] = ()
+        self.value: Value = ()
         self.frame = -1
 
 
@@ -67,16 +77,15 @@ class MovingPoses:
 
     def __init__(self, buffer: Any) -> None:
         self._buffer = buffer
-        self._tracks: dict[tuple[str, str], _Track] = {}
         # By number; the one that has moved last is the last one.
         self._moved: dict[int, _Track] = {}
+        self._sweep_at = _SWEEP
         self._frame = _messages.SetPositionMessage(FRAME, (0.0, 0.0, 0.0))
         # It says nothing to those who read the scene from the buffer.
         vars(self._frame)["include_in_scene_serialization"] = False
         self._place = -1
         # Whether the change goes on in which the frame was put where it is.
         self._is_open = False
-        self._sweep_at = 1000
         buffer.sambot_poses = self
 
     @staticmethod
@@ -85,41 +94,41 @@ class MovingPoses:
         found = _poses_of(buffer)
         return MovingPoses(buffer) if found is None else found
 
-    def move(self, state: Any, kind: str, value: tuple[float, ...]) -> bool:
-        """Change a pose in place; False where its message is not there.
+    def move(self, moves: Iterable[Move]) -> list[Move]:
+        """Change poses in place.
 
-        Args:
-            state: viser's of the node.
-            kind: "wxyz" or "position".
-            value: of this kind.
+        Returns:
+            Those whose messages are not there.
         """
-        track, buffer = self._tracks.get((state.name, kind)), self._buffer
-        if track is None or track.state is not state:
-            return False
+        left: list[Move] = []
+        buffer, moved = self._buffer, self._moved
         with buffer.buffer_lock:
-            if buffer.persistent_messages:
-                # A program may have moved it by viser's own setter.
-                there = buffer.message_from_id.get(track.place)
-                if there is not track.message:
-                    return False
-            track.value = value
-            setattr(track.message, kind, value)
-            if not self._is_open:
-                self._put_frame()
-            if track.frame != self._place:
-                track.frame = track.message.moved_in = self._place
-                self._moved.pop(track.number, None)
-                self._moved[track.number] = track
-        return True
+            for move in moves:
+                state, kind, value = move
+                track = _track_of(state, kind)
+                if track is None or self._is_replaced(track):
+                    left.append(move)
+                    continue
+                if not self._is_open:
+                    self._put_frame()
+                track.value = value
+                setattr(track.message, kind, value)
+                if track.frame != self._place:
+                    track.frame = track.message.moved_in = self._place
+                    moved.pop(track.number, None)
+                    moved[track.number] = track
+            if len(moved) > self._sweep_at:
+                self._sweep()
+        return left
 
-    def tell(self, state: Any, kind: str, value: tuple[float, ...]) -> None:
+    def tell(self, move: Move) -> None:
         """Send a pose as viser does, with a number for what comes later; see `move`."""
-        key = (state.name, kind)
-        before = self._tracks.get(key)
-        if before is not None and before.state is state:
-            number = before.number
-        else:
+        state, kind, value = move
+        before = _track_of(state, kind)
+        if before is None:
             number = 2 * next(_pairs) + (kind == "position")
+        else:
+            number = before.number
         message = _KINDS[kind](state.name, value)
         as_viser = message.as_serializable_dict
 
@@ -130,12 +139,10 @@ class MovingPoses:
         state.api._queue_scene_message(message)
         buffer = self._buffer
         with buffer.buffer_lock:
+            self._moved.pop(number, None)
             place = buffer.id_from_redundancy_key.get(message.redundancy_key(), -1)
-            if before is not None:
-                self._moved.pop(before.number, None)
-            self._tracks[key] = _Track(number, state, message, place)
-            if len(self._tracks) > self._sweep_at:
-                self._sweep()
+            track = _Track(number, state, message, place)
+            setattr(state, _TRACKS[kind], track)
 
     def change_ended(self) -> None:
         """What moves from now on goes into another frame; the buffer is locked."""
@@ -158,13 +165,21 @@ class MovingPoses:
             for track in reversed(self._moved.values()):
                 if track.frame <= after:
                     break
-                if track.frame <= last and not track.state.removed:
+                if track.frame > last or track.state.removed:
+                    continue
+                if not self._is_replaced(track):
                     numbers.append(track.number)
                     values += track.value
-        content = struct.pack(
-            f"<{1 + len(numbers)}I{len(values)}d", len(numbers), *numbers, *values
-        )
+        content = packed_numbers(numbers) + struct.pack(f"<{len(values)}d", *values)
         return _messages.SetPositionMessage(FRAME, cast(Any, content))
+
+    def _is_replaced(self, track: _Track) -> bool:
+        """Tell whether a program has moved the node by viser's own setter since."""
+        buffer = self._buffer
+        # Others are gone as soon as their only client has had them.
+        return buffer.persistent_messages and (
+            buffer.message_from_id.get(track.place) is not track.message
+        )
 
     def _put_frame(self) -> None:
         """Put the frame behind all other messages, and wake who waits for them."""
@@ -177,21 +192,39 @@ class MovingPoses:
         self._is_open = buffer.atomic_counter > 0
         buffer.message_event.set()
         if not self._is_open:
-            try:
+            # A loop that has ended has no clients.
+            with suppress(RuntimeError):
                 buffer.event_loop.call_soon_threadsafe(buffer.message_event.set)
-            except RuntimeError:
-                # The loop has ended: there are no clients.
-                pass
 
     def _sweep(self) -> None:
         """Forget nodes that are gone."""
-        for key in [key for key, track in self._tracks.items() if track.state.removed]:
-            self._moved.pop(self._tracks.pop(key).number, None)
-        self._sweep_at = 1000 + 2 * len(self._tracks)
+        there = {n: one for n, one in self._moved.items() if not one.state.removed}
+        self._moved = there
+        self._sweep_at = _SWEEP + 2 * len(there)
+
+
+def packed_numbers(numbers: Iterable[int]) -> bytes:
+    """Return numbers above 0 in seven bits a byte, the lowest first, and a 0 behind."""
+    packed = bytearray()
+    for number in numbers:
+        while number > 127:
+            packed.append(128 | (number & 127))
+            number >>= 7
+        packed.append(number)
+    packed.append(0)
+    return bytes(packed)
+
+
+def _track_of(state: Any, kind: str) -> _Track | None:
+    return getattr(state, _TRACKS[kind], None)
 
 
 def _poses_of(buffer: Any) -> MovingPoses | None:
     return getattr(buffer, "sambot_poses", None)
+
+
+Posed = tuple[viser.SceneNodeHandle, Wxyz | None, Vector3 | None]
+"""A node, and its rotation and position [m]; what is None stays."""
 
 
 def set_pose(
@@ -207,23 +240,35 @@ def set_pose(
         wxyz: a unit quaternion; None leaves the rotation as it is.
         position: finite numbers; None leaves the position as it is.
     """
-    state: Any = handle._impl  # pyright: ignore[reportPrivateUsage]
-    if wxyz is not None:
-        state.wxyz[:] = wxyz
-        _send(state, "wxyz", wxyz)
-    if position is not None:
-        state.position[:] = position
-        _send(state, "position", position)
+    set_poses([(handle, wxyz, position)])
 
 
-def _send(state: Any, kind: str, value: tuple[float, ...]) -> None:
-    interface = state.api._websock_interface
+def set_poses(posed: Iterable[Posed]) -> None:
+    """Do the same with several nodes of one scene."""
+    moves: list[Move] = []
+    state: Any = None
+    for handle, wxyz, position in posed:
+        state = handle._impl  # pyright: ignore[reportPrivateUsage]
+        if wxyz is not None:
+            state.wxyz[:] = wxyz
+            moves.append((state, "wxyz", wxyz))
+        if position is not None:
+            state.position[:] = position
+            moves.append((state, "position", position))
+    if moves:
+        _send(state.api, moves)
+
+
+def _send(api: Any, moves: Sequence[Move]) -> None:
+    interface = api._websock_interface
     poses = _poses_of(interface.get_message_buffer())
     if poses is None:
         # What is drawn without a server is recorded.
-        state.api._queue_scene_message(_KINDS[kind](state.name, value))
+        for state, kind, value in moves:
+            api._queue_scene_message(_KINDS[kind](state.name, value))
         return
     with interface._record_lock:
         # viser's recordings of a running scene hear of messages when they are sent.
-        if interface._record_handles or not poses.move(state, kind, value):
-            poses.tell(state, kind, value)
+        left = moves if interface._record_handles else poses.move(moves)
+        for move in left:
+            poses.tell(move)

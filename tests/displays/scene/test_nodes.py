@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.scene.frame_nodes import position_of
-from sambot_viz.geometry import inverse_matrix, wxyz_from_matrix, wxyz_from_z
+from sambot_viz.geometry import (
+    inverse_matrix,
+    wxyz_from_matrix,
+    wxyz_from_z,
+    wxyzs_from_matrices,
+)
 from sambot_viz.robot.parts import Origin
 
 
@@ -29,6 +34,14 @@ def test_every_rotation_survives_the_way_there_and_back() -> None:
         rpy = tuple(source.uniform(-4, 4) for _ in range(3))
         T = Origin(rpy=(rpy[0], rpy[1], rpy[2])).matrix
         assert np.allclose(rotation(wxyz_from_matrix(T)), T[:3, :3], atol=1e-12)
+
+
+def test_many_rotations_at_once_are_the_same_to_the_last_digit() -> None:
+    source = random.Random(4)
+    turns = [[source.uniform(-4, 4) for _ in range(3)] for _ in range(100)]
+    matrices = [Origin(rpy=(r, p, y)).matrix for r, p, y in [*turns, [np.pi, 0, 0]]]
+    each = [wxyz_from_matrix(T) for T in matrices]
+    assert wxyzs_from_matrices(np.array(matrices)) == each
 
 
 @pytest.mark.parametrize("half_turn", [(np.pi, 0, 0), (0, np.pi, 0), (0, 0, np.pi)])

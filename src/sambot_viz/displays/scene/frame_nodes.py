@@ -8,7 +8,7 @@ frame carries the fixed frame: its pose is T_fixed_root.
 from __future__ import annotations
 
 import string
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TypeVar, cast
 
 import numpy as np
@@ -17,17 +17,24 @@ import viser
 from sambot_viz import viser_private
 from sambot_viz.frames import FrameTree
 from sambot_viz.geometry import (
+    IDENTITY,
+    ORIGIN,
     Matrix,
     Vector3,
     Wxyz,
     inverse_matrix,
     unit_wxyz,
     wxyz_from_matrix,
+    wxyzs_from_matrices,
 )
-from sambot_viz.viser_private import is_removed, set_pose
+from sambot_viz.viser_private import is_removed, set_poses
 
-_AS_CREATED = ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+Pose = tuple[Wxyz, Vector3]
+"""Rotation and position [m] in the frame of the node above."""
+_AS_CREATED: Pose = (IDENTITY, ORIGIN)
 """The pose of a node that was just added."""
+_FEW = 8
+"""Up to this many matrices are taken apart one by one."""
 _DIGITS = string.digits + string.ascii_lowercase
 
 
@@ -50,7 +57,7 @@ class FrameNodes:
         self._scene = scene
         self._handles: dict[str, viser.FrameHandle] = {}
         self._paths: dict[str, str] = {}
-        self._sent: dict[str, tuple[Wxyz, Vector3]] = {}
+        self._sent: dict[str, Pose] = {}
         self._ids: dict[str, str] = {}
         self._root_of: dict[str, str] = {}
         self._fixed_root: str | None = None
@@ -82,34 +89,31 @@ class FrameNodes:
 
     def place(self, tree: FrameTree, fixed_frame: str, frames: Iterable[str]) -> None:
         """Send the poses of some frames (and of the roots, if they changed)."""
-        for frame in frames:
-            # The latest sample of a single step is what tf2 answers for it.
-            transform = tree.transform_of(frame)
-            if transform is not None:
-                self._set(frame, transform.matrix)
-        self._place_roots(tree, fixed_frame)
-
-    def _place_roots(self, tree: FrameTree, fixed_frame: str) -> None:
+        # The latest sample of a single step is what tf2 answers for it.
+        found = ((frame, tree.transform_of(frame)) for frame in frames)
+        matrices = {frame: one.matrix for frame, one in found if one is not None}
+        poses = dict(zip(matrices, _poses(list(matrices.values())), strict=True))
         for root in tree.roots:
             connected = root == self._fixed_root
             self._handles[root].visible = connected
             if connected:
-                T_root_fixed = np.eye(4)
+                poses[root] = _AS_CREATED
                 if fixed_frame != root:
                     T_root_fixed = tree.drawn(root, fixed_frame).matrix
-                self._set(root, inverse_matrix(T_root_fixed))
+                    poses[root] = _pose(inverse_matrix(T_root_fixed))
+        self._send(poses)
 
-    def _set(self, frame: str, T: Matrix) -> None:
-        """Send the pose of a node; what of it has not changed is not sent again."""
-        wxyz, position = now = (wxyz_from_matrix(T), position_of(T))
-        before = self._sent.get(frame, _AS_CREATED)
-        if now != before:
-            self._sent[frame] = now
-            set_pose(
-                self._handles[frame],
-                wxyz if wxyz != before[0] else None,
-                position if position != before[1] else None,
-            )
+    def _send(self, poses: Mapping[str, Pose]) -> None:
+        """Send the poses of nodes; what has not changed is not sent again."""
+        moved: list[tuple[Handle, Wxyz | None, Vector3 | None]] = []
+        for frame, now in poses.items():
+            before = self._sent.get(frame, _AS_CREATED)
+            if now != before:
+                self._sent[frame] = now
+                wxyz = None if now[0] == before[0] else now[0]
+                position = None if now[1] == before[1] else now[1]
+                moved.append((self._handles[frame], wxyz, position))
+        set_poses(moved)
 
     def _wanted_paths(self, tree: FrameTree) -> dict[str, str]:
         paths: dict[str, str] = {}
@@ -124,6 +128,23 @@ class FrameNodes:
             children = list(tree.children(frame))
             pending.extend((c, paths[frame], root) for c in reversed(children))
         return paths
+
+
+def _poses(matrices: Sequence[Matrix]) -> list[Pose]:
+    """Return the poses of (4, 4) matrices."""
+    if len(matrices) <= _FEW:
+        return [_pose(T) for T in matrices]
+    all_of_them = np.array(matrices)
+    positions = all_of_them[:, :3, 3]
+    if not np.abs(positions).max() < FARTHEST:
+        return [_pose(T) for T in matrices]
+    rows: list[list[float]] = positions.tolist()
+    turns = wxyzs_from_matrices(all_of_them)
+    return [(wxyz, (x, y, z)) for wxyz, (x, y, z) in zip(turns, rows, strict=True)]
+
+
+def _pose(T: Matrix) -> Pose:
+    return wxyz_from_matrix(T), position_of(T)
 
 
 FARTHEST = 1e30

@@ -6,20 +6,16 @@ from typing import Generic, TypeVar
 
 import viser
 
-from sambot_viz.displays.scene.frame_nodes import any_gone, remove_all
+from sambot_viz.displays.scene.frame_nodes import Pose, any_gone, remove_all
 from sambot_viz.geometry import (
     IDENTITY,
     ORIGIN,
     Matrix,
-    Vector3,
-    Wxyz,
     matrix_from_wxyz,
 )
 from sambot_viz.viser_private import set_pose
 
 Handle = TypeVar("Handle", bound=viser.SceneNodeHandle)
-Pose = tuple[Wxyz, Vector3]
-"""Rotation and position [m] in the frame of the node above."""
 
 
 class PosedNode(Generic[Handle]):

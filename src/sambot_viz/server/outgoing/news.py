@@ -48,6 +48,11 @@ class News:
         event = buffer.message_event
         return event.news if isinstance(event, LoopEvent) else News(buffer)
 
+    def join(self) -> None:
+        """Take part from now on, in the loop: somebody reads what goes out."""
+        if self.buffer.atomic_counter == 0:
+            self.end = max(self.end, self.buffer.message_counter - 1)
+
     async def wait(self) -> None:
         """Wait until more may go out, or the buffer has ended."""
         waiting = self._loop.create_future()
@@ -78,6 +83,9 @@ class News:
             self._ask()
 
     def _ask(self) -> None:
+        if not self.buffer.generator_cursors:
+            # Whoever comes is counted there first, and then looks by `join`.
+            return
         self._asked = self.buffer.message_counter - 1
         # A loop that has stopped already has no clients.
         with suppress(RuntimeError):

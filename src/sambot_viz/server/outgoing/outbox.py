@@ -124,6 +124,7 @@ async def batches(
     """
     buffer, client_id = news.buffer, cursor.client_id
     buffer.generator_cursors[client_id] = cursor.last
+    news.join()
     try:
         while not buffer.done:
             due = backlog_end if marker is not None else max(news.end, backlog_end)
