@@ -155,14 +155,12 @@ class RowSync:
         return bool(patch)
 
     def _follow(self, panel: Panel) -> bool:
-        changed = False
-        for row_id, value in panel.values().items():
-            row = self.store.get(row_id)
-            if row is not None and row.get("value") != (shown := safe(value)):
-                self.store.update(row_id, {"value": shown})
-                self._moved_rows.add(row_id)
-                changed = True
-        return changed
+        values = panel.values().items()
+        changed = self.store.set_values(
+            {row_id: safe(value) for row_id, value in values}
+        )
+        self._moved_rows.update(changed)
+        return bool(changed)
 
 
 def _places(items: Mapping[str, Item]) -> list[tuple[str, str]]:

@@ -162,6 +162,9 @@ class Data:
 
 def safe(value: Json) -> Json:
     """Make the texts of a value such that any browser can show them; lines stay."""
+    if type(value) is float:
+        # Most values are numbers.
+        return value
     if isinstance(value, str):
         longest = len(value) if isinstance(value, LongText) else LONGEST_TEXT
         return "\n".join(text(line, longest) for line in value.split("\n"))

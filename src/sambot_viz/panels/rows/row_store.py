@@ -77,6 +77,33 @@ class RowStore:
             self._rows[row_id] = kept
             self._changed[row_id] = changed | dict.fromkeys(patch, version)
 
+    def set_values(self, values: Mapping[str, Json]) -> list[str]:
+        """Show other values in rows, together.
+
+        Args:
+            values: by row; of those that are not there nothing is kept.
+
+        Returns:
+            The rows that have shown something else.
+        """
+        rows = self._rows
+        differing = {
+            row_id: value
+            for row_id, value in values.items()
+            if row_id in rows and rows[row_id].get("value") != value
+        }
+        if differing:
+            with self._lock:
+                version = self._next()
+                for row_id, value in differing.items():
+                    row = {**rows[row_id], "value": value}
+                    if value is None:
+                        del row["value"]
+                    rows[row_id] = row
+                    changed = self._changed.pop(row_id, {})
+                    self._changed[row_id] = {**changed, "value": version}
+        return list(differing)
+
     def _next(self) -> int:
         self._packed.clear()
         self.version += 1
