@@ -460,6 +460,7 @@ HOLDERS = {
     "scripting/outputs.py",
     "scripting/player_control.py",
     "server/client_sessions.py",
+    "server/recordings.py",
     "server/reload.py",
     "server/sessions.py",
     "session/__init__.py",

@@ -5,10 +5,10 @@ from __future__ import annotations
 import contextlib
 import os.path
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, InvalidStateError, wait
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any
@@ -24,6 +24,7 @@ from sambot_viz.errors import (
 from sambot_viz.moved_by import (
     named_descriptions,
     open_moved_by,
+    open_recorded,
     refuse_mixture,
     refuse_time_of_live,
 )
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 
     from sambot_viz.joints.presets import Presets
     from sambot_viz.listened import Listened
+    from sambot_viz.moved_by import Given
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import Declarations, RvizConfig
     from sambot_viz.rviz.yaml.yaml_document import Document
@@ -78,6 +80,15 @@ def load_config(path: Path | str) -> RvizConfig:
     from sambot_viz.rviz import RvizConfig
 
     return RvizConfig.load(Path(path), declarations())
+
+
+def bundled_config() -> RvizConfig:
+    """Read the config that comes with the program.
+
+    Raises:
+        ConfigError: it cannot be read.
+    """
+    return load_config(bundled.config_path())
 
 
 class Inputs:
@@ -130,7 +141,7 @@ class Inputs:
         self._listened: Listened | None = None
         if self.live is not None and listen is not None:
             self._listen(self.live, listen)
-        self._trusts_model = True
+        self._hold()
         found = bundled.find(
             Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
@@ -144,18 +155,13 @@ class Inputs:
         self._choose_robot()
         self._of_config: tuple[Problem, ...] = ()
         self._robot: Future[Robot] = Future()
-        self._opened: OpenedModel | None = None
+        self._load: Callable[[], Robot] | None = None
         if text is not None:
             self.model, self._may_be_broken = None, False
             self._open_model(text)
         elif model is None and (source := self.moved_by) is not None:
             self.model, self._may_be_broken = None, False
-            # Whoever recorded it is not who reads it.
-            self._trusts_model = False
-            try:
-                self._opened = open_text(source.model, source.label)
-            except RobotError as error:
-                self._robot.set_result(self._without_robot(error))
+            self._load = partial(self._robot_of, source)
         elif model is None or isinstance(model, Path | str):
             self.model = found.model
             # A pipe of the shell can be read only once.
@@ -195,9 +201,9 @@ class Inputs:
 
     def begin(self) -> None:
         """Load the robot in a thread; a second call does nothing."""
-        opened, self._opened = self._opened, None
-        if opened is not None:
-            _in_thread(lambda: self._load_opened(opened), self._robot)
+        load, self._load = self._load, None
+        if load is not None:
+            _in_thread(load, self._robot)
 
     def robot(self) -> Robot:
         """Return the robot, as soon as it is loaded.
@@ -263,6 +269,7 @@ class Inputs:
         """Close recordings and connections; a second call does nothing."""
         if self.moved_by is not None:
             self.moved_by.close()
+        self._lease = None
         if self._listened is not None:
             self._listened.close()
 
@@ -327,7 +334,7 @@ class Inputs:
         if given is not None and not isinstance(given, Path | str):
             return given
         if self._document is None:
-            return load_config(bundled.config_path())
+            return bundled_config()
         document = RvizConfig(self._document, declarations())
         self._of_config = document.problems
         return document
@@ -360,27 +367,53 @@ class Inputs:
             raise SourceError(f"{live.name}: {lost or nothing_came(seconds).text}")
         self._listened, self.moved_by = listened, listened.recorded
 
-    def _load_opened(self, opened: OpenedModel) -> Robot:
-        try:
-            return self.load(opened, self._trusts_model)
-        except RobotError as error:
-            if self._options.model is not None:
-                raise
-            return self._without_robot(error)
+    def open_recordings(
+        self, given: Given, named: Sequence[str]
+    ) -> tuple[SourceRobot, Robot | None]:
+        """Open other recordings than those of the options.
 
-    def _without_robot(self, error: RobotError) -> Robot:
-        """Return a stand-in: what else a recording has is shown without its robot.
+        Args:
+            given: the recordings.
+            named: descriptions that the config asks for.
+
+        Returns:
+            What moves the robot, and its robot; None where the options name one. It
+            closes after whoever has a lease of it.
 
         Raises:
-            RobotError: as given, where there is no recording.
+            SourceError: one of them cannot be opened.
         """
+        moved_by = open_recorded(self._options, given)
+        try:
+            moved_by.choose(named)
+            is_given = self._options.model is not None
+            return moved_by, None if is_given else self._robot_of(moved_by)
+        except BaseException:
+            moved_by.close()
+            raise
+
+    def take(self, moved_by: SourceRobot) -> None:
+        """Have others in the place of the sources of the options."""
+        self.moved_by = moved_by
+        self._hold()
+
+    def _hold(self) -> None:
         moved_by = self.moved_by
-        if moved_by is None:
-            raise error
-        moved_by.refusal = f"URDF failed Model parse: {error.problems[0].message}"
-        stand_in = open_text(moved_by.stand_in, moved_by.label)
-        robot = self.load(stand_in, trusted=False)
-        return replace(robot, problems=(*error.problems, *robot.problems))
+        self._lease = None if moved_by is None else moved_by.lease()
+
+    def _robot_of(self, source: SourceRobot) -> Robot:
+        """Return the robot that a source describes.
+
+        Where it cannot be shown, what else there is is shown with a stand-in.
+        """
+        # Whoever recorded it is not who reads it.
+        try:
+            return self.load(open_text(source.model, source.label), trusted=False)
+        except RobotError as error:
+            source.refusal = f"URDF failed Model parse: {error.problems[0].message}"
+            stand_in = open_text(source.stand_in, source.label)
+            robot = self.load(stand_in, trusted=False)
+            return replace(robot, problems=(*error.problems, *robot.problems))
 
     def _choose_robot(self) -> None:
         """Take the robot whose topic the config names, where messages have several."""
@@ -389,12 +422,10 @@ class Inputs:
         named = named_descriptions(read)
         if self.moved_by is not None:
             self.moved_by.choose(named)
-            notes = (*self._options.notes, *self.problems_of_recording())
-            self._options = self._options.having(notes=notes)
 
     def _open_model(self, model: PathLike) -> None:
         try:
-            self._opened = open_model(model)
+            self._load = partial(self.load, open_model(model))
         except RobotError as error:
             if not self._may_be_broken:
                 raise

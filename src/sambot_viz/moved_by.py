@@ -11,12 +11,15 @@ from sambot_viz.options import Options
 
 # Most robots are moved by hand.
 if TYPE_CHECKING:
+    from sambot_viz.messages import MessageTypes
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.rviz.yaml.yaml_document import Document
     from sambot_viz.rviz.yaml.yaml_nodes import Map
     from sambot_viz.sources.given import GivenSource
     from sambot_viz.sources.source import Source
     from sambot_viz.topics.source_robot import SourceRobot
+
+    Given = Sequence[GivenSource]
 
 
 def open_moved_by(options: Options) -> SourceRobot | None:
@@ -30,19 +33,44 @@ def open_moved_by(options: Options) -> SourceRobot | None:
     """
     if not options.sources:
         return None
-    from sambot_viz.messages import MessageTypes
+    if not options.live_sources:
+        return open_recorded(options, options.sources, options.at)
     from sambot_viz.sources.joined import JoinedSources
     from sambot_viz.topics.source_robot import SourceRobot
 
-    types = MessageTypes([Path(folder) for folder in options.msg_path])
     lives = [_live(given) for given in options.live_sources]
-    folder = _checked_folder(options) if lives else None
+    folder = _checked_folder(options)
     recorded = [given for given in options.sources if not given.is_live]
     sources: list[Source] = [] if not recorded else [_recordings(recorded)]
-    if lives:
-        sources.append(lives[0] if len(lives) == 1 else JoinedSources(lives))
+    sources.append(lives[0] if len(lives) == 1 else JoinedSources(lives))
     source = sources[0] if len(sources) == 1 else JoinedSources(sources)
-    return SourceRobot(source, types, at=options.at, recordings=folder)
+    return SourceRobot(source, _types(options), at=options.at, recordings=folder)
+
+
+def open_recorded(
+    options: Options, given: Given, at: float | None = None
+) -> SourceRobot:
+    """Open recordings, those of the options or others.
+
+    Args:
+        options: where definitions of messages are.
+        given: the recordings.
+        at: where to begin [s from the first message]; None plays from there.
+
+    Raises:
+        SourceError: one of them cannot be opened.
+    """
+    from sambot_viz.topics.source_robot import SourceRobot
+
+    moved_by = SourceRobot(_recordings(given), _types(options), at=at)
+    moved_by.given = given
+    return moved_by
+
+
+def _types(options: Options) -> MessageTypes:
+    from sambot_viz.messages import MessageTypes
+
+    return MessageTypes([Path(folder) for folder in options.msg_path])
 
 
 def refuse_mixture(options: Options) -> None:

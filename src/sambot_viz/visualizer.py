@@ -8,6 +8,7 @@ import inspect
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
+from pathlib import Path
 from typing import Any, Concatenate, ParamSpec
 
 import viser
@@ -164,6 +165,25 @@ class Visualizer(RobotControl):
         With private sessions, what is added here is shown to all browsers.
         """
         return self._server.viser
+
+    def open_recording(self, path: Path | str, *, source: str | None = None) -> None:
+        """Show another recording in place of the one that is shown.
+
+        It is as if the program had begun with it: topics, frames, displays and player
+        are those of the new one, and so is the robot, unless a model was given. A
+        config that was given stays. Copies that browsers have made stay as they are.
+
+        Args:
+            path: an MCAP file, rosbag2's sqlite3 file, a ROS 1 bag, or a folder.
+            source: which one it replaces, by its name, where several are shown.
+
+        Raises:
+            SourceError: it cannot be opened; what is shown stays.
+            UsageError: no recording is shown, or several without a `source`.
+            ServerError: the visualizer was stopped.
+        """
+        self._server.sessions.require_open()
+        self._shown.open_recording(Path(path), source)
 
     def wait(self) -> None:
         """Return when the server is stopped (by `stop`, or by Ctrl-C)."""

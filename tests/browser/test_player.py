@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from ax_tree import Thing
 from inside import session_of
+from made_recording import write_recording
 from recorded_page import open_page
 from user import User
 from viewer_page import ViewerPage, viewer_url
@@ -80,6 +81,45 @@ def test_a_time_that_is_typed_is_gone_to_and_a_wrong_one_says_what_can_be(
     user.until(lambda: player.time_ns == player.start_ns + 7_500_000_000)
     user.click("button", "To the beginning")
     user.until(lambda: player.time_ns == player.start_ns)
+
+
+def test_another_recording_is_opened_from_the_menu_the_player_and_the_palette(
+    tmp_path: Path, repository: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    square = (repository / "assets" / "square.mcap").read_bytes()
+    (tmp_path / "square.mcap").write_bytes(square)
+    (tmp_path / "broken.mcap").write_bytes(b"no recording")
+    moved = [("/tf", t, {"base": "odom"}) for t in (0.0, 4.0)]
+    write_recording(tmp_path / "other.mcap", {}, moved)
+    with Visualizer(tmp_path / "square.mcap", port=0, look="rviz") as viz:
+        user = open_viewer(viz.url).user
+
+        def choose(name: str) -> None:
+            user.find("dialog", "Open Recording")
+            user.click("option", name)
+            user.click("button", "Open")
+
+        user.menu("File", "Open Recording…")
+        choose("other.mcap")
+        user.gone("dialog")
+        user.find("button", re.compile("Time: .* / 0:04"))
+        # What is not saved is asked about, where it would be lost.
+        user.click("checkbox", "Grid")
+        user.find("button", re.compile("^Undo"))
+        user.click("button", "Open recording")
+        user.click("button", "Don’t save")
+        choose("broken.mcap")
+        user.until(lambda: "is not a recording" in alerts(user))
+        assert viz.player.duration == pytest.approx(4.0)
+        user.keys("Escape")
+        user.gone("dialog")
+        user.keys("Control+z")
+        user.keys("Control+k")
+        user.type("open recording")
+        user.keys("Enter")
+        choose("square.mcap")
+        user.gone("dialog")
+        user.find("button", re.compile("Time: .* / 0:20"))
 
 
 def alerts(user: User) -> str:

@@ -35,7 +35,7 @@ class Links:
         self.session, self.client = session, client
         panels: list[Panel] = [panel_of(JointsPanel, session)] if joints else []
         if session.data is not None:
-            panels.append(SourcePanel(session.data))
+            panels.append(SourcePanel(session.sources))
         self.panel = panel_of(
             PermalinkPanel,
             session,

@@ -12,28 +12,28 @@ from inside import session_of
 from sambot_viz import Visualizer
 from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.session.data.player import Player
-from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.data.session_sources import SessionSources
 
 
 @pytest.fixture
-def data(repository: Path) -> Iterator[RobotData]:
+def sources(repository: Path) -> Iterator[SessionSources]:
     path = repository / "assets" / "square.mcap"
     with Visualizer(path, port=0) as viz:
-        data = session_of(viz).data
-        assert data is not None
-        data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
-        yield data
+        sources = session_of(viz).sources
+        assert sources.data is not None
+        sources.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
+        yield sources
 
 
 @pytest.fixture
-def player(data: RobotData) -> Player:
-    assert data.player is not None
-    return data.player
+def player(sources: SessionSources) -> Player:
+    assert sources.data is not None and sources.data.player is not None
+    return sources.data.player
 
 
 @pytest.fixture
-def panel(data: RobotData) -> SourcePanel:
-    return SourcePanel(data)
+def panel(sources: SessionSources) -> SourcePanel:
+    return SourcePanel(sources)
 
 
 def value(panel: SourcePanel, row_id: str) -> Any:

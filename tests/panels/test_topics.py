@@ -33,7 +33,7 @@ class Opened:
         if self.data.player is not None:
             self.data.player._ticking = True  # pyright: ignore[reportPrivateUsage]
         self.remade = 0
-        self.panel = TopicsPanel(self.data.topics, session.scene.statuses, self._remake)
+        self.panel = TopicsPanel(session.sources, session.scene.statuses, self._remake)
         connect(self.data.topics.remade_by, lambda: self._remake(self.panel))
 
     def _remake(self, panel: Panel) -> None:
@@ -339,7 +339,7 @@ def test_however_many_look_a_topic_is_looked_at_once_a_second(
     live.look()
     scene = live.session.scene
     others = [
-        TopicsPanel(live.data.topics, scene.statuses, lambda panel: None)
+        TopicsPanel(live.session.sources, scene.statuses, lambda panel: None)
         for _ in range(2)
     ]
     with live.session.lock:

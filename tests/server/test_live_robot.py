@@ -51,9 +51,7 @@ def looks(client: Client) -> list[float]:
 
 
 def sentence(viz: Visualizer) -> str:
-    data = session_of(viz).data
-    assert isinstance(data, RobotData)
-    told = {one.id: one.value for one in SourcePanel(data).data()}
+    told = {one.id: one.value for one in SourcePanel(session_of(viz).sources).data()}
     return told["source/status"]["sentence"]
 
 
@@ -282,7 +280,7 @@ def test_a_simulation_that_is_reset_begins_again(
 
     peer.server.broadcast_time(1_000_000_000)
     eventually(lambda: not viz.frames.can_lookup("odom", "base_link"))
-    (problem,) = data.problems.value
+    (problem,) = session_of(viz).sources.problems.value
     assert problem.code == "clock-back"
     assert "time went back by 8.1 s" in problem.message
     eventually(lambda: data.clock.state.value == ClockState(True, 1.0, 0.0))

@@ -65,8 +65,7 @@ def sentence(account: Account) -> str:
 
 def in_panel(session: Session) -> dict[str, str]:
     """Topic → what its row in the panel Topics says."""
-    assert session.data is not None
-    panel = TopicsPanel(session.data.topics, session.scene.statuses, lambda one: None)
+    panel = TopicsPanel(session.sources, session.scene.statuses, lambda one: None)
     with session.change():
         {one.id: one for one in panel.commands()}["topics/show"].run(True)
         rows = {row.id: row for row in panel.rows()}

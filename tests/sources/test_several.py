@@ -130,8 +130,7 @@ def test_a_recording_is_beside_a_robot(peer: RobotPeer, tmp_path: Path) -> None:
         # A jump of the recording is none of the robot, which has said nothing since.
         assert x(viz, "base_link") == pytest.approx(1.0, abs=0.03)
         # What can seek is played, and of the robot is told how it is.
-        assert session.data is not None
-        panel = SourcePanel(session.data)
+        panel = SourcePanel(session.sources)
         assert [row.id for row in panel.rows()][:2] == ["player/time", "player/playing"]
         told = {one.id: one.value for one in panel.data()}
         assert told["player/name"] == "before"
@@ -181,7 +180,9 @@ def test_two_robots_are_told_apart_by_a_prefix(
             # Its topics are not to blame.
             assert "has come yet" not in said()
             # Which one is missing is said first, and by its name.
-            told = {one.id: one.value for one in SourcePanel(data).data()}
+            told = {
+                one.id: one.value for one in SourcePanel(session_of(viz).sources).data()
+            }
             status = told["source/status"]
             assert (status["name"], status["connected"]) == ("a and b", False)
             assert status["sentence"].startswith("b: ")

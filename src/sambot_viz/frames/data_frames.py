@@ -69,6 +69,15 @@ class DataFrames:
         self._left_out = frozenset(prefix + child for _, child in joints)
         self.tree.history = self._history if robot is None else None
 
+    def forget_all(self) -> None:
+        """Know no frame, as at the start; the tree is to be built again."""
+        self._left_out, self.tree.history = frozenset[str](), self._history
+        self._known.clear()
+        self.refused.clear()
+        self.waiting = False
+        if self._history is not None:
+            self._history.forget_all()
+
     def settle(self) -> Collection[str]:
         """Set the frames that have moved in the tree.
 

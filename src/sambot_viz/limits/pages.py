@@ -112,6 +112,12 @@ CONFIG_NAMES = LimitRow(
     "",
     "the first are listed, and none is added; the page says so",
 )
+RECORDING_NAMES = LimitRow(
+    "recordings that a page can open",
+    1000,
+    "",
+    "the first of their folders are listed",
+)
 UNDO = LimitRow(
     "steps that a page can undo",
     200,

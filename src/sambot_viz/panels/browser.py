@@ -18,6 +18,7 @@ from sambot_viz.panels.rows.row import Answer, Data, Json, Level, LongText, Row
 from sambot_viz.panels.saved_pictures import AskPage, PicturesPanel
 from sambot_viz.panels.selection.selection import SelectionPanel
 from sambot_viz.panels.sources.images_panel import ImagesPanel
+from sambot_viz.panels.sources.recordings_panel import OtherRecordings, RecordingsPanel
 from sambot_viz.panels.sources.topics_panel import TopicsPanel
 from sambot_viz.panels.tools import ToolPropertiesPanel, ToolsPanel
 from sambot_viz.panels.undo_panel import UndoPanel
@@ -38,6 +39,7 @@ class BrowserPanels:
         files: the disk, for those who may use it.
         ask_page: makes a page of what is seen; None leaves that out.
         invite: makes the link for viewers; None leaves inviting out.
+        recordings: those that can be opened; None where none can.
         displays: the rows of the displays, for everyone.
         shared_row: finds a row that everyone sees, by its id.
 
@@ -56,6 +58,7 @@ class BrowserPanels:
         files: Files | None,
         ask_page: AskPage | None,
         invite: Invite | None,
+        recordings: OtherRecordings | None,
         displays: DisplaysPanel,
         shared_row: Callable[[str], Row | None],
     ) -> None:
@@ -70,6 +73,17 @@ class BrowserPanels:
         if invite is not None:
             roles, number = session.roles, client.client_id
             panels.append(InvitePanel(roles, number, invite, self._remake))
+        panels.append(
+            RecordingsPanel(
+                client.client_id,
+                recordings,
+                session.sources,
+                session.document,
+                session.roles,
+                self.say,
+                self._remake,
+            )
+        )
         # Behind those that have something to say at once.
         panels.append(self._notices)
         sync = self._sync = RowSync(session.worker, panels, "browser")
@@ -83,10 +97,9 @@ class BrowserPanels:
         scene, roles, frames = session.scene, session.roles, session.frames
         keep, clients = displays.keep_unfolded, session.clients
         views = ViewsPanel(client, document, scene, clients, roles, history, self.say)
-        found = None if session.data is None else session.data.topics
-        topics: list[Panel] = [AddByTopicPanel(found, scene, remake)]
-        if found is not None:
-            topics.append(TopicsPanel(found, scene.statuses, remake))
+        topics: list[Panel] = [AddByTopicPanel(session.sources, scene, remake)]
+        if session.data is not None:
+            topics.append(TopicsPanel(session.sources, scene.statuses, remake))
         person = roles.people.get(client.client_id)
         presents = roles.presented and person is not None and person.presenter
         paths = [PathsPanel(displays, document, scene)] if presents else []

@@ -20,8 +20,9 @@ class Panel:
 
     Attributes:
         name: the panel of the page that shows the rows.
-        remade_by: the rows are made again after these have changed.
-        changed_by: only `changed_rows` is asked after these.
+        remade_by: the rows are made again after these have changed; read after
+            `refresh`.
+        changed_by: only `changed_rows` is asked after these; read after `refresh`.
         period: shortest time between two times that `values` is asked [s].
     """
 
@@ -38,6 +39,9 @@ class Panel:
     def moved_by(self) -> Sequence[Signal[Any]]:
         """After these only `values` is asked; it is read when rows have been made."""
         return ()
+
+    def refresh(self) -> None:
+        """Look at what there is to show by now, before all rows are made."""
 
     def items(self) -> list[Item]:
         """Return all that the page gets now."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 
 from sambot_viz.panels.panel import Item, Panel
 from sambot_viz.panels.rows.row import Row, safe
 from sambot_viz.panels.rows.row_store import RowStore, Scope
-from sambot_viz.session.signals import Listening, connect
+from sambot_viz.session.signals import Listening
 from sambot_viz.session.worker import Throttle, Worker
 
 PERIOD = 0.04
@@ -46,18 +46,16 @@ class RowSync:
             for panel in panels
             if panel.period > PERIOD
         }
-        self._disconnect = [
-            ending for panel in self._panels for ending in self._connect(panel)
-        ]
+        # Of a panel: what makes its rows again, what changes some, and both.
+        self._facts = {panel: self._listening_to_facts(panel) for panel in panels}
         self._listening = {panel: [*self._listeners(panel)] for panel in panels}
         for panel in self._panels:
             self._make(panel)
 
     def close(self) -> None:
         """Follow no changes from now on."""
-        for disconnect in self._disconnect:
-            disconnect()
-        for listening in chain.from_iterable(self._listening.values()):
+        all_of = chain(self._facts.values(), self._listening.values())
+        for listening in chain.from_iterable(all_of):
             listening.to()
         self._throttle.close()
         for throttle in self._slow.values():
@@ -72,12 +70,15 @@ class RowSync:
                 return items[item_id]
         return None
 
-    def _connect(self, panel: Panel) -> Iterator[Callable[[], None]]:
-        """Show a change of what a panel shows, all panels together."""
-        yield connect(panel.remade_by, partial(self._remake.add, panel))
-        yield connect(panel.changed_by, partial(self._change.add, panel))
-        signals = [*panel.remade_by, *panel.changed_by]
-        yield connect(signals, self._throttle.request, sends=True)
+    def _listening_to_facts(
+        self, panel: Panel
+    ) -> tuple[Listening, Listening, Listening]:
+        """Return what shows a change of what a panel shows, all panels together."""
+        return (
+            Listening(partial(self._remake.add, panel)),
+            Listening(partial(self._change.add, panel)),
+            Listening(self._throttle.request, sends=True),
+        )
 
     def _listeners(self, panel: Panel) -> Iterator[Listening]:
         """Yield what follows a motion; it listens once rows have been made."""
@@ -119,6 +120,11 @@ class RowSync:
 
     def _make(self, panel: Panel) -> bool:
         """Make the rows of a panel; returns whether the page has to show others."""
+        panel.refresh()
+        remade, changed, both = self._facts[panel]
+        remade.to(*panel.remade_by)
+        changed.to(*panel.changed_by)
+        both.to(*panel.remade_by, *panel.changed_by)
         made = {item.id: item for item in panel.items()}
         for listening in self._listening[panel]:
             listening.to(*panel.moved_by)

@@ -21,6 +21,7 @@ from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
+from sambot_viz.panels.sources.recordings_panel import OtherRecordings
 from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
@@ -38,6 +39,7 @@ class Window:
         files: the disk; None when the browsers may not use it.
         ask_page: makes a page of what is seen; None leaves that out.
         invite: makes the link for viewers; None leaves inviting out.
+        recordings: those that can be opened; None where none can.
     """
 
     def __init__(
@@ -47,11 +49,13 @@ class Window:
         files: Files | None = None,
         ask_page: AskPage | None = None,
         invite: Invite | None = None,
+        recordings: OtherRecordings | None = None,
     ) -> None:
         self._session = session
         self._files = files
         self._ask_page = ask_page
         self._invite = invite
+        self._recordings = recordings
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
         self._folders = files is not None and not session.roles.presented
@@ -89,12 +93,12 @@ class Window:
             ),
         ]
         if session.data is not None:
-            panels.append(SourcePanel(session.data, not session.private))
+            panels.append(SourcePanel(session.sources, not session.private))
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [
                 JointsPanel(
-                    robot, session.motion, history, arrow, session.data, remake
+                    robot, session.motion, history, arrow, session.sources, remake
                 ),
                 PosesPanel(
                     session.poses, robot, session.motion, history, session.roles, remake
@@ -125,6 +129,7 @@ class Window:
                 self._files,
                 self._ask_page,
                 self._invite,
+                self._recordings,
                 self._displays,
                 self._shared_row,
             )

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import viser
@@ -25,6 +25,10 @@ from sambot_viz.session import Session
 from sambot_viz.session.clients.client_camera import reported
 from sambot_viz.session.session_copy import SessionCopy
 
+# Most servers show no recording.
+if TYPE_CHECKING:
+    from sambot_viz.server.recordings import Recordings
+
 
 class ClientSessions:
     """The clients of a server: where each one's edits go, and what it sees.
@@ -35,6 +39,7 @@ class ClientSessions:
         files: opens and follows .rviz files for the shared session; None leaves Open
             and Save out.
         ask_page: makes a page of what is seen; None leaves that out.
+        recordings: opens others than those that are shown; None leaves that out.
         on_joined: called when a client has its rows, in any thread.
     """
 
@@ -44,6 +49,7 @@ class ClientSessions:
         sessions: Sessions,
         files: Files | None,
         ask_page: AskPage | None,
+        recordings: Recordings | None,
         on_joined: Callable[[], object],
     ) -> None:
         self._server = server
@@ -51,6 +57,7 @@ class ClientSessions:
         self._options = sessions.options
         self._files = files
         self._ask_page = ask_page
+        self._recordings = recordings
         self._on_joined = on_joined
         self._joined = threading.Condition()
 
@@ -81,12 +88,14 @@ class ClientSessions:
             if options.panels and place.window is None:
                 # Clients with a session of their own do not use the server's disk.
                 shared = place is self._sessions.shared_place
+                sessions, recordings = self._sessions, self._recordings
                 place.window = Window(
                     session,
                     options.gui,
                     self._files if shared else None,
                     self._ask_page,
                     partial(invite, options) if shared else None,
+                    None if recordings is None else recordings.of(sessions, session),
                 )
         self._on_joined()
 

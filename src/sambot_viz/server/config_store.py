@@ -84,6 +84,18 @@ class ConfigStore:
             self.current, self.view = document, _view_of(document)
         return True
 
+    def begin_again(self, shown: RvizConfig, document: RvizConfig) -> None:
+        """Take the config that comes with the program, made for another recording.
+
+        Args:
+            shown: what it takes the place of; another one was opened meanwhile if it
+                is no longer the current one.
+            document: the config.
+        """
+        with self._lock:
+            if self.current is shown:
+                self.current, self.view = document, _view_of(document)
+
     def open(
         self, path: Path, shown: ShownDocument, clients: Clients, robot: Robot | None
     ) -> None:

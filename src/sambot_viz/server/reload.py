@@ -88,10 +88,16 @@ class Reloader:
 
     def _asset_files(self) -> set[Path]:
         others = (display.own_robot for display in self._displays())
-        robots = [r for r in (self._sessions.robot, *others) if r is not None]
+        shown = (session.robot.model for session in self._sessions.all())
+        known = (self._sessions.robot, *shown, *others)
+        # Many sessions show the same one.
+        robots = {id(robot): robot for robot in known if robot is not None}
         files = self._sessions.meshes.files
         return {
-            f for robot in robots for asset in assets_of(robot) for f in files(asset)
+            f
+            for robot in robots.values()
+            for asset in assets_of(robot)
+            for f in files(asset)
         }
 
     def _files_around(self) -> set[Path]:

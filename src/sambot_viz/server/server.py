@@ -7,6 +7,7 @@ import atexit
 import threading
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import viser
 
@@ -21,6 +22,10 @@ from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.topics.source_robot import SourceRobot
+
+# Most servers show no recording.
+if TYPE_CHECKING:
+    from sambot_viz.server.recordings import Recordings
 
 _log = logger(__name__)
 
@@ -42,6 +47,7 @@ class Server:
         ask_page: makes a page of what is seen; None leaves that out.
         moved_by: the robot of a recording, which every session plays for itself, or of
             a live source.
+        recordings: opens others than those that are shown; None leaves that out.
 
     Attributes:
         sessions: what the browsers see.
@@ -62,6 +68,7 @@ class Server:
         files: Files | None = None,
         ask_page: AskPage | None = None,
         moved_by: SourceRobot | None = None,
+        recordings: Recordings | None = None,
     ) -> None:
         self.options = options
         self._open = threading.Semaphore()
@@ -72,7 +79,12 @@ class Server:
             self._viser, options, make_config, models, poses, moved_by
         )
         clients = self.clients = ClientSessions(
-            self._viser, sessions, files, ask_page, self._listener.tell_joined
+            self._viser,
+            sessions,
+            files,
+            ask_page,
+            recordings,
+            self._listener.tell_joined,
         )
         self._listener.give(clients)
         prepare_page(self._viser)

@@ -205,6 +205,52 @@ class Sessions:
             self._forget_unused_files()
             self.for_each(lambda session: session.checks.run())
 
+    def show_sources(
+        self,
+        session: Session | None,
+        moved_by: SourceRobot,
+        robot: Robot | None,
+        document: RvizConfig | None,
+    ) -> None:
+        """Show other sources; copies of the shared session keep theirs.
+
+        Args:
+            session: where; None is in all, present and to come.
+            moved_by: the robot of the sources.
+            robot: what they describe; None shows the opened robot, which was given.
+            document: the config; None keeps what is shown.
+        """
+        for_all = session is None or session is self.shared
+        shown = self.all(copies=False) if session is None else [session]
+        if for_all:
+            self._take_sources(shown, moved_by, robot)
+        own = robot is not None and not for_all
+        if own and robot is not None:
+            robot = self.assemble(robot)
+        for one in shown:
+            config = document
+            if config is not None and one is not self.shared:
+                config = config.copy()
+            one.replace_sources(moved_by, robot if own else self.robot, config, own=own)
+        self.on_files()
+        self._forget_unused_files()
+        for one in shown:
+            one.checks.run()
+
+    def _take_sources(
+        self, shown: Sequence[Session], moved_by: SourceRobot, robot: Robot | None
+    ) -> None:
+        """Let new sessions begin with other sources; other ones keep their robot."""
+        for other in self.all() if robot is not None else ():
+            if other not in shown:
+                with other.lock:
+                    other.own_model = True
+        with self.lock:
+            self._moved_by = moved_by
+            if robot is not None:
+                self.opened = robot
+                self.robot = self.assemble(robot)
+
     def show_again(self) -> None:
         """Show the opened robot, after `assemble` makes something else of it."""
         if self.opened is not None:
@@ -281,7 +327,7 @@ class Sessions:
             self._mesh_thread,
             self.options,
             poses,
-            self._moved_by,
+            self._moved_by if copy is None else copy.moved_by,
         )
         if audience is self._server and session.data is not None:
             # Its pages are still to come.

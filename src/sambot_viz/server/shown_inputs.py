@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz.displays.robot_display import Description
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
-from sambot_viz.errors import JointError, Problem, RobotError
-from sambot_viz.inputs import Inputs
+from sambot_viz.errors import JointError, Problem, RobotError, UsageError
+from sambot_viz.inputs import Inputs, bundled_config
 from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import open_text
@@ -26,6 +27,10 @@ from sambot_viz.session.own_config import fit_own_config, fit_robot
 from sambot_viz.session.undo import History
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, STAND_IN_NAME, RobotTopics
 from sambot_viz.topics.source_robot import SourceRobot
+
+# Most servers show no recording.
+if TYPE_CHECKING:
+    from sambot_viz.server.recordings import Recordings
 
 PANELS_WITHOUT_ROBOT = 1.0
 """The page gets its panels before the robot when a model takes longer to load [s]."""
@@ -65,13 +70,19 @@ class ShownInputs:
         if self._stand_in is not None and inputs.moved_by is not None:
             self._show_data(document, inputs.moved_by)
         self._stand_in_frame = document.global_options.get("Fixed Frame")
-        self._assume_frame(document)
+        self._assume_frame(document, inputs.moved_by)
         # Of a live robot that had not said what it looks like.
         self._switched_off: list[DisplayConfig] = []
         # Root and top frame of the live robot that config and cameras were fitted to.
         self._ends_of_live: tuple[str, str] | None = None
         self._reloader: Reloader | None = None
         self._live_model: LiveModel | None = None
+        is_recorded = inputs.moved_by is not None and inputs.live is None
+        self._recordings: Recordings | None = None
+        if is_recorded:
+            from sambot_viz.server.recordings import Recordings
+
+            self._recordings = Recordings(inputs, self.configs, self._first_config)
         models = ModelThread(inputs.load, options.package_path, self._load_described)
         self.server = Server(
             options,
@@ -82,6 +93,7 @@ class ShownInputs:
             self.configs,
             ask_page,
             inputs.moved_by,
+            self._recordings,
         )
 
     def start(self) -> None:
@@ -106,6 +118,15 @@ class ShownInputs:
             self.server.stop()
             raise
 
+    def open_recording(self, path: Path, source: str | None) -> None:
+        """Show another recording in all sessions; see `Recordings.open`."""
+        if self._recordings is None:
+            raise UsageError(
+                "no recording is shown that another one could replace: start with one, "
+                "as the model or the source, and without a live robot"
+            )
+        self._recordings.open(self.server.sessions, path, source)
+
     def stop(self) -> None:
         """Stop the server and free the port; a second call does nothing."""
         if self._reloader is not None:
@@ -117,15 +138,25 @@ class ShownInputs:
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
-        sessions = self.server.sessions
+        sessions, moved_by = self.server.sessions, self._inputs.moved_by
         if sessions.robot is None and self._stand_in is self.configs.current:
-            self._fit_fixed_frame(self.configs.current, robot)
+            self._fit_fixed_frame(self.configs.current, robot, moved_by)
             for session in sessions.all():
                 shown = session.document
                 with session.change(shown.options, shown.displays):
-                    self._fit_fixed_frame(session.document.config, robot)
+                    self._fit_fixed_frame(session.document.config, robot, moved_by)
                     session.scene.apply_enabled()
         sessions.show_robot(robot)
+
+    def _first_config(self, moved_by: SourceRobot, robot: Robot | None) -> RvizConfig:
+        """Return the config that comes with the program, for other sources."""
+        document = bundled_config()
+        _set_fixed_frame(document, self._inputs.options.fixed_frame)
+        self._show_data(document, moved_by)
+        self._assume_frame(document, moved_by)
+        if robot is not None:
+            self._fit_fixed_frame(document, robot, moved_by)
+        return document
 
     def _follow_live(self, live: SourceRobot) -> None:
         """Connect to a live robot, and show it as it describes itself."""
@@ -239,21 +270,21 @@ class ShownInputs:
                 display.set_enabled(True)
         self._switched_off.clear()
 
-    def _fit_fixed_frame(self, document: RvizConfig, robot: Robot) -> None:
+    def _fit_fixed_frame(
+        self, document: RvizConfig, robot: Robot, moved_by: SourceRobot | None
+    ) -> None:
         """Take the root of a robot as the fixed frame, unless a user has chosen one."""
         if document.global_options.get("Fixed Frame") == self._stand_in_frame:
             fit_own_config(document, robot)
-            moved_by = self._inputs.moved_by
             if moved_by is not None and moved_by.can("seek"):
                 _name_description(document, moved_by.topics)
                 root, top = moved_by.root_and_top(robot)
                 _show_motion(document, robot, top, root)
             _set_fixed_frame(document, self._inputs.options.fixed_frame)
-            self._assume_frame(document)
+            self._assume_frame(document, moved_by)
 
-    def _assume_frame(self, document: RvizConfig) -> None:
+    def _assume_frame(self, document: RvizConfig, moved_by: SourceRobot | None) -> None:
         """Note the frame of the config that comes with the program: no user's wish."""
-        moved_by = self._inputs.moved_by
         # Of a live robot data are waited for.
         is_whole = moved_by is None or moved_by.can("seek")
         is_asked = self._inputs.options.fixed_frame is not None

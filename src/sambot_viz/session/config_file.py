@@ -15,6 +15,7 @@ from sambot_viz import bundled, limits
 from sambot_viz.errors import ConfigError, UsageError
 from sambot_viz.files import is_below
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.listed_files import ListedFiles
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.room import require_room
 from sambot_viz.session.scene.scene import Scene
@@ -81,22 +82,13 @@ class ConfigFile:
         file = self._context.config_file
         return None if file is None or _is_bundled(file) else file
 
-    def _leads_elsewhere(self, path: Path) -> bool:
-        """Whether a path in the folder is a link out of it."""
-        # Few are links: what else there is costs no more than this question.
-        if not path.is_symlink() or path == self.target:
-            return False
+    @property
+    def _files(self) -> ListedFiles:
         opened = self._opened
-        folders = [self.folder.resolve()]
-        if opened is not None:
-            # Builds of ROS workspaces consist of links to the sources.
-            folders.append(Path(os.path.realpath(opened)).parent)
-        return not is_below(path, folders)
-
-    def _is_hidden(self, path: Path) -> bool:
-        """Whether a file has a name that no file gets here, unless it was opened."""
-        hidden = path.name.startswith(".")
-        return hidden and path not in (self.target, self._opened)
+        # Builds of ROS workspaces consist of links to the sources.
+        beside = () if opened is None else (Path(os.path.realpath(opened)).parent,)
+        most, shown = limits.CONFIG_NAMES.value, (self.target, opened)
+        return ListedFiles(self.folder, _is_config, most, shown, beside)
 
     def names(self) -> list[str]:
         """The .rviz files in the folder, by name, and the one of the program.
@@ -104,25 +96,7 @@ class ConfigFile:
         Raises:
             UsageError: the folder cannot be read.
         """
-        folder = self.folder
-        try:
-            with os.scandir(folder) as entries:
-                found = [
-                    entry.name
-                    for entry in entries
-                    if entry.name.endswith(ENDING)
-                    and not self._is_hidden(folder / entry.name)
-                    and not self._leads_elsewhere(folder / entry.name)
-                    and entry.is_file()
-                ]
-        except OSError as error:
-            raise UsageError(
-                f"the folder {folder} cannot be read: {error.strerror}"
-            ) from error
-        return [
-            *sorted(found, key=str.casefold)[: limits.CONFIG_NAMES.value],
-            *_of_the_program(),
-        ]
+        return [*self._files.names(), *_of_the_program()]
 
     def listed(self, name: str) -> Path:
         """The file that is shown under a name.
@@ -153,7 +127,7 @@ class ConfigFile:
         if refusal is not None:
             raise UsageError(f"{refusal}; the file goes into {self.folder}")
         path = self.folder / f"{name}{ENDING}"
-        if self._leads_elsewhere(path):
+        if self._files.leads_elsewhere(path):
             raise UsageError(
                 f"{path.name} is a link to another folder; the file goes into "
                 f"{self.folder}"
@@ -194,6 +168,10 @@ class ConfigFile:
                 "another name, or download it"
             ) from error
         return target
+
+
+def _is_config(entry: os.DirEntry[str]) -> bool:
+    return entry.name.endswith(ENDING) and entry.is_file()
 
 
 def _of_the_program() -> list[str]:

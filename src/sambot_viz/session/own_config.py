@@ -41,6 +41,11 @@ _IN_FILE = {
 """Values of the file that follow the size of the robot; of others, RViz's default."""
 
 
+def is_own_config(document: RvizConfig) -> bool:
+    """Return whether a document is that of the program, and not a user's."""
+    return bundled.is_bundled(document.file)
+
+
 def take_root(document: RvizConfig, robot: Robot) -> None:
     """Take the root of a robot as the fixed frame, if it has none of that name."""
     if document.global_options.get("Fixed Frame") not in robot.links:
@@ -67,7 +72,7 @@ def fit_robot(document: RvizConfig, robot: Robot) -> None:
 
 def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
     """Let the config that comes with the program fit a robot; others stay."""
-    if robot is not None and bundled.is_bundled(document.file):
+    if robot is not None and is_own_config(document):
         take_root(document, robot)
         fit_robot(document, robot)
 
@@ -128,9 +133,7 @@ class SizeOfRobot:
 
         None where there is neither, and in a user's config.
         """
-        if self._robot.model is None or not bundled.is_bundled(
-            self._document.config.file
-        ):
+        if self._robot.model is None or not is_own_config(self._document.config):
             return None
         tree, box = self._scene.context.tree, self._picker.link_box()
         if box is None:

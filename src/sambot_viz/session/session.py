@@ -11,7 +11,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Generator
 from contextlib import contextmanager
-from functools import cache, partial
 
 import viser
 
@@ -29,13 +28,13 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
-from sambot_viz.session.data.descriptions import SourceDescriptions
 from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.document.display_edits import DisplayEdits
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
-from sambot_viz.session.own_config import SizeOfRobot
+from sambot_viz.session.own_config import SizeOfRobot, is_own_config
 from sambot_viz.session.people.roles import Roles
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
@@ -50,7 +49,6 @@ from sambot_viz.session.signals import Audience, Change, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.source_robot import SourceRobot
-from sambot_viz.topics.whole_run import whole_run
 from sambot_viz.views.camera import Camera
 
 
@@ -75,7 +73,7 @@ class Session:
         change: changes the state, sends that, and tells it.
         private: whether only one client sees it.
         own_model: whether its robot is its own: that of the server is not shown in it.
-        data: what messages move; None without a source.
+        sources: what messages come from, and what they move.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -98,7 +96,7 @@ class Session:
         self.poses = poses or Presets()
         change = self.change = Change(worker, audience)
         private = self.private = isinstance(audience, viser.ClientHandle)
-        self.own_model = False
+        self.own_model = self._has_others = False
         self.roles = Roles(change, options.presenter is not None and not private)
         history = self.history = History(change)
 
@@ -118,35 +116,20 @@ class Session:
         self._size = SizeOfRobot(
             document, scene, robot, picker, self.display_edits, history
         )
-        self.data: RobotData | None = None
-        self._descriptions: SourceDescriptions | None = None
-        if moved_by is not None and frames is not None:
-            self.data = RobotData(
-                moved_by, frames, data_frames, robot, change, worker, scene
-            )
-            scene.context.now = self.data.time_s
-            scene.context.is_paced = self.data.is_paced
-            scene.context.messages = self.data.messages
-            is_given, redraw = options.model is not None, self._redraw
-            topics = self.data.topics
-            self._descriptions = SourceDescriptions(
-                moved_by,
-                is_given,
-                worker,
-                redraw,
-                topics.reason,
-            )
-            connect([topics.looked], self._descriptions.look_again)
-            scene.context.descriptions = self._descriptions
-            scene.context.meant = moved_by.meant_frames
-            scene.whole_run = cache(partial(whole_run, moved_by))
+        is_given = options.model is not None
+        self.sources = SessionSources(
+            frames, data_frames, robot, scene, change, worker, is_given
+        )
+        if moved_by is not None:
+            self.sources.take(moved_by)
         self.frames = Frames(tree, added, robot, scene, history, change)
         self.drive = Drive(robot, self.frames, options, change)
         self.motion = Motion(robot, self.drive, change, worker)
         self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
-        played = None if self.data is None else self.data.problems
-        self.problems = Problems(document, scene, robot, change, options.notes, played)
+        self.problems = Problems(
+            document, scene, robot, change, self.sources, options.notes
+        )
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)
@@ -157,11 +140,16 @@ class Session:
             self.drive, document, scene, self.clients, picker, history, worker
         )
 
-        self._open = threading.Semaphore()
+        self._open, self._closed = threading.Semaphore(), False
         connect([document.options, document.replaced], self._take_period)
         self._take_period()
         for frame in options.transforms:
             self.frames.add(frame.parent, frame.child, frame.transform)
+
+    @property
+    def data(self) -> RobotData | None:
+        """What messages move; None without a source."""
+        return self.sources.data
 
     def join(
         self, handle: viser.ClientHandle, *, presenter: bool = False, login: str = ""
@@ -219,7 +207,7 @@ class Session:
             if self.own_model and not own:
                 return
             start = self.options.start_pose
-            if self.options.waits_for_robot:
+            if self.options.waits_for_robot or self._has_others:
                 # The server says what is wrong once it has come.
                 start = start.known_in(robot)
             refused = self.robot.take(robot, start)
@@ -236,6 +224,47 @@ class Session:
             self.scene.draw_frames()
             if self.data is not None:
                 self.data.resume()
+
+    def replace_sources(
+        self,
+        moved_by: SourceRobot,
+        robot: Robot | None,
+        document: RvizConfig | None = None,
+        *,
+        own: bool = False,
+    ) -> None:
+        """Show other sources, as if the session had begun with them.
+
+        Frames that were added stay; so does the document, unless there is another one.
+
+        Args:
+            moved_by: the robot of the sources.
+            robot: what is shown then, with all joints at their start.
+            document: the config, in place of one that is the program's; None keeps
+                the one that is shown.
+            own: as for `show_robot`.
+        """
+        with self.change():
+            if self._closed:
+                return
+            if not is_own_config(self.document.config):
+                # A user has opened one meanwhile.
+                document = None
+            self.motion.stop()
+            self.scene.clear()
+            self.robot.forget()
+            self.sources.take(moved_by)
+            self.own_model, self._has_others = False, True
+            if document is None:
+                self.document.show()
+            else:
+                self.document.replace(document)
+            if robot is not None:
+                self.show_robot(robot, own=own)
+            if document is not None:
+                self.clients.show_view()
+            if self.data is not None and self.data.is_looked_at:
+                self.data.begin()
 
     def copy(self) -> SessionCopy:
         """Copy what is shown now."""
@@ -258,6 +287,7 @@ class Session:
                 models=context.models,
                 meshes=context.assets.cache,
                 moved_by=None if data is None else data.moved_by,
+                lease=None if data is None else data.moved_by.lease(),
                 time_ns=0 if player is None else player.time_ns,
                 follows=bool(self.robot.followed.value),
             )
@@ -300,15 +330,10 @@ class Session:
         self.clients.close()
         self.picker.close()
         self.robot.close()
-        if self._descriptions is not None:
-            self._descriptions.close()
-        if self.data is not None:
-            self.data.close()
+        with self.lock:
+            self._closed = True
+            self.sources.close()
         self.worker.close()
-
-    def _redraw(self) -> None:
-        """Draw again, after a topic describes another robot."""
-        self.scene.context.apply(self.scene.redraw)
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

@@ -14,7 +14,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.user_frames import UserFrame
-from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.topics.source_robot import Lease, SourceRobot
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +36,7 @@ class SessionCopy:
         models: reads further models.
         meshes: mesh files that are read already.
         moved_by: the recording or the live robot that moves it; None without one.
+        lease: keeps that open.
         time_ns: the log time that is shown of it [ns].
         follows: whether its messages move the joints.
     """
@@ -54,6 +55,7 @@ class SessionCopy:
     models: ModelReader | None
     meshes: MeshCache
     moved_by: SourceRobot | None = None
+    lease: Lease | None = None
     time_ns: int = 0
     follows: bool = True
 

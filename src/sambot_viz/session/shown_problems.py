@@ -19,6 +19,7 @@ from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.problems import in_order
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz.not_here import tools_not_here
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
@@ -52,8 +53,8 @@ class Problems:
         document: has problems of its own.
         scene: displays report problems of what they draw from.
         robot: what is shown while a save has a mistake.
+        sources: what is wrong with them, and with the messages that were played.
         notes: stay beside what is wrong with the model.
-        of_data: what is wrong with the messages that were played.
 
     Attributes:
         shown: what a page shows of them.
@@ -70,8 +71,8 @@ class Problems:
         scene: Scene,
         robot: RobotState,
         change: Change,
+        sources: SessionSources,
         notes: Sequence[Problem] = (),
-        of_data: Signal[tuple[Problem, ...]] | None = None,
     ) -> None:
         self._notes = tuple(notes)
         self.shown = Signal(change, ShownProblems())
@@ -87,9 +88,9 @@ class Problems:
         self._logged: set[Problem] = set()
         self.saves = Signal(change, None)
         self._model = Signal(change, None)
-        self._of_data = () if of_data is None else (of_data,)
-        sources = [document.replaced, scene.statuses, robot.changed, *self._of_data]
-        connect([*sources, self.saves, self._model], self._show)
+        self._sources = sources
+        facts = [document.replaced, scene.statuses, robot.changed, sources.problems]
+        connect([*facts, self.saves, self._model], self._show)
 
     def set_model(self, problems: Sequence[Problem], *, checking: bool = False) -> None:
         """Show what is wrong with the model.
@@ -100,7 +101,8 @@ class Problems:
         """
         with self._change.lock:
             self._checking = checking
-            self.of_model = (*self._notes, *problems, *self.of_frames)
+            notes = (*self._notes, *self._sources.notes)
+            self.of_model = (*notes, *problems, *self.of_frames)
             self._model.touch()
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
@@ -151,7 +153,7 @@ class Problems:
         of_config = (*shown.problems, *tools_not_here(shown))
         config = _also(saved.get("config", ()), of_config)
         others = (*saved.get("fault", ()), *saved.get("watch", ()))
-        played = [problem for told in self._of_data for problem in told.value]
+        played = [*self._sources.problems.value]
         played += problems_of_topics(self._scene.displays)
         return in_order((*_also(model, played), *config, *others))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -47,6 +48,7 @@ from sambot_viz.topics.transforms import (
 # It is opened by who has one.
 if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
+    from sambot_viz.sources.given import GivenSource
     from sambot_viz.sources.recorder import SourceRecorder
 
 FIRST_SECONDS = 2.0
@@ -56,6 +58,10 @@ ENOUGH = 300
 
 _NAMED = 5
 """So many topics are named where one is missing."""
+
+
+class Lease:
+    """Keeps a source open while somebody has it."""
 
 
 class SourceRobot:
@@ -76,6 +82,7 @@ class SourceRobot:
     Attributes:
         source: as given.
         name: as given.
+        given: what a user has named it by.
         spaces: name the frames of robots with name spaces.
         decoding: decodes its messages.
         at_ns: the log time to begin with [ns]; None as `at`.
@@ -102,6 +109,8 @@ class SourceRobot:
     ) -> None:
         self.source = source
         self.name = name or source.uri
+        self.given: Sequence[GivenSource] = ()
+        self._lease: Callable[[], Lease | None] = lambda: None
         self.spaces = NameSpaces()
         self.decoding = Decoding(types, self.spaces)
         self.named: Sequence[str] = ()
@@ -148,6 +157,15 @@ class SourceRobot:
             # What has come is still written.
             self.recorder.close()
         self.source.close()
+
+    def lease(self) -> Lease:
+        """Return what keeps the source open: after the last one is gone, it closes."""
+        lease = self._lease()
+        if lease is None:
+            lease = Lease()
+            self._lease = weakref.ref(lease)
+            weakref.finalize(lease, self.close).atexit = False
+        return lease
 
     def choose(self, named: Sequence[str]) -> None:
         """Take the robot of the first of some topics that is there.

@@ -97,8 +97,9 @@ export function Dialog({ title, close, submit, wide, look = "", children }) {
  * @returns {{refused?: string, answer?: any, begin: () => void}} `begin` is called before each try
  */
 export function useAnswer(action) {
+  const [kind] = action.split("/");
   const notice = useData("notice"),
-    answer = useData("file/answer");
+    answer = useData(`${kind}/answer`);
   const seen = useRef({ notice: notice?.number || 0, answer: answer?.number || 0 });
   const begin = () => {
     seen.current = { notice: notice?.number || 0, answer: answer?.number || 0 };
@@ -106,6 +107,6 @@ export function useAnswer(action) {
   const refused =
     notice?.number > seen.current.notice && notice.row === action ? notice.text : undefined;
   const own =
-    answer?.number > seen.current.answer && `file/${answer.to}` === action ? answer : undefined;
+    answer?.number > seen.current.answer && `${kind}/${answer.to}` === action ? answer : undefined;
   return { refused, answer: own, begin };
 }

@@ -1,34 +1,57 @@
 // @ts-check
-/* Open Config: the .rviz files of the folder; asks first what becomes of unsaved changes. */
+/* Open Config and Open Recording: what is in the folders that were opened; asks first what becomes
+ * of unsaved changes. */
 
 import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act } from "../wire/channel.js";
+import { act, rows } from "../wire/channel.js";
 import { unfolded, useData } from "../state.js";
 import { Dialog, show, useAnswer } from "./dialog.js";
 import { SaveAs } from "./save_as.js";
 
 /** @param {{close: () => void}} props */
 export function OpenConfig({ close }) {
+  return html`<${AskFirst} what="another config" close=${close} dialog=${OpenConfig}>
+    <${Config} close=${close} /></${AskFirst}>`;
+}
+
+/** Another recording leaves a config alone; one of nobody gives way to that of the recording.
+ * @param {{close: () => void}} props */
+export function OpenRecording({ close }) {
+  const recording = html`<${Recording} close=${close} />`;
+  if (!useData("recording/state")?.replaces) return recording;
+  return html`<${AskFirst} what="another recording" close=${close} dialog=${OpenRecording}>
+    ${recording}</${AskFirst}>`;
+}
+
+/** A question, where there are unsaved changes; then what is in it.
+ * @param {{what: string, close: () => void, dialog: (props: {close: () => void}) => any,
+ *   children?: any}} props */
+function AskFirst({ what, close, dialog, children }) {
   const state = useData("file/state") || {};
   const [discard, setDiscard] = useState(false);
   const [saving, setSaving] = useState(false);
-  if (!state.modified || discard)
-    return html`<${Choose} close=${close} folder=${state.folder} name=${state.own ? state.name : ""}
-      />`;
+  if (!state.modified || discard) return children;
   const save = () => {
     // The list comes as soon as the file is saved.
     if (state.own) {
       setSaving(true);
       act("file/save", [unfolded()]);
-    } else
-      show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(OpenConfig)} />`);
+    } else show(({ close: shut }) => html`<${SaveAs} close=${shut} then=${() => show(dialog)} />`);
   };
-  return html`<${Dialog} title="Unsaved changes" close=${close} submit=${save}>
-    <p>${`${state.name || "This config"} has unsaved changes. Save them before opening another config?`}</p>
+  const canSave = rows.knows("file/save");
+  return html`<${Dialog} title="Unsaved changes" close=${close}
+    submit=${canSave ? save : () => setDiscard(true)}>
+    <p>${`${state.name || "This config"} has unsaved changes. ${
+      canSave ? "Save them" : "Lose them"
+    } before opening ${what}?`}</p>
     <${SaveRefused} saving=${saving} />
     <div class="buttons end">
-      <button type="submit" class="main" data-first>${state.own ? "Save" : "Save as…"}</button>
-      <button type="button" onClick=${() => setDiscard(true)}>Don’t save</button>
+      ${
+        canSave
+          ? html`<button type="submit" class="main" data-first>${state.own ? "Save" : "Save as…"}</button>
+            <button type="button" onClick=${() => setDiscard(true)}>Don’t save</button>`
+          : html`<button type="submit" data-first>Lose them</button>`
+      }
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;
@@ -40,40 +63,87 @@ function SaveRefused({ saving }) {
   return saving && refused ? html`<p class="refused" role="alert">${refused}</p>` : null;
 }
 
-/** @param {{close: () => void, folder: string, name: string}} props */
-function Choose({ close, folder, name }) {
-  /** @type {Ref<HTMLSelectElement>} */
-  const list = useRef(null);
-  const [asked, setAsked] = useState(false);
+/** @param {{close: () => void}} props */
+function Config({ close }) {
+  const { folder, own, name } = useData("file/state") || {};
   const { refused, answer, begin } = useAnswer("file/open");
-  const names = useData("file/names");
-  useEffect(() => {
-    act("file/list");
-    setAsked(true);
-  }, []);
-  useLayoutEffect(() => {
-    if (list.current && list.current.selectedIndex < 0)
-      list.current.selectedIndex = Math.max(0, (names || []).indexOf(name));
-    list.current?.focus();
-  }, [names]);
   useEffect(() => {
     if (answer?.done) close();
   }, [answer?.number]);
-  const open = () => {
-    if (!list.current?.value) return;
+  /** @param {string} chosen */
+  const open = (chosen) => {
     begin();
-    act("file/open", [list.current.value]);
+    act("file/open", [chosen]);
   };
-  return html`<${Dialog} title="Open Config" close=${close} submit=${open}>
+  return html`<${Choose} title="Open Config" label="Configs" close=${close} open=${open}
+    list="file/list" names=${useData("file/names")} first=${own ? name : ""} refused=${refused}
+    none="This folder has no .rviz files.">
     <p>In the folder <b class="path">${folder}</b></p>
+  </${Choose}>`;
+}
+
+/** @param {{close: () => void}} props */
+function Recording({ close }) {
+  /** @type {string[]} */
+  const parts = useData("recording/state")?.parts || [];
+  const [chosen, setPart] = useState("");
+  const part = parts.includes(chosen) ? chosen : parts[0] || "";
+  const { refused, answer, begin } = useAnswer("recording/open");
+  useEffect(() => {
+    if (answer?.done) close();
+  }, [answer?.number]);
+  /** @param {string} name */
+  const open = (name) => {
+    begin();
+    act("recording/open", [part, name]);
+  };
+  return html`<${Choose} title="Open Recording" label="Recordings" close=${close} open=${open}
+    list="recording/list" names=${useData("recording/names")} first=${part}
+    refused=${refused || answer?.refused} busy=${answer?.opening}
+    none="There is no other recording beside the one that was opened.">
+    ${
+      parts.length > 1 &&
+      html`<label class="line">In place of <select value=${part}
+      onChange=${(/** @type {any} */ e) => setPart(e.currentTarget.value)}>${parts.map(
+        (one) => html`<option key=${one} value=${one}>${one}</option>`,
+      )}</select></label>`
+    }
+  </${Choose}>`;
+}
+
+/**
+ * A list of names, of which one is opened.
+ * @param {{title: string, label: string, close: () => void, open: (name: string) => void,
+ *   list: string, names: string[] | undefined, first: string, none: string, refused?: string,
+ *   busy?: string, children?: any}} props list: the command that asks for the names; first: the
+ *   one that is shown; busy: the one that is being opened
+ */
+function Choose({ title, label, close, open, list, names, first, none, refused, busy, children }) {
+  /** @type {Ref<HTMLSelectElement>} */
+  const element = useRef(null);
+  const [asked, setAsked] = useState(false);
+  useEffect(() => {
+    act(list);
+    setAsked(true);
+  }, []);
+  useLayoutEffect(() => {
+    if (element.current && element.current.selectedIndex < 0)
+      element.current.selectedIndex = Math.max(0, (names || []).indexOf(first));
+    element.current?.focus();
+  }, [names]);
+  const choose = () => {
+    if (element.current?.value && !busy) open(element.current.value);
+  };
+  return html`<${Dialog} title=${title} close=${close} submit=${choose}>
+    ${children}
     <div class="configs">${
       names?.length
-        ? html`<select size="10" aria-label="Configs"
-          ref=${list} data-first
-        onDblClick=${open} onKeyDown=${(/** @type {Key} */ e) => {
+        ? html`<select size="10" aria-label=${label}
+          ref=${element} data-first
+        onDblClick=${choose} onKeyDown=${(/** @type {Key} */ e) => {
           if (e.key === "Enter") {
             e.preventDefault();
-            open();
+            choose();
           }
         }}>
         ${names.map(
@@ -82,11 +152,12 @@ function Choose({ close, folder, name }) {
         )}
       </select>`
         : html`<p class="empty">
-          ${asked && names ? "This folder has no .rviz files." : "Reading the folder…"}</p>`
+          ${asked && names ? none : "Reading the folder…"}</p>`
     }</div>
+    ${busy && !refused && html`<p role="status">${`Opening ${busy} …`}</p>`}
     ${refused && html`<p class="refused" role="alert">${refused}</p>`}
     <div class="buttons end">
-      <button type="submit" class="main" disabled=${!names?.length}>Open</button>
+      <button type="submit" class="main" disabled=${!names?.length || Boolean(busy)}>Open</button>
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;

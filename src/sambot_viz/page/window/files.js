@@ -5,7 +5,7 @@ import { html, useEffect } from "../vendor/preact.js";
 import { act, mayChange, rows } from "../wire/channel.js";
 import { show } from "../dialogs/dialog.js";
 import { ExportPage } from "../dialogs/export_page.js";
-import { OpenConfig } from "../dialogs/open.js";
+import { OpenConfig, OpenRecording } from "../dialogs/open.js";
 import { SaveAs } from "../dialogs/save_as.js";
 import { SaveImage } from "../dialogs/save_image.js";
 import { tell } from "./notices.js";
@@ -49,6 +49,15 @@ export function open() {
   if (hasDisk() && mayChange()) {
     takeTyped();
     show(OpenConfig);
+  }
+}
+/** Whether another recording may take the place of one that is shown. */
+export const hasRecordings = () => rows.knows("recording/open");
+
+export function openRecording() {
+  if (hasRecordings() && mayChange()) {
+    takeTyped();
+    show(OpenRecording);
   }
 }
 export function download() {

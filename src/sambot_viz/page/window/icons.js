@@ -57,6 +57,7 @@ const PATHS = {
   unfoldAll: "M4 6l4-4 4 4M4 10l4 4 4-4",
   fold: "M10 3L5 8l5 5",
   unfold: "M6 3l5 5-5 5",
+  open: "M2 13V3.5h4l1.5 2H13V7M2 13l2.5-6H15l-2.5 6z",
   menu: "M2 4h12M2 8h12M2 12h12",
 };
 const FILLED = new Set(["play", "pause", "stop", "forwards", "back", "left", "right"]);

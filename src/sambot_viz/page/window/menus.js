@@ -5,7 +5,17 @@ import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/pr
 import { act, rows, send } from "../wire/channel.js";
 import { show } from "../dialogs/dialog.js";
 import { About, Keys } from "../dialogs/help.js";
-import { download, exportPage, hasDisk, open, save, saveAs, saveImage } from "./files.js";
+import {
+  download,
+  exportPage,
+  hasDisk,
+  hasRecordings,
+  open,
+  openRecording,
+  save,
+  saveAs,
+  saveImage,
+} from "./files.js";
 import { Icon } from "./icons.js";
 import { copyPermalink } from "../wire/permalink.js";
 import { menuKey, usePressOutside } from "./menu.js";
@@ -72,6 +82,9 @@ export const listMenus = (panels, hideAll, goTo) => [
   {
     name: "File",
     entries: () => [
+      ...(hasRecordings()
+        ? [{ name: "Open Recording…", does: openRecording, ...forControl("recording/open") }]
+        : []),
       ...(hasDisk()
         ? [
             { name: "Open Config…", does: open, ...forControl("file/open") },

@@ -84,12 +84,13 @@ export const play = () => send("player/playing", !rows.value("player/playing"));
 /** @param {boolean} back */
 export const step = (back) => act("player/step", [back]);
 
-/** A line for each thing that sources can: what seeks is played, of live robots is told how they are. */
-export function PlayerBar() {
+/** A line for each thing that sources can: what seeks is played, of live robots is told how they are.
+ * @param {{openOther: () => void}} props opens another recording */
+export function PlayerBar({ openOther }) {
   const [time, source] = [useRow("player/time"), useData("source/status")];
   if (!time && !source) return null;
   return html`<div class="bars">
-    ${time && html`<section class="player-bar" aria-label="Player"><${Controls} time=${time} /></section>`}
+    ${time && html`<section class="player-bar" aria-label="Player"><${Controls} time=${time} openOther=${openOther} /></section>`}
     ${source && html`<${Source} ...${source} />`}
   </div>`;
 }
@@ -165,13 +166,14 @@ function Recording({ recording }) {
     }`;
 }
 
-/** @param {{time: any}} props */
-function Controls({ time }) {
+/** @param {{time: any, openOther: () => void}} props */
+function Controls({ time, openOther }) {
   const playing = Boolean(useRow("player/playing")?.value);
   const rate = useRow("player/rate")?.value ?? 1;
   const loop = Boolean(useRow("player/loop")?.value);
   const begin = useData("player/begin") || 0;
   const name = useData("player/name");
+  const others = useData("recording/state");
   const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
   /** What was told of the time, and when. @type {{current: {value: number, at: number}}} */
   const told = useRef({ value: time.value, at: performance.now() });
@@ -200,6 +202,11 @@ function Controls({ time }) {
   const words = `${clock(shown)} of ${clock(most)}`;
   return html`
     <${CutText} is="recording-name" text=${name} />
+    ${
+      others &&
+      html`<button class="flat needs-control" aria-label="Open recording" title="Open another recording"
+      onClick=${openOther}><${Icon} name="open" /></button>`
+    }
     <button class="play needs-control" aria-keyshortcuts="Space" title=${`${playing ? "Pause" : "Play"} (space bar)`}
       onClick=${play}><${Icon} name=${playing ? "pause" : "play"} />${playing ? "Pause" : "Play"}</button>
     <button class="flat needs-control" aria-label="To the beginning" title="To the beginning (Home)"

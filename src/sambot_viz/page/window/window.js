@@ -29,6 +29,7 @@ import {
   TABS,
 } from "./panels.js";
 import { Asking } from "./people.js";
+import { openRecording } from "./files.js";
 import { PlayerBar } from "./player_bar.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./header.js";
@@ -64,7 +65,7 @@ export function Window() {
     }
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
-    <${PlayerBar} />
+    <${PlayerBar} openOther=${openRecording} />
     ${
       !away.all &&
       html`<${StatusBar}

@@ -9,6 +9,7 @@ from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.displays.topic_tree import shown_topics, topic_rows
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Row
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.scene.scene import Scene
 
@@ -23,7 +24,7 @@ class AddByTopicPanel(Panel):
     """The topics that a search finds, as a tree, while the dialog is open.
 
     Args:
-        topics: of the source; None without one.
+        sources: have the topics.
         scene: has the types of the messages.
         remake: called when other topics are shown.
     """
@@ -32,15 +33,23 @@ class AddByTopicPanel(Panel):
 
     def __init__(
         self,
-        topics: SourceTopics | None,
+        sources: SessionSources,
         scene: Scene,
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = () if topics is None else topics.remade_by
-        self._topics = topics
+        self._sources = sources
+        self._topics: SourceTopics | None = None
         self._scene = scene
         self._remake = remake
         self._wanted: tuple[str, bool] | None = None
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the topics of the sources that there are by now."""
+        data = self._sources.data
+        topics = self._topics = None if data is None else data.topics
+        known = () if topics is None else topics.remade_by
+        self.remade_by = (self._sources.replaced, *known)
 
     def data(self) -> Sequence[Data]:
         """Return what the rows were made for: the words, and whether all are shown."""

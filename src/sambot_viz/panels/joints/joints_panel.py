@@ -23,6 +23,7 @@ from sambot_viz.panels.rows.row import Answer, Data, Json, Row
 from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
@@ -52,7 +53,7 @@ class JointsPanel(Panel):
 
     Args:
         arrow: shows which way a joint moves.
-        data: the recording that moves the joints; None when there is none.
+        sources: have the recording that moves the joints, if there is one.
         remake: called when rows other than the positions have changed.
     """
 
@@ -65,7 +66,7 @@ class JointsPanel(Panel):
         motion: Motion,
         history: History,
         arrow: JointArrow,
-        data: RobotData | None,
+        sources: SessionSources,
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (robot.changed, robot.followed)
@@ -73,7 +74,7 @@ class JointsPanel(Panel):
         self._motion = motion
         self._history = history
         self._arrow = arrow
-        self._recording = data
+        self._sources = sources
         self._remake = remake
         self._rate = 1.0
         # Up to which move of which joints the page has been told.
@@ -90,7 +91,7 @@ class JointsPanel(Panel):
         if joints is None:
             return [Row("joints/none", "", "note", value=self._why_none())]
         rows = [*joint_rows(joints, self._move), *self._rate_row(joints)]
-        recording = self._recording
+        recording = self._sources.data
         if recording is None:
             return rows
         follows = bool(self._robot.followed.value)
@@ -100,7 +101,7 @@ class JointsPanel(Panel):
 
     def _why_none(self) -> str:
         """Return why there is no joint."""
-        model, data = self._robot.model, self._recording
+        model, data = self._robot.model, self._sources.data
         if model is None:
             return _NO_ROBOT
         if data is None or model.name != STAND_IN_NAME:

@@ -11,6 +11,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Row
 from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
 from sambot_viz.session.data.robot_data import RobotData
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.signals import Signal
 from sambot_viz.topics.reasons import lagging
 
@@ -25,7 +26,7 @@ class SourcePanel(Panel):
     Who has control plays, stops, jumps and records for all.
 
     Args:
-        data: the messages of the sources.
+        sources: of the session, which has some.
         offers_recording: whether users of this session may record a live robot, if the
             command line has named a folder for it.
     """
@@ -33,15 +34,31 @@ class SourcePanel(Panel):
     name = "source"
     period = 1.0
 
-    def __init__(self, data: RobotData, offers_recording: bool = False) -> None:
-        self.remade_by = (data.status, data.topics.looked)
-        self.changed_by = () if data.player is None else (data.player.playback,)
-        self._data = data
-        self._player = data.player
-        self._is_live = data.source.live is not None
+    def __init__(self, sources: SessionSources, offers_recording: bool = False) -> None:
+        self._sources = sources
         self._offers_recording = offers_recording
-        self._recorder = data.moved_by.recorder
         self._topic = ANY
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Listen to the sources that there are by now."""
+        data = self._data
+        self.remade_by = (self._sources.replaced, data.status, data.topics.looked)
+        self.changed_by = () if data.player is None else (data.player.playback,)
+
+    @property
+    def _data(self) -> RobotData:
+        data = self._sources.data
+        assert data is not None, "a session without sources has no line for them"
+        return data
+
+    @property
+    def _player(self) -> Player | None:
+        return self._data.player
+
+    @property
+    def _is_live(self) -> bool:
+        return self._data.source.live is not None
 
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:
@@ -84,6 +101,8 @@ class SourcePanel(Panel):
     def _controls(self, player: Player) -> Sequence[Row]:
         playback = player.playback.value
         topics = [ANY, *sorted(player.recording.topics)[: limits.STEP_TOPICS.value]]
+        if self._topic not in topics:
+            self._topic = ANY
         return [
             Row(
                 TIME,
@@ -177,7 +196,8 @@ class SourcePanel(Panel):
 
     def _recording(self) -> Json:
         """Return how the present or last recording is; None without one."""
-        status = None if self._recorder is None else self._recorder.status
+        recorder = self._data.moved_by.recorder
+        status = None if recorder is None else recorder.status
         if status is None:
             return None
         return {
@@ -192,7 +212,7 @@ class SourcePanel(Panel):
         """Offer to step, and to begin or end what the command line allows to record."""
         if command_id == "player/step":
             return self._player is not None
-        recorder = self._recorder
+        recorder = self._data.moved_by.recorder
         if recorder is None or recorder.folder is None or not self._offers_recording:
             return False
         status = recorder.status
@@ -201,13 +221,15 @@ class SourcePanel(Panel):
 
     @command("source/record", name="Record")
     def _record(self) -> None:
-        if self._recorder is not None:
-            self._recorder.start()
+        recorder = self._data.moved_by.recorder
+        if recorder is not None:
+            recorder.start()
 
     @command("source/stop", name="Stop recording")
     def _stop(self) -> None:
-        if self._recorder is not None:
-            self._recorder.stop(wait=False)
+        recorder = self._data.moved_by.recorder
+        if recorder is not None:
+            recorder.stop(wait=False)
 
 
 def _time(player: Player) -> float:

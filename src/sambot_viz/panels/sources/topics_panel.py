@@ -10,6 +10,7 @@ from sambot_viz.errors import Severity
 from sambot_viz.panels.command import FLAG, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
+from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.data.source_topics import SourceTopics
 from sambot_viz.session.signals import Signal
 from sambot_viz.text import capitalized
@@ -28,7 +29,7 @@ class TopicsPanel(Panel):
     the screen.
 
     Args:
-        topics: what is shown.
+        sources: their topics are shown.
         statuses: told when displays say something else of them.
         remake: called when other topics are shown.
     """
@@ -38,12 +39,12 @@ class TopicsPanel(Panel):
 
     def __init__(
         self,
-        topics: SourceTopics,
+        sources: SessionSources,
         statuses: Signal[Any],
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (*topics.remade_by, statuses)
-        self._topics = topics
+        self._sources = sources
+        self._statuses = statuses
         self._remake = remake
         self._shown = False
         self._words = ""
@@ -56,6 +57,25 @@ class TopicsPanel(Panel):
         self._rows: Sequence[Row] = (
             Row("topics/wait", "", "note", value="Looking at the messages …"),
         )
+        self._topics = self._of_now()
+        self.refresh()
+
+    def _of_now(self) -> SourceTopics:
+        data = self._sources.data
+        assert data is not None, "a session without sources has no topics"
+        return data.topics
+
+    def refresh(self) -> None:
+        """Show the topics of the sources that there are by now."""
+        topics = self._of_now()
+        self.remade_by = (self._sources.replaced, *topics.remade_by, self._statuses)
+        if topics is self._topics:
+            return
+        self._topics, self._names = topics, []
+        self._beside.clear()
+        self._counts.clear()
+        if self._shown:
+            topics.follow(self, [], self._chosen)
 
     @property
     def moved_by(self) -> Sequence[Signal[Any]]:

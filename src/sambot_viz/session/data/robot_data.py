@@ -28,7 +28,7 @@ from sambot_viz.topics.live_evidence import LiveEvidence
 from sambot_viz.topics.placement import Placement
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.report import TopicReport
-from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.topics.source_robot import Lease, SourceRobot
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import not_looked_further, problems_of_transforms
 
@@ -53,6 +53,7 @@ class RobotData:
         change: tells what is wrong, and how a live source is.
         worker: takes the messages.
         scene: what displays draw of them.
+        problems: gets what the transforms that were taken had wrong.
 
     Attributes:
         moved_by: as given.
@@ -62,7 +63,6 @@ class RobotData:
         inbox: what has come of a live robot.
         topics: what is said of the topics.
         messages: those that displays draw.
-        problems: what the transforms that were taken had wrong.
         status: told when a live source is doing otherwise.
         clock: the time of a live robot.
         doubt: what is wrong with that time.
@@ -77,11 +77,13 @@ class RobotData:
         change: Change,
         worker: Worker,
         scene: Scene,
+        problems: Signal[tuple[Problem, ...]],
     ) -> None:
         self.moved_by = moved_by
+        self._lease: Lease | None = moved_by.lease()
         self.name = moved_by.name
         self.transforms = moved_by.transforms(history)
-        self.problems = Signal[tuple[Problem, ...]](change, ())
+        self._problems = problems
         self.status = Signal(change, None)
         self.doubt: TopicReason | None = None
         self._joint_states = moved_by.joint_states()
@@ -161,6 +163,11 @@ class RobotData:
 
     # Who looks
 
+    @property
+    def is_looked_at(self) -> bool:
+        """Whether somebody sees it."""
+        return bool(self._viewers)
+
     def rest(self) -> None:
         """Decode no data until somebody looks; the robot and its frames move on."""
         self.messages.rest()
@@ -199,6 +206,14 @@ class RobotData:
                 return
         self._worker.post_later(PAUSE, self._look_on)
 
+    def follow_on(self, before: RobotData) -> None:
+        """Have the viewers of what had this place before."""
+        self.period = before.period
+        if not before.is_looked_at:
+            self.rest()
+        for viewer in before._viewers:
+            self.look(viewer)
+
     def resume(self) -> None:
         """Show what messages say now, after another robot is shown."""
         if self.source.live is not None:
@@ -235,6 +250,7 @@ class RobotData:
             self._feed.remove(subscriber)
         if self.player is not None:
             self.player.close()
+        self._lease = None
 
     def _ahead(self) -> dict[str, Sample]:
         if self.player is None:
@@ -268,7 +284,7 @@ class RobotData:
         )
         unfound = self._joint_states.unfound
         of_joints = not_looked_further("joint", unfound, name)
-        self.problems.set((*self.moved_by.hidden, *of_frames, *of_joints))
+        self._problems.set((*self.moved_by.hidden, *of_frames, *of_joints))
 
     def _take(self, message: Recorded) -> None:
         if message.topic in self.transforms.topics:

@@ -280,7 +280,7 @@ class SourceTopics:
         try:
             end = time.perf_counter() + SLICE
             while time.perf_counter() < end:
-                if not survey.step():
+                if survey.is_complete or not survey.step():
                     self.looked.touch()
                     return
         except Exception:

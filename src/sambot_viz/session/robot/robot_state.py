@@ -105,6 +105,16 @@ class RobotState:
         self.changed.touch()
         return refused
 
+    def forget(self) -> None:
+        """Show no robot, as at the start; frames that were added stay."""
+        self.model = self.joints = None
+        self.first, self.moved = {}, False
+        self._moved.clear()
+        self._new_poses.clear()
+        self.followed.set("")
+        self._scene.context.robot = None
+        self._tree.clear()
+
     def build_tree(self) -> tuple[Problem, ...]:
         """Set the frames of the robot, then the added ones and those of displays.
 

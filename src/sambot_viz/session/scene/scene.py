@@ -102,6 +102,11 @@ class Scene:
             display.show(display.config.active)
         self.statuses.touch()
 
+    def clear(self) -> None:
+        """Take out what displays draw, until `apply_enabled`; they listen no longer."""
+        for display in self.displays:
+            display.show(False)
+
     def display_of(self, config: DisplayConfig) -> Display | None:
         """Return what draws a display of the document; None for an unsupported one."""
         found = (d for d in self.displays if d.config is config)

@@ -17,7 +17,7 @@ from sambot_viz.sources.bag.refusals import refused, unreadable
 METADATA = "metadata.yaml"
 
 _BESIDE = ("-wal", "-shm", "-journal")
-_ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
+ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
 _NAMES = re.compile(
     r"^\s*relative_file_paths:[ \t]*\n((?:[ \t]*-[^\n]*\n?)+)", re.MULTILINE
 )
@@ -36,7 +36,7 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
         there = sorted(_listed(folder))
     except (OSError, ValueError) as error:
         raise unreadable(folder, error) from error
-    files = [path for path in there if path.name.endswith(_ENDINGS)]
+    files = [path for path in there if path.name.endswith(ENDINGS)]
     named = _named(folder)
     present = {path.name for path in there}
     missing = [name for name in named if name not in present]
