@@ -42,7 +42,7 @@ ALL_ROWS = f"""(() => {{
   const now = performance.now(), seen = window.benchmarkSeen ||= {{}};
   if (window.sambotVizLook?.lit > 0) seen.picture ||= now;
   const joints = document.querySelector("#sambot .joints");
-  const there = joints?.querySelectorAll("[role=row] input[type=range]").length;
+  const there = joints?.querySelectorAll(".k-slider").length;
   if (there === {COUNT} && joints.querySelector("[type=search]")) seen.rows ||= now;
   return seen.picture && seen.rows;
 }})()"""
@@ -52,7 +52,7 @@ SEARCH = f"""(async () => {{
   for (const [text, wanted] of [["joint_{COUNT}", 1], ["", {COUNT}]]) {{
     box.value = text;
     box.dispatchEvent(new Event("input", {{ bubbles: true }}));
-    while (joints.querySelectorAll("input[type=range]").length !== wanted)
+    while (joints.querySelectorAll(".k-slider").length !== wanted)
       await new Promise(requestAnimationFrame);
     times.push(performance.now() - start);
   }}

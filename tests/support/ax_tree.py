@@ -165,11 +165,12 @@ def _thing(node: dict[str, Any], page: Caller) -> Thing:
 def rows_of(grid: Thing) -> list[tuple[tuple[str, ...], Thing]]:
     """The rows of a tree grid, each with its label behind those of the rows above.
 
-    The label is what its first cell says.
+    The label is what its first cell says; where a row out of sight is a line of text,
+    the part before the value.
     """
     labels: dict[str, str] = {}
     for cell in grid.all("gridcell"):
-        labels.setdefault(cell.around, cell.name)
+        labels.setdefault(cell.around, cell.name.partition("\u2003")[0])
     found: list[tuple[tuple[str, ...], Thing]] = []
     above: list[str] = []
     for row in grid.all("row"):

@@ -12,7 +12,10 @@ Times = list[tuple[float, float]]
 """Pairs of a time [s] and the joint's position then, both rising."""
 
 RECORD = """(() => {
-  const handle = document.querySelector('[data-row="ROW"] input[type=range]');
+  const row = document.querySelector('[data-row="ROW"]');
+  // Where it is out of sight it has its slider from now on.
+  row.focus();
+  const handle = row.querySelector("input[type=range]");
   window.benchmarkSeen = [];
   new MutationObserver(() => benchmarkSeen.push(
     [(performance.timeOrigin + performance.now()) / 1000, Number(handle.value)],

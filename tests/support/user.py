@@ -91,6 +91,7 @@ _MARKED = """function () {
   return this.type === "number"
     ? false : this.selectionEnd - this.selectionStart === this.value.length;
 }"""
+_IS_LINE = "function () { return this.classList.contains('line'); }"
 _HAS_FOCUS = "function () { return document.activeElement === this; }"
 _CUT_OFF = """function () {
   const element = this.nodeType === 3 ? this.parentElement : this;
@@ -164,20 +165,19 @@ class User:
 
         Levels between may be left out; of several rows the one with the fewest is
         meant: a status may have the name of a property. A name may leave out what
-        stands behind a colon, as in "Status: Ok". A browser names rows of a long list
-        only near the screen: the user scrolls through it.
+        stands behind a colon, as in "Status: Ok". The user scrolls to a row out of
+        sight, which is only a line of text there.
         """
-        at = 0
 
         def found() -> Thing:
-            nonlocal at
             rows = rows_of(self.see().one("treegrid", panel))
             fitting = [(path, row) for path, row in rows if _is_path(path, names)]
             if fitting:
-                return min(fitting, key=lambda found: len(found[0]))[1].look_inside()
-            if any(path[-1] == "" for path, _ in rows):
-                at = (at + 15) % len(rows)
-                self.go_to(rows[at][1])
+                row = min(fitting, key=lambda found: len(found[0]))[1]
+                if self._ask(row, _IS_LINE):
+                    self.go_to(row)
+                    raise AssertionError(f"{names} in {panel} is out of sight")
+                return row.look_inside()
             known = [path[-1] for path, _ in rows if path[-1]]
             raise AssertionError(f"no row {names} in {panel}; there are {known}")
 

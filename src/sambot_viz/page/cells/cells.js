@@ -66,9 +66,8 @@ function VectorCell({ row, tab }) {
     }
     send(row.id, values);
   };
-  return html`<span class="number"><${Field} row=${row} tab=${tab} shown=${texts.join("; ")}
-    accept=${accept} />
-    ${beside && html`<span class="unit">${beside}</span>`}</span>`;
+  return html`<span class="number" data-unit=${beside || undefined}>
+    <${Field} row=${row} tab=${tab} shown=${texts.join("; ")} accept=${accept} /></span>`;
 }
 
 /** @param {{row: Row, tab: number}} props */

@@ -8,24 +8,14 @@ import { Slide, useFollowed } from "./followed.js";
 import { goesOn } from "./key_steps.js";
 import { Icon } from "../window/icons.js";
 import { refusals, tell } from "../window/notices.js";
-import {
-  clamped,
-  fittingNumber,
-  formatNumber,
-  parseNumber,
-  snapped,
-  stepped,
-  writtenNumber,
-} from "./numbers.js";
+import { clamped, formatNumber, parseNumber, snapped, stepped, writtenNumber } from "./numbers.js";
 import { degrees, useData } from "../state.js";
-import { formula, outside, shownUnit, taken, unitBeside } from "./units.js";
+import { formula, NARROW, outside, shownNumber, shownUnit, taken, unitBeside } from "./units.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
 /** How long a value that a hand has set is shown without an answer of the server [ms]. */
 const ANSWER = 1000;
-/** How many characters fit into the field beside a slider. */
-export const NARROW = 7;
 
 /** The value of a row, or the one that a hand has set until the server has it too.
  * @param {Row} row */
@@ -148,16 +138,13 @@ function NumberField({ row, tab, held, room }) {
   };
   // Beside a slider there is room for few digits; the others are in the tooltip, and in the hand.
   const slider = row.kind === "slider";
-  const number = held.value * factor;
-  const few = (slider ? 4 : 6) - (factor === 1 ? 0 : 2);
-  const shown = room ? fittingNumber(number, few, room) : formatNumber(number, few);
-  const exact = formatNumber(number, 9);
-  return html`<span class="number">
+  const shown = shownNumber(row, held.value, room);
+  const exact = formatNumber(held.value * factor, 9);
+  return html`<span class="number" data-unit=${beside || undefined}>
     <${Field} row=${row} tab=${tab} kind="num" accept=${accept}
       title=${exact === shown ? "" : exact}
       full=${slider ? exact : undefined} step=${free ? move : undefined} settle=${held.release}
         grab=${free ? grab : undefined} shown=${shown} />
-    ${beside && html`<span class="unit">${beside}</span>`}
   </span>`;
 }
 
@@ -185,14 +172,18 @@ const SLOP = 8;
 
 /** What a finger on a slider wants. A browser moves the handle to where a finger is put down, also
  * when it then scrolls the list: until it goes sideways, or is lifted, nothing counts.
- * @param {() => number} value what the slider shows @param {(raw: number) => void} slide */
-function useFinger(value, slide) {
+ * @param {() => number} value what the slider shows @param {(raw: number) => void} slide
+ * @param {() => void} release called when it is lifted */
+function useFinger(value, slide, release) {
   const finger = useRef(
     /** @type {{x: number, y: number, wants: "" | "slide" | "scroll", raw: number | null} | null} */ (
       null
     ),
   );
-  /** @param {Press} event */
+  // The slider is drawn again while it is moved.
+  const latest = useRef({ slide, release });
+  latest.current = { slide, release };
+  /** @param {PointerEvent} event */
   const decide = (event) => {
     const one = finger.current;
     const across = one && Math.abs(event.clientX - one.x);
@@ -201,25 +192,30 @@ function useFinger(value, slide) {
       one.wants = Number(across) > Number(down) ? "slide" : "scroll";
   };
   return {
-    onPointerDown: (/** @type {Press} */ e) => {
-      finger.current =
-        e.pointerType === "touch" ? { x: e.clientX, y: e.clientY, wants: "", raw: null } : null;
-    },
-    onPointerMove: decide,
-    // The browser scrolls.
-    onPointerCancel: () => {
-      if (finger.current) finger.current.wants = "scroll";
-    },
-    // A tap: the handle goes there.
-    onPointerUp: () => {
-      const one = finger.current;
-      if (one && !one.wants && one.raw !== null) slide(one.raw);
-    },
-    onTouchEnd: () => {
-      finger.current = null;
-    },
-    onTouchCancel: () => {
-      finger.current = null;
+    // Of all sliders only the one in a hand listens to more than that.
+    onPointerDown: (/** @type {Press} */ { target, pointerType, clientX, clientY }) => {
+      const touch = pointerType === "touch";
+      finger.current = touch ? { x: clientX, y: clientY, wants: "", raw: null } : null;
+      const up = () => {
+        target.onpointermove = target.onpointerup = target.onpointercancel = null;
+        latest.current.release();
+      };
+      target.onpointermove = decide;
+      target.onpointerup = () => {
+        const one = finger.current;
+        // A tap: the handle goes there.
+        if (one && !one.wants && one.raw !== null) latest.current.slide(one.raw);
+        up();
+      };
+      target.onpointercancel = () => {
+        // The browser scrolls.
+        if (finger.current) finger.current.wants = "scroll";
+        up();
+      };
+      target.ontouchend = target.ontouchcancel = () => {
+        finger.current = null;
+        target.ontouchend = target.ontouchcancel = null;
+      };
     },
     onInput: (/** @type {Change} */ e) => {
       const one = finger.current;
@@ -241,7 +237,7 @@ function Handle({ row, tab, held }) {
   /** @param {number} raw */
   const slide = (raw) =>
     held.move(raw <= low ? low : raw >= high ? high : snapped(raw * factor, step) / factor);
-  const finger = useFinger(() => held.value, slide);
+  const finger = useFinger(() => held.value, slide, held.release);
   /** @param {Key} event */
   const key = (event) => {
     const count = /** @type {Record<string, number>} */ ({
@@ -280,16 +276,10 @@ function Handle({ row, tab, held }) {
     <input type="range" min=${low} max=${high} step="any" value=${value} tabindex=${tab}
     aria-label=${row.name || ""} disabled=${row.fixed || row.off}
     aria-valuetext=${`${formatNumber(value * factor, 3)} ${unit}`}
-    ...${finger} onChange=${held.release} onPointerUp=${() => {
-      finger.onPointerUp();
-      held.release();
-    }}
-    onPointerCancel=${() => {
-      finger.onPointerCancel();
-      held.release();
-    }}
+    ...${finger} onChange=${held.release}
     onKeyDown=${key} onKeyUp=${held.release} onBlur=${held.release} />
-    <span class="ends" aria-hidden="true"><i>${written(low)}</i><i>${written(high)}</i></span>
+    <span class="ends" aria-hidden="true" data-low=${written(low)}
+      data-high=${written(high)}></span>
   </span>`;
 }
 

@@ -2,12 +2,14 @@
 /* Numbers with their units and limits as they are shown: angles in radians or degrees. */
 
 import { rows } from "../wire/channel.js";
-import { writtenNumber } from "./numbers.js";
+import { fittingNumber, formatNumber, writtenNumber } from "./numbers.js";
 import { degrees } from "../state.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
 const DEGREE = Math.PI / 180;
+/** How many characters fit into the field beside a slider. */
+export const NARROW = 7;
 
 /** How a row's number is shown: its unit, how much of it is one of the row's, and its step.
  * @param {Row} row @returns {{unit: string, factor: number, step: number}} */
@@ -17,6 +19,17 @@ export function shownUnit(row, inDegrees = degrees.value) {
   if (!turn) return { unit: row.unit || "", factor: 1, step };
   // 0.01 rad is about half a degree; people think in whole ones.
   return { unit: row.unit === "rad" ? "°" : "°/s", factor: 1 / DEGREE, step: step * 100 };
+}
+
+/**
+ * The number of a row as it is shown; beside a slider there is room for few digits.
+ * @param {Row} row @param {number} value in the row's unit
+ * @param {number} [room] how many characters fit
+ */
+export function shownNumber(row, value, room = row.kind === "slider" ? NARROW : undefined) {
+  const { factor } = shownUnit(row);
+  const few = (row.kind === "slider" ? 4 : 6) - (factor === 1 ? 0 : 2);
+  return room ? fittingNumber(value * factor, few, room) : formatNumber(value * factor, few);
 }
 
 /** The unit to write beside a number: none where the row's name ends with it, as in "Size (m)".

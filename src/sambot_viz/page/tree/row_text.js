@@ -2,6 +2,7 @@
 /* A row as text, and copying it. */
 
 import { formatNumber } from "../cells/numbers.js";
+import { formula, shownNumber, shownUnit, unitBeside } from "../cells/units.js";
 import { copy } from "../window/clipboard.js";
 import { rows } from "../wire/channel.js";
 
@@ -9,6 +10,8 @@ import { rows } from "../wire/channel.js";
 
 /** Kinds of rows whose value is not a text. */
 const NO_TEXT = new Set(["display", "group"]);
+/** Kinds whose value is shown with its unit. */
+const NUMBERS = new Set(["int", "float", "slider", "vector"]);
 
 /** The value of a row as it is shown; "" where there is none. @param {Row} row @returns {string} */
 export function valueText(row) {
@@ -20,6 +23,33 @@ export function valueText(row) {
   if (kind === "lines" && Array.isArray(value)) return value.map(([, line]) => line).join("\n");
   if (typeof value === "number") return formatNumber(value, 6);
   return String(value);
+}
+
+/** The name of a row, with its value where it is said in one. @param {Row} row */
+export const nameText = (row) => `${row.name}${row.whole ? `: ${row.value}` : ""}`;
+
+/** Between a name and a value in one line: an em space, which a reader does not say. */
+const GAP = "\u2003";
+
+/** A row in one line: its name, and its value as its cell shows it. @param {Row} row */
+export function lineText(row) {
+  if (row.whole) return nameText(row);
+  const value = cellText(row);
+  return value ? row.name + GAP + value : nameText(row);
+}
+
+/** @param {Row} row @returns {string} */
+function cellText(row) {
+  if (!NUMBERS.has(row.kind))
+    return row.kind === "bool"
+      ? ""
+      : valueText({ ...row, value: rows.data("displays/paths")?.[row.id] ?? row.value });
+  const { unit, factor } = shownUnit(row);
+  const number =
+    row.kind === "vector"
+      ? row.value.map((/** @type {number} */ part) => formatNumber(part * factor, 5)).join("; ")
+      : shownNumber(row, row.value);
+  return [row.follows && formula(row), number, unitBeside(row, unit)].filter(Boolean).join(" ");
 }
 
 /**

@@ -138,8 +138,10 @@ export function searchKey(event, panel, { finds, first: firstOf, enter, clear })
     const any = event.key === "ArrowDown" && !text.trim() ? "[data-row]" : null;
     const which = first ? `[data-row="${CSS.escape(first)}"]` : any;
     const row = which ? document.querySelector(`[data-panel="${panel}"] ${which}`) : null;
+    // A row out of sight has its cells when it has the focus.
+    /** @type {HTMLElement | null} */ (row)?.focus();
     const inside = enter && row?.querySelector(enter);
-    /** @type {HTMLElement | null} */ (inside || row)?.focus();
+    if (inside) /** @type {HTMLElement} */ (inside).focus();
     gone = Boolean(row);
   } else return undefined;
   event.preventDefault();

@@ -8,6 +8,7 @@ import { Menu } from "../window/menu.js";
 import { Divider } from "./divider.js";
 import { RowList } from "./row_list.js";
 import { copyRow, valueText } from "./row_text.js";
+import { useRowMouse } from "./row_mouse.js";
 import { RowView } from "./row_view.js";
 import { search, useSearch } from "./search.js";
 import { canOpen, treeKey } from "./tree_keys.js";
@@ -16,13 +17,9 @@ import { Cell, fold, folds, isOpen, select, selected, splits, useRow } from "../
 /** @typedef {import("../wire/rows.js").Row} Row */
 /** @typedef {import("../window/menu.js").Item} Item */
 /** @typedef {import("../window/menu.js").Place} Place */
-/** @typedef {import("./row_view.js").TreeApi} TreeApi */
+/** @typedef {import("./row_mouse.js").TreeApi} TreeApi */
+/** @typedef {import("./row_element.js").Facts} Facts */
 /** @typedef {{id: string, depth: number, open: boolean}[]} Shown open: rows below it are shown */
-
-/**
- * Rows of longer lists are only laid out near the screen; a screen reader knows their names then.
- */
-const MANY = 150;
 
 /** The width of the names before a hand has moved the line, as a part of the panel. */
 const SPLIT = 0.6;
@@ -128,13 +125,18 @@ function RowTree(props) {
   const { onDouble, rename } = props;
   /** @type {TreeApi["drag"]} */
   const drag = (event, row) => props.drag?.(event, row, element.current);
-  api.current = { panel, hover, go, openMenu, onDouble, rename, drag };
-  useRowList(element, shown, (id, isOpened) => {
+  api.current = { panel, go, openMenu, onDouble, rename, drag };
+  const list = useRowList(element, shown, api, (id, isOpened) => {
     const opens = canOpen(id);
     const open = opens && isOpened;
     const renaming = props.renaming === id;
-    return { opens, open, current: id === current, chosen: id === chosen, renaming, api };
+    return { opens, open, current: id === current, chosen: id === chosen, renaming, hover };
   });
+  const mouse = useRowMouse(
+    api,
+    (id) => list.current?.touch(id),
+    (id) => list.current?.press(id),
+  );
   useLazy(panel, shown);
   useKeptFocus(panel, shown, chosen, element);
   useWantedFocus(panel, element, (id) => {
@@ -153,8 +155,8 @@ function RowTree(props) {
       onKey,
     });
   return html`<div class="treebox" style=${`--split: ${(ratio * 100).toFixed(1)}%`}>
-    <div class=${shown.length > MANY ? "tree many" : "tree"} role="treegrid" aria-label=${label}
-      data-panel=${panel} ref=${element} onKeyDown=${key}
+    <div class="tree" role="treegrid" aria-label=${label} data-panel=${panel} ref=${element}
+      ...${mouse} onKeyDown=${key}
       onPointerDown=${() => (led.current = "")}></div>
     ${split && html`<${Divider} panel=${panel} ratio=${ratio} />`}
     ${
@@ -187,9 +189,10 @@ function menuItems(row, menu) {
  * Draw the rows that are shown.
  * @param {Ref} element
  * @param {Shown} shown
- * @param {(id: string, open: boolean) => object} factsOf what a row is drawn from, beside its depth
+ * @param {{current: TreeApi}} api
+ * @param {(id: string, open: boolean) => Omit<Facts, "depth">} factsOf
  */
-function useRowList(element, shown, factsOf) {
+function useRowList(element, shown, api, factsOf) {
   const list = useRef(/** @type {RowList | null} */ (null));
   useLayoutEffect(() => {
     list.current = new RowList(element.current);
@@ -198,12 +201,13 @@ function useRowList(element, shown, factsOf) {
   useLayoutEffect(() =>
     list.current?.show(
       shown.map(({ id, depth, open }) => {
-        const { api, ...facts } = { depth, api: null, ...factsOf(id, open) };
+        const facts = { depth, ...factsOf(id, open) };
         const view = () => html`<${RowView} id=${id} api=${api} ...${facts} />`;
-        return { id, facts: JSON.stringify(facts), view };
+        return { id, facts, view };
       }),
     ),
   );
+  return list;
 }
 
 /**
