@@ -26,7 +26,7 @@ from sambot_viz.topics.transforms import problems_of_transforms
 
 _HEAD = ("TOPIC", "TYPE", "COUNT", "RATE", "REASON")
 _WIDEST = 60
-_LONGEST = 2000
+_SENTENCE = 2000
 """Of a sentence: the remedy is at its end."""
 
 
@@ -161,7 +161,7 @@ def _cells(row: Account) -> tuple[str, str, str, str, str]:
         text(row.type_name, _WIDEST) or "-",
         "?" if row.count is None else str(row.count),
         "-" if row.rate is None else f"{row.rate:.1f}",
-        "" if reason is None else text(f"{reason.code}: {reason.text}", _LONGEST),
+        "" if reason is None else text(f"{reason.code}: {reason.text}", _SENTENCE),
     )
 
 

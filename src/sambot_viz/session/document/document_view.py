@@ -160,7 +160,8 @@ def first_box(document: ShownDocument, scene: Scene, picker: Picker) -> Corners 
     if document.config.unasked:
         return picker.first_box()
     box = picker.robot_box()
-    follows = document.config.view.get("Target Frame") != FIXED_FRAME
+    view = view_of(document.config.detached_view())
+    follows = view.config.get("Target Frame") != FIXED_FRAME
     if box is None or follows or not document.config.fits_frames:
         return box
     run = scene.whole_run().box(scene.context.fixed_frame) or box
