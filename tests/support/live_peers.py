@@ -113,6 +113,8 @@ class FoxglovePeer(LivePeer, ServerListener):
         options: dict[str, Any] = {
             "name": "robot",
             "capabilities": [Capability.Time, Capability.ConnectionGraph],
+            # Else the oldest of what is published at once goes missing.
+            "message_backlog_size": 100_000,
             **self.options,
         }
         self.server = until(
