@@ -131,10 +131,11 @@ class ShownInputs:
         """Stop the server and free the port; a second call does nothing."""
         if self._reloader is not None:
             self._reloader.close()
-        self._inputs.close()
         if self._live_model is not None:
             self._live_model.close()
+        # Sessions read the sources until they have ended.
         self.server.stop()
+        self._inputs.close()
 
     def _show(self, robot: Robot) -> None:
         """Show a robot; the bundled config, which is sam_bot's, fits the first one."""
