@@ -66,6 +66,22 @@ def test_two_recordings_of_one_time_are_beside_each_other(tmp_path: Path) -> Non
         assert (x(viz, "base_link"), x(viz, "robot2/base_link")) == (1.0, 1.0)
 
 
+def test_the_robot_of_a_source_with_a_prefix_is_drawn_at_its_own_frames(
+    tmp_path: Path,
+) -> None:
+    one, other = run(tmp_path, "one"), run(tmp_path, "other")
+    prefixes, joined = {"b": "robot2"}, "0 3 0 0 0 0 odom robot2/odom"
+    with Visualizer(
+        source=[f"a={one}", f"b={other}"],
+        source_prefix=prefixes,
+        static_transforms=[joined],
+        port=0,
+    ) as viz:
+        viz.player.jump(1.0)
+        said = {name: account.reason for name, account in viz.topics.items()}
+        assert {name: one.code for name, one in said.items() if one} == {}
+
+
 def test_runs_of_two_days_begin_together(tmp_path: Path) -> None:
     one, other = run(tmp_path, "one"), run(tmp_path, "other", begin=86_400.0)
     source = [f"a={one}", f"b={other}"]

@@ -135,10 +135,14 @@ class NameSpaces:
     def link_frame(self, topic: str, link: str) -> str:
         """Return the frame of a link of the robot that a topic describes."""
         prefix = self.prefix_of(topic)
-        known = self._known.get(link)
+        known, put = self._known.get(link), _put(prefix, link)
+        written = self._known.get(put)
+        if written is not None and prefix in written.spaces:
+            if known is None or prefix not in known.spaces:
+                # The prefix is part of the names that its own transforms have.
+                return written.given.get(prefix, put)
         if not prefix or (known is not None and known.is_shared(link)):
             return link
-        put = _put(prefix, link)
         return put if known is None else known.given.get(prefix, put)
 
     def meant(self, frame: str, preferred: Iterable[str] = ()) -> tuple[str, ...]:

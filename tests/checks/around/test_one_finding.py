@@ -14,7 +14,7 @@ import pytest
 
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
-from sambot_viz.robot.packages.package_model import models_in
+from sambot_viz.robot.packages.package_model import ModelWalk, models_in
 
 SDF = Path(__file__).parents[2] / "data" / "around" / "cart.sdf"
 MODELS = {"urdf": "urdf/cart.urdf.xacro", "sdf": "src/description/cart.sdf"}
@@ -536,7 +536,7 @@ def test_the_folder_of_a_robot_inside_a_world_is_answered_with_what_to_delete(
     edit(model, '<model name="cart"', '<world name="w"><model name="cart"')
     edit(model, "</model>", "</model></world>")
     folder = model.parents[2]
-    (only,) = models_in(folder)
+    (only,) = models_in(folder, ModelWalk())
 
     assert only == model
     (problem,) = found(only)
