@@ -204,9 +204,20 @@ function takeKept() {
 
 /** Open the config that was open before, with the rows that were unfolded. @param {Memory} before */
 function openAgain(before) {
+  // Its name and its rows may come in two messages, in either order.
+  let named = false;
+  let listed = false;
+  const unfold = () => folds.set(foldsNow(before, before.folds));
+  const stopRows = rows.listen("panel:displays", () => {
+    listed = true;
+    unfold();
+    if (named) stopRows();
+  });
   const stop = rows.listen("names/document", () => {
     stop();
-    folds.set(foldsNow(before, before.folds));
+    named = true;
+    unfold();
+    if (listed) stopRows();
     showView(before);
     said.set(null);
   });
