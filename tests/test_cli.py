@@ -435,22 +435,25 @@ def test_a_name_that_no_file_system_takes_is_one_clear_line(
     assert said in err and "internal error" not in err
 
 
-def test_a_robot_is_shown_without_what_data_and_files_need():
-    script = (
-        "import sys\n"
-        "from sambot_viz import Visualizer\n"
-        "viz = Visualizer(port=0)\n"
-        "viz.stop()\n"
-        "late = 'PIL sqlite3 rosbags sambot_viz.sources.bag sambot_viz.export '\n"
-        "late += 'sambot_viz.meanings.foxglove sambot_viz.sources.recorder'\n"
-        "data = 'sambot_viz.displays.data.'\n"
-        "drawn = [name for name in sys.modules if name.startswith(data)]\n"
-        "print(sorted(set(late.split()) & set(sys.modules)), len(drawn) < 10)\n"
-    )
+def loaded_by(script: str) -> set[str]:
+    """The modules that a process of its own has loaded when a script has ended."""
     ran = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+        [sys.executable, "-c", f"{script}\nimport sys\nprint(*sys.modules)"],
+        capture_output=True,
+        text=True,
+        check=True,
     )
-    assert ran.stdout.splitlines()[-1] == "[] True"
+    return set(ran.stdout.splitlines()[-1].split())
+
+
+def test_a_robot_is_shown_without_what_data_and_files_need():
+    loaded = loaded_by("from sambot_viz import Visualizer\nVisualizer(port=0).stop()")
+    late = set("PIL sqlite3 rosbags".split())
+    for name in ("sources.bag", "export", "meanings.foxglove", "sources.recorder"):
+        late.add(f"sambot_viz.{name}")
+    assert late & loaded == set()
+    drawn = [name for name in loaded if name.startswith("sambot_viz.displays.data.")]
+    assert len(drawn) < 10
 
 
 def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
@@ -459,15 +462,10 @@ def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
     model = tmp_path / "r.urdf"
     visual = '<visual><geometry><mesh filename="part.stl"/></geometry></visual>'
     model.write_text(f'<robot name="r"><link name="a">{visual}</link></robot>')
-    script = (
-        "import sys\n"
+    loaded = loaded_by(
         "from sambot_viz.cli import main\n"
-        f"status = main(['check', {str(model)!r}])\n"
-        "heavy = 'trimesh scipy networkx PIL yaml viser yourdfpy lxml'.split()\n"
-        "heavy += ['sambot_viz.' + name for name in ('frames', 'topics', 'displays')]\n"
-        "print(status, sorted(set(heavy) & set(sys.modules)))\n"
+        f"assert main(['check', {str(model)!r}]) == 0\n"
     )
-    ran = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    )
-    assert ran.stdout.splitlines()[-1] == "0 []"
+    heavy = set("trimesh scipy networkx PIL yaml viser yourdfpy lxml".split())
+    heavy.update(f"sambot_viz.{name}" for name in ("frames", "topics", "displays"))
+    assert heavy & loaded == set()

@@ -52,7 +52,10 @@ def load_again(viewer: ViewerPage) -> None:
     viewer.page.goto(viewer.url)
 
 
-@pytest.mark.parametrize("leave", [hide, close, load_again])
+LEAVING = pytest.mark.parametrize("leave", [hide, close, load_again])
+
+
+@LEAVING
 def test_a_robot_stops_when_the_page_that_drives_it_goes(
     viz: Visualizer,
     drive: Drive,
@@ -66,7 +69,7 @@ def test_a_robot_stops_when_the_page_that_drives_it_goes(
     other.user.reads(STOPPED)
 
 
-@pytest.mark.parametrize("leave", [hide, close, load_again])
+@LEAVING
 def test_another_page_that_drives_keeps_the_robot_going(
     viz: Visualizer,
     drive: Drive,

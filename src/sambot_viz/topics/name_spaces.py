@@ -137,10 +137,10 @@ class NameSpaces:
         prefix = self.prefix_of(topic)
         known, put = self._known.get(link), _put(prefix, link)
         written = self._known.get(put)
-        if written is not None and prefix in written.spaces:
-            if known is None or prefix not in known.spaces:
-                # The prefix is part of the names that its own transforms have.
-                return written.given.get(prefix, put)
+        is_told = known is not None and prefix in known.spaces
+        if written is not None and prefix in written.spaces and not is_told:
+            # The prefix is part of the names that its own transforms have.
+            return written.given.get(prefix, put)
         if not prefix or (known is not None and known.is_shared(link)):
             return link
         return put if known is None else known.given.get(prefix, put)

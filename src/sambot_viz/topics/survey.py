@@ -133,16 +133,17 @@ class Survey:
     def _frames(self) -> tuple[FrameTree, str]:
         """Return all frames, and the one at the top of the robot's tree."""
         tree = FrameTree(self.transforms.history)
-        pairs, robots = list(self.transforms.pairs()), self._robots()
+        pairs = list(self.transforms.pairs())
+        robots = self._robots(pairs)
         _hang(tree, robots, pairs)
         root = robots[0].root if robots else ""
         first = root or next((parent for parent, _ in pairs), "")
         joints = [joint for robot in robots for joint in robot.joints]
         return tree, top_frame(first, (*joints, *pairs))
 
-    def _robots(self) -> list[DescribedLinks]:
+    def _robots(self, pairs: Sequence[tuple[str, str]]) -> list[DescribedLinks]:
         """Return the links of all robots, by the names of their frames."""
-        pairs, recorded = list(self.transforms.pairs()), self.recorded
+        recorded = self.recorded
         return [
             recorded.links_in_frames(topic, pairs)
             for topic in recorded.topics.descriptions
@@ -150,7 +151,8 @@ class Survey:
 
     def with_joints(self, tree: FrameTree) -> FrameTree:
         """Hang the links in a tree where messages do not say where they are."""
-        _hang(tree, self._robots(), list(self.transforms.pairs()))
+        pairs = list(self.transforms.pairs())
+        _hang(tree, self._robots(pairs), pairs)
         return tree
 
 
