@@ -134,6 +134,25 @@ def test_stopping_ends_motion_and_waits_for_no_lock(
     viz.stop()
 
 
+def test_what_waits_for_its_turn_is_not_drawn_after_the_end(
+    viz: Visualizer, session: Session
+) -> None:
+    drawn: list[str] = []
+    apply, began = session.scene.context.apply, threading.Event()
+
+    def bring() -> None:
+        began.set()
+        apply(lambda: drawn.append("late"))
+
+    with session.lock:
+        thread = threading.Thread(target=bring)
+        thread.start()
+        assert began.wait(patience(10.0))
+        session.scene.close()
+    thread.join(patience(10.0))
+    assert not thread.is_alive() and drawn == []
+
+
 def test_a_listener_may_stop_the_viewer(viz: Visualizer, session: Session) -> None:
     stopped = threading.Event()
 

@@ -323,7 +323,7 @@ class Session:
         """
         if not self._open.acquire(blocking=False):
             return
-        self.scene.context.apply = lambda action: None
+        self.scene.close()
         self.motion.close()
         self._trail.close()
         self.follow_view.close()

@@ -73,7 +73,7 @@ class Scene:
         self.data = Signal(change, None)
         self.progress: Signal[tuple[int, int] | None] = Signal(change, None)
         self._change = change
-        self._keys = 0
+        self._keys, self._closed = 0, False
         self._tree_drawn = tree.version
         self._background: tuple[int, int, int] | None = None
         self._fixed_frame = self.context.fixed_frame
@@ -106,6 +106,10 @@ class Scene:
         """Take out what displays draw, until `apply_enabled`; they listen no longer."""
         for display in self.displays:
             display.show(False)
+
+    def close(self) -> None:
+        """Draw nothing more of what threads bring, also of what waits for its turn."""
+        self._closed = True
 
     def display_of(self, config: DisplayConfig) -> Display | None:
         """Return what draws a display of the document; None for an unsupported one."""
@@ -224,14 +228,21 @@ class Scene:
         return None
 
     def _apply(self, action: Callable[[], object]) -> None:
+        if self._closed:
+            return
         with self._change(self.statuses):
-            action()
+            # It may have waited for the session, which has ended meanwhile.
+            if not self._closed:
+                action()
 
     def _assets_read(self) -> None:
         """Draw mesh files and textures that have been read in the background."""
-        with self._change(self.statuses):
+
+        def draw() -> None:
             for display in self.displays:
                 display.assets_read()
+
+        self._apply(draw)
 
     def _finish(self) -> None:
         """Draw what a change made outdated, before it is sent."""
