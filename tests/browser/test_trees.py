@@ -88,3 +88,19 @@ def test_the_middle_of_every_box_and_swatch_answers(
         bars |= check_all(user)
     # Which sizes scroll is what makes the rest of this test worth anything.
     assert (bars["Displays"] > 0) == (size[1] < 2000)
+
+
+_COLORS = """Object.fromEntries(
+  [...document.querySelectorAll("[role=treegrid] .name")].map(
+    (name) => [name.textContent, getComputedStyle(name).color]))"""
+
+
+def test_a_group_has_the_colour_of_its_properties(viewer: ViewerPage) -> None:
+    viewer.page.set_viewport(1280, 720)
+
+    def are_alike() -> bool:
+        colors = viewer.page.evaluate(_COLORS)
+        of_group = {colors[name] for name in ("Global Options", "Global Status: Ok")}
+        return of_group == {colors["Fixed Frame"]}
+
+    viewer.user.until(are_alike)

@@ -166,7 +166,7 @@ export function Driving() {
   const moving = [linear, angular].filter((row) => row?.value);
   if (!linear) return null;
   if (!moving.length)
-    return alone ? html`<${CutText} is="alone" role="status" text=${ALONE} />` : null;
+    return alone ? html`<${CutText} is="stopped" role="status" text=${ALONE} />` : null;
   const speeds = moving.map((row) => {
     const { factor, unit } = shownUnit(/** @type {any} */ (row));
     return `${formatNumber(row?.value * factor, 2)} ${unit}`;
