@@ -21,7 +21,7 @@ from made_recording import (
 )
 from made_recording import transforms_message as moved
 from numpy.typing import NDArray
-from robot_peer import BusyPeer
+from robot_peer import HesitantPeer
 
 from sambot_viz import Visualizer
 from sambot_viz.cli import main
@@ -109,10 +109,12 @@ def test_a_recording_shows_both_robots(recording: Path) -> None:
 
 def test_a_live_source_shows_both_robots(recording: Path) -> None:
     with open_recording(recording) as played:
-        peer = BusyPeer(played)
+        peer = HesitantPeer(played)
         try:
+            for topic in played.topics:
+                peer.offer(topic)
             with Visualizer(source=peer.uri, port=0) as viz:
-                eventually(lambda: are_shown(viz))
+                eventually(lambda: peer.say_all() or are_shown(viz))
                 eventually(lambda: is_fine(viz))
                 check(viz)
         finally:
@@ -229,14 +231,12 @@ def said_of(viz: Visualizer) -> dict[str, str]:
 
 def is_as(case: Case, viz: Visualizer) -> bool:
     at, said = places(viz), said_of(viz)
-    return (
-        all(
-            frame in at and at[frame] == pytest.approx(case.at[frame])
-            for frame in case.at
-        )
-        and said.keys() == case.said.keys()
-        and all(words in said[topic] for topic, words in case.said.items())
-    )
+    assert {frame: at.get(frame) for frame in case.at} == {
+        frame: pytest.approx(place) for frame, place in case.at.items()
+    }
+    assert said.keys() == case.said.keys()
+    assert all(words in said[topic] for topic, words in case.said.items())
+    return True
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -248,11 +248,29 @@ def test_each_robot_stands_at_its_place_or_it_is_said_why_not(
     with Visualizer(path, port=0) as viz:
         viz.player.pause()
         eventually(lambda: is_as(case, viz))
+
+
+@pytest.mark.parametrize("is_turned", [False, True], ids=["by name", "from the last"])
+@pytest.mark.parametrize("name", CASES)
+def test_it_does_not_matter_which_topic_of_a_live_robot_is_there_first(
+    tmp_path: Path, name: str, is_turned: bool
+) -> None:
+    case = CASES[name]
+    path = write_messages(tmp_path / "robots.mcap", messages_of(case))
     with open_recording(path) as played:
-        peer = BusyPeer(played)
+        peer = HesitantPeer(played)
+
+        def is_so() -> bool:
+            peer.say_all()
+            return is_as(case, viz)
+
         try:
             with Visualizer(source=peer.uri, port=0) as viz:
-                eventually(lambda: is_as(case, viz))
+                for topic in sorted(played.topics, reverse=is_turned):
+                    peer.offer(topic)
+                    eventually(lambda topic=topic: topic in viz.topics)
+                    peer.say_all()
+                eventually(is_so)
         finally:
             peer.stop()
 

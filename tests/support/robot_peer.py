@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
@@ -26,19 +26,29 @@ class RobotPeer(FoxglovePeer):
         for name, topic in recording.topics.items():
             if topic.is_latched:
                 self._latched[name] = []
-            text = topic.schema.text
-            self._channels[name] = foxglove.Channel(
-                name,
-                schema=foxglove.Schema(
-                    name=topic.schema.name,
-                    encoding=topic.schema.encoding,
-                    data=text.encode() if isinstance(text, str) else text,
-                ),
-                message_encoding=topic.message_encoding,
-                context=self.context,
-            )
         for message in recording.latched():
             self._latched[message.topic].append(bytes(message.payload))
+        for name in self.at_once():
+            self.offer(name)
+
+    def at_once(self) -> Iterable[str]:
+        """The topics that are there from the start."""
+        return self.recording.topics
+
+    def offer(self, name: str) -> None:
+        """Begin to publish a topic."""
+        topic = self.recording.topics[name]
+        text = topic.schema.text
+        self._channels[name] = foxglove.Channel(
+            name,
+            schema=foxglove.Schema(
+                name=topic.schema.name,
+                encoding=topic.schema.encoding,
+                data=text.encode() if isinstance(text, str) else text,
+            ),
+            message_encoding=topic.message_encoding,
+            context=self.context,
+        )
 
     def play(
         self,
@@ -63,6 +73,19 @@ class BusyPeer(RobotPeer):
         if channel.topic not in self._latched:
             for message in self.recording.messages(None, end, (channel.topic,)):
                 self._channels[channel.topic].log(bytes(message.payload))
+
+
+class HesitantPeer(RobotPeer):
+    """Offers one topic after the other, and says again and again what is not kept."""
+
+    def at_once(self) -> Iterable[str]:
+        return ()
+
+    def say_all(self) -> None:
+        """Publish all that moves, of the topics that are there."""
+        for name in self._channels.keys() - self._latched.keys():
+            for message in self.recording.messages(None, None, (name,)):
+                self._channels[name].log(bytes(message.payload))
 
 
 @contextmanager

@@ -83,6 +83,12 @@ class JointStateTopics:
         self._spread()
         return self._last
 
+    def set_topics(self, topics: Collection[str]) -> None:
+        """Take the messages of these topics; where some are gone, begin again."""
+        before, self.topics = self.topics, tuple(topics)
+        if not set(topics).issuperset(before):
+            self.clear()
+
     def take(self, message: Recorded) -> None:
         """Take the positions of a message; no number is no news."""
         for template in self._templates.get(message.channel, ()):

@@ -538,16 +538,21 @@ class SourceRobot:
 
     def _listen(self, live: Source, before: RobotTopics) -> None:
         """Ask a live source for what it says of the robot."""
-        self._told.set_topics(self.topics.moving, self.topics.static)
-        main = self.topics.description
-        if main is not None and main != before.description:
-            if not self.has_recorded(main):
-                live.subscribe(main, self._describe)
+        moving, static = self.topics.moving, self.topics.static
+        with self._framed:
+            self._told.set_topics(moving, static, are_taken=False)
+        main, last = self.topics.description, before.description
+        if main is not None and main != last and not self.has_recorded(main):
+            live.subscribe(main, self._describe)
         if len(self.topics.descriptions) > 1:
             # The frames of one may be those of another.
             for topic in self.topics.others:
                 self._follow_text(topic)
-        for topic in (*self.topics.moving, *self.topics.static):
+        if last is not None and main != last:
+            live.unsubscribe(last, self._describe)
+        for topic in {*before.moving, *before.static}.difference(moving, static):
+            live.unsubscribe(topic, self._expect)
+        for topic in (*moving, *static):
             if self._seen < ENOUGH and not self.has_recorded(topic):
                 live.subscribe(topic, self._expect)
 

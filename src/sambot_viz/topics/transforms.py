@@ -125,9 +125,26 @@ class TransformTopics:
         self._changed_groups: dict[int, _Publication] = {}
         self._changed: dict[str, None] = {}
 
-    def set_topics(self, moving: Collection[str], static: Collection[str]) -> None:
-        """Take the messages of these topics from now on."""
+    def set_topics(
+        self,
+        moving: Collection[str],
+        static: Collection[str],
+        *,
+        are_taken: bool = True,
+    ) -> None:
+        """Take the messages of these topics, and forget what others have told.
+
+        Args:
+            moving: as of the class.
+            static: as of the class.
+            are_taken: whether their messages are taken, and not only expected.
+        """
+        before = self.topics
         self.topics, self.always = (*moving, *static), frozenset(static)
+        is_renamed = self._named != self._spaces.version
+        if is_renamed or not set(self.topics).issuperset(before):
+            # A robot that stands still may say nothing again.
+            self._take_again(self.take if are_taken else self._expect)
 
     def take(self, message: Recorded) -> None:
         """Take the transforms of a message, as tf2's listener does."""
@@ -275,7 +292,8 @@ class TransformTopics:
         self._changed.clear()
         self._changed_groups.clear()
         for _, message in last.values():
-            again(message)
+            if message.topic in self.topics:
+                again(message)
 
     def _read(self, message: Recorded) -> Transforms:
         """Return the transforms of a message that is not taken, and not counted."""

@@ -17,6 +17,8 @@ from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
 
 Level = Literal["Warn", "Error"]
+_Joints = tuple[str, ...]
+"""The topics that move the joints of a robot."""
 STRING = "std_msgs/msg/String"
 _OFFERED = {word: offered for offered, word in reasons.QOS_WORDS.items()}
 """RViz's word → that of ROS; System Default is not here: it adapts to publishers."""
@@ -47,7 +49,7 @@ class SourceDescriptions:
         self._changed = changed
         self._reason_of = reason_of
         self._doubts: Mapping[str, TopicReason] = {}
-        self._told: dict[tuple[str, WantedQos], Description] = {}
+        self._told: dict[tuple[str, WantedQos], tuple[Description, _Joints]] = {}
         self._look = partial(worker.post, self.look_again)
         moved_by.on_topics.append(self._look)
         moved_by.on_status.append(self._look)
@@ -82,7 +84,8 @@ class SourceDescriptions:
 
     def of(self, topic: str, qos: WantedQos) -> Description:
         """Return what a topic says, and ask for its messages."""
-        told = self._told[topic, qos] = self._of(topic, qos)
+        told = self._of(topic, qos)
+        self._told[topic, qos] = told, self.joint_topics(topic)
         return told
 
     def _of(self, topic: str, qos: WantedQos) -> Description:
@@ -145,9 +148,9 @@ class SourceDescriptions:
 
     def look_again(self) -> None:
         """Let displays draw again when a topic that one asked for says otherwise."""
-        told = [(key, self._of(*key)) for key in self._told]
+        told = {key: (self._of(*key), self.joint_topics(key[0])) for key in self._told}
         doubts, before = self.transform_doubts(), self._doubts
-        if doubts != before or any(self._told[key] != now for key, now in told):
+        if doubts != before or told != self._told:
             self._doubts = doubts
             self._told.clear()
             self._changed()

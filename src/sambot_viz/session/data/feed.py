@@ -50,15 +50,19 @@ class Feed:
         return has_live and not any(map(self.is_recorded, topics))
 
     def listen(self, subscriber: Subscriber, topics: Iterable[str]) -> None:
-        """Ask for topics that one that was added may have got since."""
+        """Ask for the topics that one that was added has by now, and for no others."""
         live = self.source.live
         if live is None:
             return
         receive, asked = self._receivers[subscriber]
-        for topic in topics:
-            if topic not in asked and not self.is_recorded(topic):
+        wanted = [topic for topic in topics if not self.is_recorded(topic)]
+        for topic in wanted:
+            if topic not in asked:
                 asked[topic] = None
                 live.subscribe(topic, receive)
+        for topic in asked.keys() - set(wanted):
+            del asked[topic]
+            live.unsubscribe(topic, receive)
 
     def remove(self, subscriber: Subscriber) -> None:
         """Give one that was added no more messages."""

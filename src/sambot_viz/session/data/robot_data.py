@@ -94,7 +94,7 @@ class RobotData:
         self._period = 1 / 30
         self._said: tuple[object, ...] = (0, "")
         self._doubted = ""
-        self._renamed = 0
+        self._named: tuple[int, str | None] = (0, moved_by.topics.description)
         self._looked = float("-inf")
         self._closed = self._looks_on = False
         self._viewers: set[object] = set()
@@ -265,13 +265,15 @@ class RobotData:
         """Ask for the topics of the robot that are new; runs in the worker."""
         topics = self.moved_by.topics
         self.transforms.set_topics(topics.moving, topics.static)
-        self._joint_states.topics = topics.joint_states
+        self._joint_states.set_topics(topics.joint_states)
         if not self._moves and self._has_motion():
             self._moves = True
             self._robot.set_followed(self.name)
         if not self._closed:
             for one in (self.transforms, self._joint_states):
                 self._feed.listen(one, one.topics)
+            if self._is_named_otherwise:
+                self._draw(False)
             self._tell_problems()
 
     def _tell_problems(self) -> None:
@@ -287,9 +289,10 @@ class RobotData:
         self._problems.set((*self.moved_by.hidden, *of_frames, *of_joints))
 
     def _take(self, message: Recorded) -> None:
+        # What waited may be of a topic that is the robot's no longer.
         if message.topic in self.transforms.topics:
             self.transforms.take(message)
-        else:
+        elif message.topic in self._joint_states.topics:
             self._joint_states.take(message)
 
     def _draw(self, jumped: bool) -> None:
@@ -302,18 +305,29 @@ class RobotData:
         if said != self._said:
             self._said = said
             self._tell_problems()
-        if self._renamed != self.transforms.renamed:
-            self._renamed, jumped = self.transforms.renamed, True
+        is_renamed, self._named = self._is_named_otherwise, self._names
+        jumped = jumped or is_renamed
         self._note_joints(jumped)
         self._frames.waiting = True
         # One picture is one change.
         with self._change():
+            if is_renamed:
+                self._robot.build_tree()
             if jumped:
                 self._robot.after_jump()
             else:
                 self._robot.draw_moved()
             self._robot.messages_came()
         self._look_at_time(jumped)
+
+    @property
+    def _names(self) -> tuple[int, str | None]:
+        """What the names of frames depend on, and which robot has its own."""
+        return self.transforms.renamed, self.moved_by.topics.description
+
+    @property
+    def _is_named_otherwise(self) -> bool:
+        return self._named != self._names
 
     def _note_joints(self, jumped: bool) -> None:
         changed = self._joint_states.changed()
