@@ -175,3 +175,16 @@ def test_a_node_keeps_the_arrays_that_it_shares(server: viser.ViserServer) -> No
     buffer = viser_private.broadcast_buffer(server)
     sent = [m for m in buffer.message_from_id.values() if hasattr(m, "props")]
     assert all(m.props.vertices is vertices for m in sent[-2:])
+
+
+def test_a_file_is_sent_as_it_is_and_kept(server: viser.ViserServer) -> None:
+    node = server.scene.add_glb("/file", b"glTF")
+    for content in (b"other", np.arange(100_000, dtype=np.uint8)):
+        viser_private.send_file(node, content)
+        assert node.glb_data is content
+        buffer = viser_private.broadcast_buffer(server)
+        (last,) = list(buffer.message_from_id.values())[-1:]
+        assert last.updates["glb_data"] is content
+    # What comes later takes the place of what was there.
+    sent = [m for m in buffer.message_from_id.values() if hasattr(m, "updates")]
+    assert len(sent) == 1

@@ -55,9 +55,12 @@ _WAITING = (
 )
 
 
-_LARGE_BLOCK = 2**20
+_LARGE_BLOCK = 2**22
 """A block of this size goes back to the system as soon as it is free [bytes]."""
-_M_MMAP_THRESHOLD = -3
+_KEPT = 2**23
+"""So much of what is free stays with each thread [bytes]: messages with clouds need it
+again and again, and to get it from the system costs more than to fill it."""
+_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 
 
 def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
@@ -265,4 +268,6 @@ def _return_large_blocks() -> None:
     if sys.platform == "linux":
         # Other C libraries, such as that of Alpine, have no such function.
         with suppress(OSError, AttributeError):
-            ctypes.CDLL(None).mallopt(_M_MMAP_THRESHOLD, _LARGE_BLOCK)
+            library = ctypes.CDLL(None)
+            library.mallopt(_M_MMAP_THRESHOLD, _LARGE_BLOCK)
+            library.mallopt(_M_TRIM_THRESHOLD, _KEPT)

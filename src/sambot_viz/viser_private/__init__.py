@@ -30,6 +30,7 @@ from sambot_viz.viser_private.scene_nodes import (
     node_count,
     remember_prop_types,
     scene_bytes,
+    send_file,
     share_arrays,
     tell_poses_of_remade_nodes,
 )
@@ -68,6 +69,7 @@ __all__ = [
     "replace_flush",
     "replace_window_loop",
     "scene_bytes",
+    "send_file",
     "send_value",
     "set_pose",
     "set_poses",

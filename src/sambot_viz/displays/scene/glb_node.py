@@ -20,6 +20,7 @@ from sambot_viz.displays.scene.frame_nodes import placed
 from sambot_viz.displays.scene.posed_node import PosedNode
 from sambot_viz.geometry import IDENTITY, ORIGIN, Vector3, Wxyz
 from sambot_viz.meshes.glb import glb_file
+from sambot_viz.viser_private import send_file
 
 Array = npt.NDArray[Any]
 POINTS, LINES, TRIANGLES = 0, 1, 4
@@ -32,6 +33,8 @@ ONE_PIXEL = base64.b64decode(
 _LONG = 65_536
 """A file of so many bytes is sent as it is."""
 _TOGETHER = 16
+_NO_LIMITS = {"min": [-1e9] * 3, "max": [1e9] * 3}
+"""A file has to have some."""
 _SHAPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
@@ -95,7 +98,7 @@ class GlbNode(PosedNode[viser.GlbHandle]):
             self.has_made(handle, pose)
         else:
             if is_new:
-                self._handle.glb_data = _as_sent(make())
+                send_file(self._handle, _as_sent(make()))
             self.move(pose)
 
 
@@ -121,9 +124,12 @@ def digest_of(content: Sequence[object]) -> bytes:
 
 
 def single(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    """Return numbers with 32 bits, as browsers have them; what is too large is inf."""
+    """Return numbers with 32 bits, as browsers have them; what is too large is inf.
+
+    Those that have them already are not copied.
+    """
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.asarray(values).astype(np.float32)
+        return np.asarray(values).astype(np.float32, copy=False)
 
 
 def rgba_rows(color: npt.ArrayLike, alpha: float, count: int) -> npt.NDArray[np.uint8]:
@@ -151,6 +157,7 @@ def drawn_glb(
     indices: Array | None = None,
     blended: bool = False,
     image: bytes | None = None,
+    has_bounds: bool = True,
 ) -> bytes:
     """Return a GLB file with one unlit part that is seen from both sides.
 
@@ -163,6 +170,8 @@ def drawn_glb(
         indices: of the corners of the triangles, uint32.
         blended: whether alpha is looked at; then it writes no depth.
         image: a PNG file, the texture.
+        has_bounds: whether the page looks at the bounds of the positions, to leave out
+            what is not in sight.
     """
     body = _Body()
     said = {"drawAs": draw_as, **(extras or {})}
@@ -179,7 +188,7 @@ def drawn_glb(
         "material": 0,
     }
     position, first = attributes["POSITION"], primitive["attributes"]["POSITION"]
-    body.accessors[first] |= _limits(position)
+    body.accessors[first] |= _limits(position) if has_bounds else _NO_LIMITS
     if indices is not None:
         primitive["indices"] = body.add(np.reshape(indices.astype("<u4"), (-1, 1)))
     surface: dict[str, Any] = {"baseColorFactor": [1, 1, 1, 1]}

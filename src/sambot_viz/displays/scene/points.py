@@ -173,8 +173,16 @@ def points_glb(
         extras["color"] = [*colors[0].tolist(), 255][:4]
     else:
         # Rows of three bytes would not be aligned.
-        rows = np.full((len(points), 4), 255, np.uint8)
+        rows = np.empty((len(points), 4), np.uint8)
+        rows[:, 3] = 255
         rows[:, : colors.shape[1]] = colors
         attributes["COLOR_0"] = rows
     blended = style.alpha < OPAQUE_FROM or has_alpha
-    return drawn_glb("points", attributes, extras=extras, mode=POINTS, blended=blended)
+    return drawn_glb(
+        "points",
+        attributes,
+        extras=extras,
+        mode=POINTS,
+        blended=blended,
+        has_bounds=False,
+    )

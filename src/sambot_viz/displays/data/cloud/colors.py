@@ -81,6 +81,13 @@ def _rainbow_table() -> Colors:
     return np.round(255 * table).astype(np.uint8)
 
 
+@cache
+def _rainbow_pixels() -> npt.NDArray[np.uint32]:
+    """Return the same with a fourth byte, each colour as one number, (1276,)."""
+    rows = np.pad(_rainbow_table(), ((0, 0), (0, 1)), constant_values=255)
+    return np.frombuffer(rows.tobytes(), np.uint32)
+
+
 def rainbow(values: Floats) -> Colors:
     """Return RViz's rainbow: 0 is magenta, 0.2 blue, …, 0.8 yellow, 1 red.
 
@@ -90,8 +97,14 @@ def rainbow(values: Floats) -> Colors:
     Returns:
         (N, 3) uint8.
     """
-    nearest = np.ceil(_STEPS * _clipped(values) - 0.5)
-    return _rainbow_table().take(nearest.astype(np.intp), axis=0)
+    nearest = _clipped(values)
+    nearest *= _STEPS
+    nearest -= 0.5
+    # Whole pixels are taken: of three bytes each it takes four times as long.
+    pixels: Any = _rainbow_pixels().take(
+        np.ceil(nearest, out=nearest).astype(np.uint16)
+    )
+    return pixels.view(np.uint8).reshape(-1, 4)[:, :3]
 
 
 def transformers_of(cloud: Cloud) -> tuple[str, ...]:
@@ -157,9 +170,12 @@ def _intensity(cloud: Cloud, options: ColorOptions) -> Colors:
     if span == 0:
         span = _NO_RANGE
     with np.errstate(over="ignore", invalid="ignore"):
-        part = (values - low) / span
+        part = values - low
+        part /= span
     if options.is_rainbow:
-        return rainbow(part if options.is_inverted else 1 - part)
+        if not options.is_inverted:
+            np.subtract(1, part, out=part)
+        return rainbow(part)
     part = _clipped(part)[:, None]
     most, least = np.array(options.most_color), np.array(options.least_color)
     return np.round(most * part + least * (1 - part)).astype(np.uint8)
@@ -195,10 +211,12 @@ def _axis_color(cloud: Cloud, options: ColorOptions, T: Matrix) -> Colors:
 
 
 def _bounds(values: Floats) -> tuple[float, float]:
-    finite = values[np.isfinite(values)]
-    if not len(finite):
+    if not len(values):
         return 0.0, 0.0
-    low, high = float(finite.min()), float(finite.max())
+    low, high = float(values.min()), float(values.max())
+    # That of NaN is NaN.
+    if not np.isfinite(high - low):
+        return _bounds(values[np.isfinite(values)])
     return max(low, -_FARTHEST), min(high, _FARTHEST)
 
 
