@@ -8,8 +8,6 @@ import struct
 import zlib
 from typing import Any, cast
 
-import numpy as np
-import numpy.typing as npt
 import viser
 from viser import (
     _assignable_props_api,  # pyright: ignore[reportPrivateUsage]
@@ -89,7 +87,7 @@ def share_arrays(handle: viser.SceneNodeHandle, **arrays: object) -> None:
         setattr(holder, name, array)
 
 
-def send_file(handle: viser.GlbHandle, content: bytes | npt.NDArray[np.uint8]) -> None:
+def send_file(handle: viser.GlbHandle, content: bytes) -> None:
     """Give a node another file, which nobody changes, and send it.
 
     viser's own setter compares it with the last one, and copies it twice: of a cloud of
@@ -97,7 +95,7 @@ def send_file(handle: viser.GlbHandle, content: bytes | npt.NDArray[np.uint8]) -
 
     Args:
         handle: the node; it was not removed.
-        content: the file; an array is sent as it is, bytes are compressed.
+        content: the file; an array (uint8) is sent as it is, bytes are compressed.
     """
     state: Any = handle._impl  # pyright: ignore[reportPrivateUsage]
     state.props.glb_data = content
