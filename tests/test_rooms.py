@@ -136,7 +136,7 @@ ROOMS: Mapping[str, Row] = {
     "server": Row(
         "displays frames inputs joints meshes options page panels robot rviz session "
         "topics viser_private",
-        "msgspec numpy segno viser watchfiles websockets",
+        "msgspec numpy segno viser watchfiles websockets zstandard",
         "asyncio concurrent http socket threading",
     ),
     "export": Row(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import hashlib
 import http.client
 import json
 import re
@@ -16,6 +17,8 @@ from patience import patience
 
 import sambot_viz.page
 from sambot_viz import Visualizer
+from sambot_viz.server.connections.page_files import page_of_viser
+from sambot_viz.server.connections.viser_page import taken_apart
 
 PAGE = Path(sambot_viz.page.__file__).parent
 
@@ -47,6 +50,12 @@ def scripts_in(html: str) -> dict[str, str]:
         name: base64.b64decode(address.partition(",")[2]).decode()
         for name, address in addresses.items()
     }
+
+
+def script_of_viser(html: str) -> str:
+    """Where a page asks for the script of viser; "" where it does not."""
+    found = re.search(r'<script data-src="([^"]+)">', html)
+    return "" if found is None else found[1]
 
 
 def test_the_page_has_our_scripts_and_our_style_sheet(port: int) -> None:
@@ -93,7 +102,7 @@ def test_a_page_without_a_view_has_the_window_and_nothing_of_viser(port: int) ->
     assert {name: scripts[name] for name in same} == {n: all_scripts[n] for n in same}
     # What draws and moves the scene is not there, nor is viser's own script.
     assert not {"sambot/view/rviz_look.js", "sambot/view/rviz_mouse.js"} & set(scripts)
-    assert len(html) < 0.5 * len(whole) and "WebGL" not in html
+    assert script_of_viser(html) == "" and "WebGL" not in html
     tags = {ask(port, path)[0].headers["ETag"] for path in ("/", "/?view=none")}
     assert len(tags) == 2
 
@@ -120,6 +129,32 @@ def test_a_page_that_a_browser_has_is_not_sent_again(port: int) -> None:
     other, content = ask(port, "/", If_None_Match='"another"')
     assert other.status == 200
     assert content
+
+
+def test_the_script_of_viser_is_unpacked_and_a_browser_keeps_it(port: int) -> None:
+    page = ask(port, "/")[1].decode()
+    address = script_of_viser(page)
+    assert f'<link rel="modulepreload" href="{address}">' in page
+    plain, content = ask(port, f"/{address}")
+    packed, smaller = ask(port, f"/{address}", Accept_Encoding="gzip")
+    assert gzip.decompress(smaller) == content
+    for response in (plain, packed):
+        assert "immutable" in response.headers["Cache-Control"]
+        assert response.headers["Content-Type"] == "text/javascript; charset=utf-8"
+    # Another script would have another name.
+    assert hashlib.sha256(content).hexdigest()[:20] in address
+    assert b"globalThis.__viserZstdWasm" in content
+    assert "globalThis.__viserZstdWasm=" in page and "data-p=" not in page
+    # What a program or a page before this one had asked for is not there.
+    assert ask(port, f"/{address[:-4]}0.js")[0].status == 404
+
+
+def test_a_page_of_another_form_is_left_as_it_is() -> None:
+    whole = page_of_viser()
+    assert taken_apart(whole, "") is not None
+    for change in ((b"data-cs=", b"data-xx="), (b"const a=de(d.p);", b"const b=0;")):
+        assert taken_apart(whole.replace(*change, 1), "") is None
+    assert taken_apart(b"<html><head></head></html>", "") is None
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
 from sambot_viz import page
+from sambot_viz.server.connections.viser_page import ViserPage, taken_apart
 
 VISER_PROTOCOL = f"viser-v{viser.__version__}"
 """What a client of viser asks for when it opens its connection."""
@@ -22,7 +23,9 @@ NO_VIEW = ("view", "none")
 """In the query of an address: a page without a view."""
 Parts = Literal["all", "view", "window"]
 """What a page has: the view in a window, the view alone, or a window without it."""
-LICENSES = "/sambot/licenses.txt"
+_FOLDER = "sambot/"
+"""Where the files beside the page are."""
+LICENSES = f"/{_FOLDER}licenses.txt"
 """Where the licences of the libraries in the page are."""
 _PLAIN_PAGE = """\
 <!doctype html><meta charset="utf-8">
@@ -54,8 +57,12 @@ def answer(
     """
     if is_websocket(request):
         return None
-    if request.path.partition("?")[0] == LICENSES:
+    path = request.path.partition("?")[0]
+    if path == LICENSES:
         return _text(page.licenses())
+    apart = _taken_apart()
+    if apart is not None and path == f"/{_FOLDER}{apart.name}":
+        return _script(request, apart.script)
     if not is_page(request):
         return None
     parts = _parts(request, panels)
@@ -66,10 +73,22 @@ def answer(
     headers["Vary"] = "Accept-Encoding"
     if request.headers.get("If-None-Match") == _tag(parts, look):
         return Response(http.HTTPStatus.NOT_MODIFIED, "Not Modified", headers)
-    content = _page(parts, look)
+    return _packable(request, headers, _page(parts, look))
+
+
+def _script(request: Request, content: bytes) -> Response:
+    """Viser's script: what has another content has another name."""
+    headers = Headers({"Content-Type": "text/javascript; charset=utf-8"})
+    headers["Cache-Control"] = "private, max-age=31536000, immutable"
+    headers["Vary"] = "Accept-Encoding"
+    return _packable(request, headers, content)
+
+
+def _packable(request: Request, headers: Headers, content: bytes) -> Response:
+    """Return a file, packed if the browser takes that."""
     if "gzip" in request.headers.get("Accept-Encoding", ""):
         headers["Content-Encoding"] = "gzip"
-        content = _packed(parts, look)
+        content = _packed(content)
     headers["Content-Length"] = str(len(content))
     return Response(http.HTTPStatus.OK, "OK", headers, content)
 
@@ -103,7 +122,14 @@ def _parts(request: Request, panels: bool) -> Parts:
 def _page(parts: Parts, look: str | None) -> bytes:
     if parts == "window":
         return page.without_view(VISER_PROTOCOL, look or "rviz")
-    return page.with_scripts(page_of_viser(), parts == "all", look or "rviz")
+    apart = _taken_apart()
+    html = page_of_viser() if apart is None else apart.html
+    return page.with_scripts(html, parts == "all", look or "rviz")
+
+
+@cache
+def _taken_apart() -> ViserPage | None:
+    return taken_apart(page_of_viser(), _FOLDER)
 
 
 def page_of_viser() -> bytes:
@@ -113,8 +139,8 @@ def page_of_viser() -> bytes:
 
 
 @cache
-def _packed(parts: Parts, look: str | None) -> bytes:
-    return gzip.compress(_page(parts, look), 6, mtime=0)
+def _packed(content: bytes) -> bytes:
+    return gzip.compress(content, 6, mtime=0)
 
 
 @cache

@@ -1,0 +1,94 @@
+"""The page that comes with viser, taken apart.
+
+viser packs its script and its style sheet into one HTML file, as text that each page
+unpacks by itself (a third of a second of computing, and on a phone more), and that no
+browser keeps as the program that it is. Here they are unpacked once, in the server.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass
+
+import numpy as np
+import zstandard
+
+_PACKED = re.compile(
+    rb'<script data-p="([^"]*)" data-ss="(\d+)" data-cs="(\d+)">(.*?)</script>', re.S
+)
+_ALPHABET = re.compile(rb'const A="((?:[^"\\]|\\.)*)"')
+_UNPACKS = b"const a=de(d.p);"
+"""In the loader: what comes before makes the decoder of messages, which viser needs."""
+_RUNS = b"""\
+const run=()=>{
+  const e=document.createElement("script");
+  e.type="module";e.src=d.src;document.head.appendChild(e);
+};
+if(document.readyState==="loading"){document.addEventListener("DOMContentLoaded",run);}
+else{run();}
+})();"""
+_DIGITS = 5
+"""So many digits are four bytes."""
+
+
+@dataclass(frozen=True)
+class ViserPage:
+    """The page of viser, whose script is a file beside it.
+
+    Attributes:
+        html: the page.
+        name: of the script; another script has another name.
+        script: what the page asks for.
+    """
+
+    html: bytes
+    name: str
+    script: bytes
+
+
+def taken_apart(html: bytes, folder: str) -> ViserPage | None:
+    """Return a page of viser with its script as a file; None where it has another form.
+
+    Args:
+        html: the page that comes with viser.
+        folder: where the page asks for the script, relative to itself.
+    """
+    packed = _PACKED.search(html)
+    if packed is None:
+        return None
+    alphabet = _ALPHABET.search(packed[4])
+    loader, found, _ = packed[4].partition(_UNPACKS)
+    if alphabet is None or not found:
+        return None
+    styles, length = int(packed[2]), int(packed[2]) + int(packed[3])
+    content = _decoded(packed[1], alphabet[1].replace(b"\\\\", b"\\"))
+    try:
+        plain = zstandard.ZstdDecompressor().decompress(content, length)
+    except zstandard.ZstdError:
+        return None
+    script = plain[styles:]
+    name = f"viser-{hashlib.sha256(script).hexdigest()[:20]}.js"
+    address = f"{folder}{name}".encode()
+    element = b'<link rel="modulepreload" href="%s"><script data-src="%s">%s%s</script>'
+    filled = element % (address, address, loader, _RUNS)
+    before, after = html[: packed.start()], html[packed.end() :]
+    # Behind all others, as viser puts it.
+    style = b"<style>%s</style></head>" % plain[:styles]
+    page = before + filled + after.replace(b"</head>", style, 1)
+    return ViserPage(page, name, script)
+
+
+def _decoded(text: bytes, alphabet: bytes) -> bytes:
+    """Return bytes that are written as digits, four of them in five digits."""
+    values = np.zeros(256, np.uint64)
+    values[np.frombuffer(alphabet, np.uint8)] = np.arange(len(alphabet))
+    digits = values[np.frombuffer(text, np.uint8)]
+    whole = len(digits) // _DIGITS * _DIGITS
+    weights = np.array([len(alphabet) ** n for n in range(_DIGITS)][::-1], np.uint64)
+    numbers = np.reshape(digits[:whole], (-1, _DIGITS)) @ weights
+    rest = 0
+    for digit in digits[whole:].tolist():
+        rest = rest * len(alphabet) + digit
+    left = len(digits) - whole
+    return numbers.astype(">u4").tobytes() + rest.to_bytes(max(left - 1, 0), "big")
