@@ -178,3 +178,61 @@ test("poses and files of a node that goes are not those of the next one", () => 
   const again = parted([pose("/a"), pose("/a/b"), made]);
   assert.deepEqual(again, { poses: [pose("/a/b")], rest: [pose("/a"), made], files: new Set() });
 });
+
+/** A node that draws points, and a file with others. */
+const dots = (/** @type {number} */ x) => {
+  const document = {
+    meshes: [{ extras: { drawAs: "points" }, primitives: [{ attributes: { POSITION: 0 } }] }],
+    materials: [{ alphaMode: "OPAQUE" }],
+    accessors: [{ bufferView: 0, count: 1 }],
+    bufferViews: [{ byteOffset: 0, byteLength: 12 }],
+  };
+  const head = new TextEncoder().encode(JSON.stringify(document));
+  const bytes = new Uint8Array(40 + head.length);
+  const view = new DataView(bytes.buffer);
+  view.setUint32(0, 0x46546c67, true);
+  view.setUint32(12, head.length, true);
+  bytes.set(head, 20);
+  view.setFloat32(28 + head.length, x, true);
+  return { type: "SceneNodeUpdateMessage", name: "/p", id: x, updates: { glb_data: bytes } };
+};
+const cloud = (/** @type {any} */ more = {}) => {
+  const center = { array: new Float32Array(3) };
+  const one = { userData: { drawAs: "points" }, material: { transparent: false } };
+  const object = { ...one, geometry: { attributes: { center } }, ...more };
+  return { center, children: [{ children: [object] }] };
+};
+const begun = (/** @type {any} */ props = {}) => ({ type: "GlbMessage", name: "/p", id: 0, props });
+
+test("points that come again are in the picture of the poses, and viser does not read them", async () => {
+  await begin();
+  const props = { glb_data: null };
+  await taking(() => queue.push(begun(props)));
+  const node = (nodes["/p"] = cloud());
+  picture();
+  assert.deepEqual(await taking(() => queue.push(pose("/a"), dots(5))), []);
+  assert.equal(node.center.array[0], 0);
+  assert.deepEqual(await taking(picture), ["/a"]);
+  assert.equal(node.center.array[0], 5);
+  // Whatever makes viser read the file again, it is this one.
+  assert.deepEqual(props.glb_data, dots(5).updates.glb_data);
+  assert.equal(internal.priority, 0);
+});
+
+test("points of a node that is made or read anew are viser's", async () => {
+  await begin();
+  const node = (nodes["/p"] = cloud());
+  // Nobody knows what viser has made of it.
+  assert.deepEqual(await taking(() => queue.push(removal("/p"), begun(), dots(1))), [-1, 0, 1]);
+  picture();
+  await begin();
+  // The object that is there gives way to that of the file that is read.
+  nodes["/p"] = node;
+  assert.deepEqual(await taking(() => queue.push(dots(2))), [2]);
+  await begin();
+  nodes["/p"] = cloud();
+  assert.deepEqual(await taking(() => queue.push(dots(3))), []);
+  await begin();
+  assert.equal(node.center.array[0], 0);
+  assert.equal(nodes["/p"].center.array[0], 3);
+});

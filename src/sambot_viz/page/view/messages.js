@@ -5,7 +5,10 @@
  *
  * Here messages are handed to viser as soon as they are there and the picture before was drawn. It
  * does not get their poses yet: these are taken with the picture in which all of their files are
- * read. Until then the picture before stays. */
+ * read. Until then the picture before stays. Points that only have other places or colours are not
+ * read by viser at all: they get them with that picture. */
+
+import { pointsOf, refilling } from "./refill.js";
 
 /** What acts without React. */
 const POSES = new Set([
@@ -36,6 +39,11 @@ let files = new Set();
 let now = /** @type {"" | "handed" | "drawn" | "left out"} */ ("");
 let isAsked = false,
   isLeftOut = false;
+/** What is done with that picture, by the node. @type {Map<string, () => void>} */
+let fills = new Map();
+/** viser's properties of nodes with a file, and the object of each that gives way to another one.
+ * @type {Map<string, {props: any, leaves?: any}>} */
+const made = new Map();
 /** Since when something is waited for, and with how many pictures. */
 let since = 0,
   pictures = 0;
@@ -84,6 +92,56 @@ export function parted(messages) {
   return { poses, rest, files };
 }
 
+/**
+ * Part from other messages what `refill.js` does.
+ * @param {any[]} messages
+ * @returns {any[]} the rest
+ */
+function withoutFills(messages) {
+  /** @type {Set<string>} */
+  const begun = new Set();
+  for (const { type, name, props } of messages)
+    if (props || type === "RemoveSceneNodeMessage") begun.add(name);
+  const isBegun = (/** @type {string} */ name) =>
+    [...begun].some((other) => name === other || name.startsWith(`${other}/`));
+  return messages.filter((message) => {
+    const { name, updates } = message;
+    const content = updates?.glb_data;
+    if (!content || Object.keys(updates).length > 1) return true;
+    const object = pointsOf(page()?.nodeRefFromName?.[name]);
+    const known = made.get(name);
+    if (!known || !object || known.leaves === object || isBegun(name)) return true;
+    const fill = refilling(object, content);
+    if (!fill) return true;
+    fills.set(name, () => {
+      fill();
+      // Whatever makes viser read its file again reads this one.
+      known.props.glb_data = content;
+    });
+    return false;
+  });
+}
+
+/** Remember what viser makes of files. @param {any[]} messages that it takes */
+function remember(messages) {
+  for (const { type, name, props, updates } of messages) {
+    if (type === "GlbMessage") made.set(name, { props });
+    else if (updates?.glb_data && made.has(name))
+      // It is read while the one before is still there, and viser copies the properties.
+      made.set(name, { props: {}, leaves: pointsOf(page()?.nodeRefFromName?.[name]) });
+    else if (props) made.delete(name);
+    else if (type === "RemoveSceneNodeMessage")
+      for (const other of made.keys())
+        if (other === name || other.startsWith(`${name}/`)) made.delete(other);
+  }
+}
+
+/** Give points what belongs to the picture that is drawn now. */
+function fill() {
+  for (const [name, one] of fills) if (made.has(name)) one();
+  fills.clear();
+}
+
 /** Hand what has come to viser, if the picture of what came before was drawn. */
 function hand() {
   isAsked = false;
@@ -124,7 +182,8 @@ function askLater() {
  * @param {any[]} args of it @returns {any[]} */
 function given(queue, take, args) {
   if (now === "handed") {
-    const { poses, rest, files: named } = parted(take.apply(queue, args));
+    const all = take.apply(queue, args);
+    const { poses, rest, files: named } = parted(withoutFills(all));
     // It is empty now; a call with a hundred thousand arguments is none.
     for (const pose of poses) queue[queue.length] = pose;
     held = poses.length;
@@ -136,6 +195,7 @@ function given(queue, take, args) {
   // viser has counted what it takes up to a picture that somebody asks for.
   if (isAskedFor(queue)) isComing = isPartial = false;
   else if (now === "left out") return [];
+  fill();
   if (isComing && now === "drawn") return take.call(queue, 0, held);
   if (isPartial && now === "drawn") return [];
   return take.apply(queue, args).filter((/** @type {any} */ { name }) => name !== MORE);
@@ -150,6 +210,7 @@ function follow({ messageQueue: queue }) {
   };
   queue.splice = (/** @type {any[]} */ ...args) => {
     const taken = given(queue, splice, args);
+    remember(taken);
     if (taken.length) for (const listener of listeners) listener(taken);
     return taken;
   };
@@ -173,7 +234,7 @@ export function drawTogether(scene) {
     isLeftOut = isComing && isReading();
     pictures += 1;
     now = isLeftOut ? "left out" : "drawn";
-    if (!isLeftOut) return;
+    if (!isLeftOut) return fill();
     internal.priority += 1;
     page()?.requestRender?.();
   };
