@@ -211,6 +211,26 @@ def test_starting_to_drive_keeps_the_camera_and_reset_brings_it_back(
     assert client.view.values["Distance"] == pytest.approx(1.0)
 
 
+def test_back_at_its_start_the_robot_is_seen_by_who_looked_at_it(
+    panel: DrivePanel, session: Session, join: Callable[[], Client]
+) -> None:
+    driver, loaded, elsewhere, still = join(), join(), join(), join()
+    with session.history.acting(driver.client_id):
+        edit(panel, "drive/linear", 1.0)
+        for _ in range(20):
+            session.motion.advance(0.2)
+            edit(panel, "drive/keep")
+            session.follow_view.follow(vector(session.drive.pose.x, 0.0, 0.1))
+        # A page that comes back has its own camera.
+        loaded.view.pan(vector(4.0, 0.0, 0.0))
+        elsewhere.view.pan(vector(-50.0, 0.0, 0.0))
+        edit(panel, "drive/reset", None)
+    assert driver.view.camera.look_at == pytest.approx((0, 0, 0), abs=1e-6)
+    assert loaded.view.camera.look_at[0] == pytest.approx(0.0, abs=0.3)
+    assert elsewhere.view.camera.look_at[0] == pytest.approx(-50.0)
+    assert still.view.camera.look_at[0] == pytest.approx(0.0)
+
+
 def test_a_driven_robot_stays_in_the_picture_when_the_fixed_frame_changes(
     panel: DrivePanel, session: Session, client: Client
 ) -> None:

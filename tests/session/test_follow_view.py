@@ -140,7 +140,7 @@ def test_the_view_goes_back_by_the_way_that_it_was_panned(
     driver.view.pan(vector(-1, 0, 0))
     seen.follow(vector(9, 2, 0.1))
     assert looks_at(driver) == (9, 2)
-    seen.put_back()
+    seen.back_to_start()
     assert looks_at(driver) == (-1, 0)
     seen.follow(AWAY)
     assert looks_at(driver) == (-1, 0)

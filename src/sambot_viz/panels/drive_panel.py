@@ -160,8 +160,7 @@ class DrivePanel(Panel):
 
     @command("drive/reset")
     def _reset(self) -> None:
-        self._drive.reset()
-        self._follow_view.put_back()
+        self._follow_view.back_to_start()
 
     def _go(self, v: float, w: float) -> Answer | None:
         """Drive; from rest, see to it that the motion can be seen."""

@@ -134,12 +134,37 @@ class FollowView:
             if not self._is_seen(client, place):
                 self._pan(client, place - client.view.camera.look_at)
 
-    def put_back(self) -> None:
-        """Undo what driving has changed: fixed frame, way of the camera, frame odom.
+    def back_to_start(self) -> None:
+        """Put the robot back, and undo what driving has changed.
 
-        Fixed frame and odom change by edits that can be undone; odom stays while the
-        fixed frame is odom or something else is in it.
+        That is the fixed frame, the way of the camera and the frame odom. Fixed frame
+        and odom change by edits that can be undone; odom stays while the fixed frame is
+        odom or something else is in it. Who looks at the robot looks at it there.
         """
+        with self._lock:
+            self._drive.draw()
+            before = self._place()
+            saw = [
+                client
+                for number, client in self._clients.all.items()
+                if number not in self._panned
+                and before is not None
+                and _shows(client, before)
+                and not has_target(self._scene, client.view.view)
+            ]
+            self._drive.reset()
+            self._drive.draw()
+            place = self._place()
+            if before is not None and place is not None:
+                way = vector(place[0] - before[0], place[1] - before[1], 0.0)
+                for client in saw:
+                    middle = client.view.camera.look_at
+                    # Its page was loaded meanwhile, or its user has gone along.
+                    if _apart(middle, before) < _apart(middle, place):
+                        client.view.pan(way)
+            self._put_back()
+
+    def _put_back(self) -> None:
         with self._lock:
             self._driving.to()
             for client_id, way in self._panned.items():
@@ -256,6 +281,11 @@ class FollowView:
     @property
     def _client(self) -> Client | None:
         return None if self._driver is None else self._clients.all.get(self._driver)
+
+
+def _apart(one: Vector, other: Vector) -> float:
+    """Return how far apart two points are on the floor [m]."""
+    return float(np.hypot(one[0] - other[0], one[1] - other[1]))
 
 
 def _shows(client: Client, point: Vector, part: float = 1.0) -> bool:

@@ -180,6 +180,10 @@ class Drive:
                 placed = self.root in self._frames.added
                 self._robot.move(start, {self.root: self._matrix()} if placed else {})
 
+    def draw(self) -> None:
+        """Draw the robot where it is now, and not with the next picture."""
+        self._robot.draw_moved()
+
     def advance(self, dt: float) -> tuple[dict[str, float], dict[str, Matrix]]:
         """Drive on for a time [s].
 
