@@ -116,6 +116,10 @@ def test_files_that_are_counted_together_are_named(
         out, err = capsys.readouterr()
         assert "2000" in out
         assert "2 files are counted as one recording: first.mcap, second.mcap" in err
+    # Who has named them knows that they are two.
+    named = [f"--source={n}={folder / n}.mcap" for n in ("first", "second")]
+    assert main(["topics", *named]) == 0
+    assert "counted as one" not in capsys.readouterr().err
     # The parts of one that rosbag2 has split are one.
     (folder / "metadata.yaml").write_text("", "utf-8")
     assert main(["topics", str(folder)]) == 0

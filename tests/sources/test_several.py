@@ -209,7 +209,7 @@ def test_two_robots_are_told_apart_by_a_prefix(
     ("source", "prefixes", "words"),
     [
         (["one.mcap"], {"a": "b"}, "no such source; none has a name"),
-        (["a=one.mcap"], {"b": "x"}, "--source-prefix b: no such source; a"),
+        (["a=one.mcap"], {"b": "x"}, "--source-prefix b: no such source; known: a"),
         (["a=one.mcap"], {"a": "x y"}, "a prefix has letters"),
         (["a=foxglove://h", "a=foxglove://i"], {}, "two sources are called a"),
     ],

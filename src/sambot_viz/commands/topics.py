@@ -58,7 +58,8 @@ def _looked_at(options: Options, seconds: float) -> tuple[list[Account], list[Pr
         with closing(Listened(moved_by, seconds, None)) as listened:
             return _of_live(listened)
     with closing(moved_by):
-        _say_together(moved_by.recording.paths)
+        if not any(one.name for one in moved_by.given):
+            _say_together(moved_by.recording.paths)
         return _of_recording(moved_by, moved_by.at_ns)
 
 

@@ -86,7 +86,9 @@ def given_sources(
     names = [one.name for one in found if one.name]
     for name, prefix in prefixes.items():
         if name not in names:
-            listed = ", ".join(names) or "none has a name: write --source NAME=URI"
+            listed = f"known: {', '.join(names)}"
+            if not names:
+                listed = "none has a name: write --source NAME=URI"
             raise UsageError(f"--source-prefix {name}: no such source; {listed}")
         if not _WORD.fullmatch(prefix):
             raise UsageError(
