@@ -7,11 +7,10 @@ from collections.abc import Iterable, Sequence
 from contextlib import closing
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem, UsageError
-from sambot_viz.listened import Listened
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
@@ -23,6 +22,9 @@ from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 from sambot_viz.topics.transforms import problems_of_transforms
+
+if TYPE_CHECKING:
+    from sambot_viz.listened import Listened
 
 _HEAD = ("TOPIC", "TYPE", "COUNT", "RATE", "REASON")
 _WIDEST = 60
@@ -55,6 +57,9 @@ def _looked_at(options: Options, seconds: float) -> tuple[list[Account], list[Pr
     if moved_by is None:
         raise UsageError(_no_recording(options))
     if moved_by.recording is None:
+        # A recording needs nothing of the network.
+        from sambot_viz.listened import Listened
+
         with closing(Listened(moved_by, seconds, None)) as listened:
             return _of_live(listened)
     with closing(moved_by):
