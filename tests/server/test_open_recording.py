@@ -433,5 +433,7 @@ def test_recordings_that_were_opened_as_one_can_be_opened_again(
     assert value(client, "recording/names") == names
     open_in(client, "logs", "texts.mcap")
     client.wait_until(lambda: value(client, "names/topics") == ["/note"])
+    # It is shown before the next one may be opened.
+    client.wait_until(lambda: answer(client, "done") == "texts.mcap")
     open_in(client, "texts.mcap", "logs (whole folder)")
     client.wait_until(lambda: "/scan" in value(client, "names/topics"))
