@@ -219,4 +219,7 @@ def test_the_work_of_a_step_does_not_grow_with_the_robot(
             # The first ones fill what is kept; the last one passes the limit.
             return [at_once(q) for q in (0.1, 0.2, 0.3, 0.4, 1.5)][2:]
 
-    assert work_of(200) == work_of(20)
+    many, few = work_of(200), work_of(20)
+    # Whether another thread is asleep is chance, and to wake it takes some calls. What
+    # is done for each of 180 joints more would be a call for each at least.
+    assert all(abs(a - b) < 100 for a, b in zip(many, few, strict=True)), (many, few)
