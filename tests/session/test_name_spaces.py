@@ -275,6 +275,31 @@ def test_it_does_not_matter_which_topic_of_a_live_robot_is_there_first(
             peer.stop()
 
 
+def test_a_robot_keeps_its_place_while_its_transforms_are_published_again(
+    tmp_path: Path,
+) -> None:
+    case = CASES["odom is all that they share"]
+    path = write_messages(tmp_path / "robots.mcap", messages_of(case))
+    with open_recording(path) as played:
+        peer = HesitantPeer(played)
+        try:
+            for topic in played.topics:
+                peer.offer(topic)
+            with Visualizer(source=peer.uri, port=0) as viz:
+                eventually(lambda: peer.say_all() or is_as(case, viz))
+                robot = session_of(viz).data
+                assert robot is not None
+                peer.remove("/a/tf")
+                eventually(lambda: "/a/tf" not in robot.transforms.topics)
+                # It may be the other one whose joints are followed by now.
+                eventually(lambda: peer.say_all() or is_as(case, viz))
+                peer.offer("/a/tf")
+                eventually(lambda: "/a/tf" in robot.transforms.topics)
+                eventually(lambda: peer.say_all() or is_as(case, viz))
+        finally:
+            peer.stop()
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_the_list_of_topics_says_the_same(
     tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]

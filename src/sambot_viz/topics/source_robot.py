@@ -540,7 +540,8 @@ class SourceRobot:
         """Ask a live source for what it says of the robot."""
         moving, static = self.topics.moving, self.topics.static
         with self._framed:
-            self._told.set_topics(moving, static, are_taken=False)
+            published = self.source.topics()
+            self._told.set_topics(moving, static, published, are_taken=False)
         main, last = self.topics.description, before.description
         if main is not None and main != last and not self.has_recorded(main):
             live.subscribe(main, self._describe)

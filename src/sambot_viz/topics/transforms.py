@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import (
     Callable,
     Collection,
+    Container,
     Iterable,
     Iterator,
     Mapping,
@@ -129,20 +130,24 @@ class TransformTopics:
         self,
         moving: Collection[str],
         static: Collection[str],
+        published: Container[str],
         *,
         are_taken: bool = True,
     ) -> None:
-        """Take the messages of these topics, and forget what others have told.
+        """Take the messages of these topics, and forget what others tell.
 
         Args:
             moving: as of the class.
             static: as of the class.
+            published: all topics of the source. What one has told stays that is gone
+                from there: its node may be starting again.
             are_taken: whether their messages are taken, and not only expected.
         """
         before = self.topics
         self.topics, self.always = (*moving, *static), frozenset(static)
         is_renamed = self._named != self._spaces.version
-        if is_renamed or not set(self.topics).issuperset(before):
+        left = set(before).difference(self.topics)
+        if is_renamed or any(topic in published for topic in left):
             # A robot that stands still may say nothing again.
             self._take_again(self.take if are_taken else self._expect)
 

@@ -264,7 +264,8 @@ class RobotData:
     def _listen(self) -> None:
         """Ask for the topics of the robot that are new; runs in the worker."""
         topics = self.moved_by.topics
-        self.transforms.set_topics(topics.moving, topics.static)
+        published = self.source.topics()
+        self.transforms.set_topics(topics.moving, topics.static, published)
         self._joint_states.set_topics(topics.joint_states)
         if not self._moves and self._has_motion():
             self._moves = True
