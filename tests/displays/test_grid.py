@@ -94,7 +94,9 @@ def test_the_status_reports_fewer_cells_and_the_file_keeps_its_count(
     grid: Show,
 ) -> None:
     session = grid("      Plane Cell Count: 1000000000")
-    assert session.scene.displays[0].status.rows["Cells"].level == "Warn"
+    status = session.scene.displays[0].status.rows["Cells"]
+    assert status.level == "Warn"
+    assert "(2,000,000,002 lines; the limit is 100,000)" in status.text
     assert "Plane Cell Count: 1000000000" in session.document.config.to_yaml()
     session.display_edits.set_property(
         session.scene.displays[0], "Plane Cell Count", 10

@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 from inside import node_of, session_of
+from lower_limit import lower
 
 from sambot_viz import Visualizer
-from sambot_viz.export.page_file import ViewState, page_file
+from sambot_viz.export.page_file import ViewState, cut_short, page_file
 
 
 @pytest.fixture
@@ -39,6 +40,18 @@ def test_a_page_has_the_recording_from_the_present_time_on(viz: Visualizer) -> N
     viz.player.jump(15.0)
     shown = exported(viz, "recording")
     assert shown["duration"] == pytest.approx(viz.player.duration - 15.0, abs=1e-6)
+
+
+def test_it_is_said_from_where_a_long_recording_is_left_out(
+    viz: Visualizer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    viz.player.jump(5.0)
+    assert cut_short(session_of(viz).copy()) == []
+    lower(monkeypatch, "EXPORTED_RECORDING", 10)
+    (said,) = cut_short(session_of(viz).copy())
+    rest = round(viz.player.duration - 5.0)
+    assert f"{rest} seconds; the limit is 10" in said.message
+    assert "--at 15.0" in said.hint
 
 
 def test_the_last_minute_ends_at_the_present_time(viz: Visualizer) -> None:

@@ -28,10 +28,14 @@ def run(words: list[str]) -> int:
 
 def _export(inputs: Inputs, output: Path, sweep: bool) -> None:
     """Write what a page would show."""
+    from sambot_viz.export.page_file import cut_short
     from sambot_viz.visualizer import Visualizer
 
     with Visualizer.of_inputs(inputs) as viz:
-        write_problems(viz.server.sessions.all()[0].document.config.problems)
+        session = viz.server.sessions.all()[0]
+        write_problems(session.document.config.problems)
+        if sweep:
+            write_problems(cut_short(session.copy()))
         try:
             viz.export(output, sweep=sweep)
         except OSError as error:

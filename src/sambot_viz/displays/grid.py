@@ -37,6 +37,7 @@ _PLANES: dict[str, Wxyz] = {
 }
 """Turns the grid's own axes (normal along y) into the plane, as RViz does."""
 _NORMALS = {"XY": (0.0, 0.0, 1.0), "XZ": (0.0, 1.0, 0.0), "YZ": (1.0, 0.0, 0.0)}
+_SIDES = ("Plane", "Normal")
 CELLS = 2.0
 """Cells that are as long as the robot, about: ten show five of it."""
 NEAR_LINE = 3.0
@@ -226,13 +227,12 @@ class GridDisplay(Display):
     def _report(self) -> None:
         rows = {"Transform": Status("Ok", "Ok")}
         cells, layers = self._counts()
-        if (cells, layers) != (
-            self.config.get("Plane Cell Count"),
-            self.config.get("Normal Cell Count"),
-        ):
+        asked = [int(self.config.get(f"{side} Cell Count")) for side in _SIDES]
+        if [cells, layers] != asked:
+            said = limits.GRID_LINES.said(line_count(asked[0], asked[1]))
             rows["Cells"] = Status(
                 "Warn",
-                f"Too many cells to draw: {cells} are drawn along each side"
+                f"Too many cells to draw ({said}): {cells} are drawn along each side"
                 + (f" and {layers} along the normal" if layers else ""),
             )
         self.status.replace(rows)

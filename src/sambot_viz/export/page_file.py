@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any, Literal
 
 from sambot_viz import limits, page
-from sambot_viz.errors import SambotVizError, UsageError
+from sambot_viz.errors import Problem, SambotVizError, UsageError
 from sambot_viz.export.recorded_scene import PERIOD, RelativeCamera, recorded
 from sambot_viz.joints import JointState
 from sambot_viz.joints.animation import sweep
@@ -135,6 +135,25 @@ def _played(scene: SessionCopy, motion: Motion) -> tuple[int, int] | None:
     return now, min(
         recording.end_ns or 0, now + round(limits.EXPORTED_RECORDING.value * 1e9)
     )
+
+
+def cut_short(scene: SessionCopy) -> list[Problem]:
+    """Return what is said of a recording that a page plays only a part of."""
+    played = _played(scene, "recording")
+    if played is None or scene.recorded is None or scene.recorded.recording is None:
+        return []
+    recording = scene.recorded.recording
+    end = recording.end_ns or 0
+    if end <= played[1]:
+        return []
+    rest = round((end - played[0]) / 1e9)
+    message = (
+        f"the page plays the first of {limits.EXPORTED_RECORDING.said(rest)}; the rest "
+        "is left out"
+    )
+    at = (played[1] - (recording.start_ns or 0)) / 1e9
+    hint = f"for what follows, export another page with --at {at:.1f}"
+    return [Problem("info", "export-cut-short", message, hint)]
 
 
 def _sweep(joints: JointState) -> Iterable[MotionSample]:

@@ -147,7 +147,7 @@ RECORDING_FILES = LimitRow(
     "files of the folder of a recording",
     10_000,
     "",
-    "the others are not opened; metadata.yaml is not needed for it",
+    "the others are not opened, with a warning",
 )
 METADATA = LimitRow(
     "metadata.yaml of a recording",

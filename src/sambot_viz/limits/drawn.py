@@ -157,8 +157,8 @@ IMAGES_WAITING = LimitRow(
 GRID_LINES = LimitRow(
     "lines of a Grid",
     100_000,
-    "",
-    "it is drawn with fewer cells",
+    "lines",
+    "it is drawn with fewer cells; its status says how many",
 )
 SELECTED_BOXES = LimitRow(
     "selected points of a message with a box",

@@ -86,7 +86,7 @@ NESTED_MODELS = LimitRow(
     "models in models of an SDF file",
     100,
     "",
-    "inner ones are left out",
+    "inner ones are left out, with a warning",
 )
 SLIPS = LimitRow(
     "misspelt words of a model",

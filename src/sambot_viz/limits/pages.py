@@ -164,7 +164,7 @@ EXPORTED_RECORDING = LimitRow(
     "what an exported page plays of a recording",
     300,
     "seconds",
-    "the rest is left out",
+    "the rest is left out; the command says from where",
 )
 EXPORTED_PAGE = LimitRow(
     "an exported page that a page asks for",

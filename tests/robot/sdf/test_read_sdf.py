@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from lower_limit import lower
 
 from sambot_viz import Problem, Robot, RobotError, check, load_robot
 from sambot_viz.drive.driven_wheels import find_wheel_pair
@@ -128,6 +129,21 @@ def test_a_nested_model_is_placed_by_a_frame_of_its_own() -> None:
     assert set(robot.links) == {"a", "b"}
     (warning,) = with_code(robot, "sdf-nested-model")
     assert "arm" in warning.message
+
+
+def test_models_that_are_nested_too_deep_are_said_to_be_left_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lower(monkeypatch, "NESTED_MODELS", 2)
+    deepest = '<model name="d"><link name="y"/></model>'
+    inner = f'<model name="c"><link name="x"/>{deepest}</model>'
+    nested = f'<model name="b"><link name="x"/>{inner}</model>'
+    robot = load_robot(sdf(f'<link name="a"/>{nested}'))
+
+    said = [w.message for w in with_code(robot, "sdf-nested-model")]
+    (left_out,) = (message for message in said if "not read" in message)
+    assert "inside c" in left_out and "more than 2 levels" in left_out
+    assert set(robot.links) == {"a"}
 
 
 def test_sensors_plugins_and_lights_are_one_note_for_each_kind() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sqlite3
 import struct
 import tracemalloc
@@ -16,6 +17,7 @@ from mcap_pieces import chunk, mcap_file, message, string
 
 from sambot_viz import limits
 from sambot_viz.commands.topics import run
+from sambot_viz.errors import SourceError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import mcap, open_bag, open_recording, ros1
 from sambot_viz.sources.playback import RecordingPlayback
@@ -248,3 +250,22 @@ def channel_text(path: Path, topic: str) -> str | bytes:
     with open_bag(path) as bag:
         (text,) = {one.channel.schema.text for one in bag.messages(topics=[topic])}
     return text
+
+
+def test_a_folder_with_too_many_files_says_so_and_shows_what_it_has_opened(
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    square = repository / "assets" / "square.mcap"
+    for name in ("a", "b", "c"):
+        shutil.copy(square, tmp_path / f"{name}.mcap")
+    with open_recording(tmp_path) as recording:
+        assert not recording.problems
+    limit(monkeypatch, "RECORDING_FILES", 2)
+    with open_recording(tmp_path) as recording:
+        (problem,) = recording.problems
+    assert (problem.code, problem.severity) == ("folder-too-large", "warning")
+    assert "more than 2 files" in problem.message
+    for path in tmp_path.iterdir():
+        path.rename(path.with_suffix(".txt"))
+    with pytest.raises(SourceError, match="more than 2 files"):
+        open_recording(tmp_path)

@@ -129,6 +129,8 @@ def read_scopes(
             reader.check_nested(scope)
         if depth < limits.NESTED_MODELS.value:
             stack.extend((inner, depth + 1) for inner in scope.nested.values())
+        elif scope.nested:
+            reader.leave_out(scope)
     return top
 
 
@@ -172,6 +174,16 @@ class _NameReader:
                 "delete it: ROS shows nothing of nested models",
                 scope.model,
             )
+
+    def leave_out(self, scope: Scope) -> None:
+        """Report a model whose inner models are too deep to be read."""
+        self._findings.warn(
+            "sdf-nested-model",
+            f"what is in the models inside {scope.model.get('name')} is not read: "
+            f"it is nested more than {limits.NESTED_MODELS.value} levels deep",
+            "write its links and joints into the outermost model",
+            scope.model,
+        )
 
     def _take(self, scope: Scope, element: Element, kind: str) -> Frame | None:
         """Take the name of an element into a scope; None when it cannot be used."""

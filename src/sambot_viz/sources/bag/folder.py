@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 from sambot_viz import limits
@@ -18,6 +19,7 @@ METADATA = "metadata.yaml"
 
 _BESIDE = ("-wal", "-shm", "-journal")
 ENDINGS = (".mcap", ".db3", ".bag", ".zstd", ".zst")
+_GIVE_FILES = "give the recordings in it one by one, each with --source FILE"
 _NAMES = re.compile(
     r"^\s*relative_file_paths:[ \t]*\n((?:[ \t]*-[^\n]*\n?)+)", re.MULTILINE
 )
@@ -33,10 +35,13 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
         SourceError: there is no recording in it.
     """
     try:
-        there = sorted(_listed(folder))
+        # One more than may be: whether there are too many.
+        every = list(islice(folder.iterdir(), limits.RECORDING_FILES.value + 1))
+        there = sorted(_listed(every))
     except (OSError, ValueError) as error:
         raise unreadable(folder, error) from error
     files = [path for path in there if path.name.endswith(ENDINGS)]
+    too_many = _too_many(folder, every)
     named = _named(folder)
     present = {path.name for path in there}
     missing = [name for name in named if name not in present]
@@ -45,18 +50,31 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
             message = _missing(missing)
             hint = "copy that file into the folder, beside metadata.yaml"
             raise refused(folder, "file-missing", message, hint)
+        if too_many:
+            raise refused(folder, "folder-too-large", too_many, _GIVE_FILES)
         message = f"the folder {folder.name} has no .mcap, .db3 or .bag file"
         hint = "give the folder that 'ros2 bag record' has made, or one of its files"
         raise refused(folder, "file-not-a-bag", message, hint)
+    if too_many:
+        code, where = "folder-too-large", str(folder)
+        return files, [Problem("warning", code, too_many, _GIVE_FILES, where)]
     return files, _stale(folder, named, missing, files)
 
 
-def _listed(folder: Path) -> Iterator[Path]:
-    for number, path in enumerate(folder.iterdir()):
-        if number >= limits.RECORDING_FILES.value:
-            return
+def _listed(every: list[Path]) -> Iterator[Path]:
+    for path in every[: limits.RECORDING_FILES.value]:
         if not path.name.endswith(_BESIDE) and path.is_file():
             yield path
+
+
+def _too_many(folder: Path, every: list[Path]) -> str:
+    limit = limits.RECORDING_FILES.value
+    if len(every) <= limit:
+        return ""
+    return (
+        f"the folder {folder.name} has more than {limit:,} files; the others are not "
+        "looked at"
+    )
 
 
 def _stale(
