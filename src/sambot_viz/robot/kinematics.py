@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -142,7 +142,7 @@ class Kinematics:
         if len(wanted) <= FEW:
             return {n: self.joint_transform(n, positions[n]) for n in wanted}
         T_parent_child = self._transforms(self._filled(positions))
-        return {name: T_parent_child[self._row_of(name)] for name in wanted}
+        return dict(zip(wanted, T_parent_child[self._rows_of(wanted)], strict=True))
 
     def _row_of(self, joint: str) -> int:
         row = self._row.get(joint)
@@ -151,15 +151,19 @@ class Kinematics:
             raise JointError(f"no joint '{joint}'; {near}")
         return row
 
+    def _rows_of(self, joints: Collection[str]) -> list[int]:
+        known = self._row
+        try:
+            return [known[name] for name in joints]
+        except KeyError:
+            return [self._row_of(name) for name in joints]
+
     def _filled(self, given: Mapping[str, float]) -> _Floats:
         q: _Floats = np.array(self._start)
-        known, rows, values = self._row, list[int](), list[float]()
-        for name, value in given.items():
-            rows.append(known[name] if name in known else self._row_of(name))
-            values.append(_finite(name, value))
+        rows = self._rows_of(given)
         if rows:
-            q[rows] = values
-        moved = set(rows)
+            q[rows] = _numbers(given)
+        moved = set(rows) if self._follows else set[int]()
         for follow in self._follows:
             if follow.row not in moved:
                 q[follow.row] = mimicked(
@@ -275,6 +279,15 @@ def _start(joint: Joint) -> float:
 
 _FARTHEST = 1e30
 """A chain of mimic joints with large factors stops growing here."""
+
+
+def _numbers(given: Mapping[str, float]) -> _Floats | list[float]:
+    """Return finite numbers; one of another kind is looked at by itself."""
+    if set(map(type, given.values())) == {float}:
+        values = np.fromiter(given.values(), np.float64, len(given))
+        if np.isfinite(values).all():
+            return values
+    return [_finite(name, value) for name, value in given.items()]
 
 
 def _finite(joint: str, value: float) -> float:

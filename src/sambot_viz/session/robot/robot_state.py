@@ -74,7 +74,8 @@ class RobotState:
         self._change = change
         self._pacer = Throttle(worker, 0.0, self.draw_moved)
         self._is_placed = False
-        self._prefix = ""
+        # By joint: the frame that it moves.
+        self._frame_of: dict[str, str] = {}
         self._moved: dict[str, None] = {}
         self._new_poses: dict[str, Matrix] = {}
 
@@ -128,12 +129,14 @@ class RobotState:
         # A link of which messages say nothing then has no place, as in RViz.
         joints = () if self._is_placed else None
         kinematics, positions = self.joints.kinematics, self.joints.positions
-        self._prefix = self._data.prefix_of(self.model)
+        prefix = self._data.prefix_of(self.model)
+        self._frame_of = {
+            name: prefix + plain_name(joint.child)
+            for name, joint in self.model.joints.items()
+        }
         # Nobody publishes a frame of what is in place of a robot that is still to come.
         if self.model.name != STAND_IN_NAME:
-            hang_robot(
-                self._tree, self.model, kinematics, positions, joints, self._prefix
-            )
+            hang_robot(self._tree, self.model, kinematics, positions, joints, prefix)
         refused = self._added.set_again()
         self._data.set_again()
         self._scene.publish()
@@ -403,13 +406,13 @@ class RobotState:
         self.moved = self.moved or bool(self._moved)
 
     def _joint_frames(self, moved: Iterable[str]) -> dict[str, Matrix]:
-        robot, joints = self.model, self.joints
-        if robot is None or joints is None or self._is_placed:
+        joints, frame_of = self.joints, self._frame_of
+        if joints is None or self._is_placed:
             return {}
-        prefix = self._prefix
-        frames = {n: prefix + plain_name(robot.joints[n].child) for n in moved}
         # A frame that a user attached elsewhere no longer follows its joint, nor does
         # one of which messages say where it is.
         added, data = self._added, self._data
-        free = [n for n, f in frames.items() if f not in added and f not in data]
-        return {frames[name]: T for name, T in joints.transforms(free).items()}
+        if added.all or data.has_history:
+            frames = ((name, frame_of[name]) for name in moved)
+            moved = [n for n, f in frames if f not in added and f not in data]
+        return {frame_of[name]: T for name, T in joints.transforms(moved).items()}
