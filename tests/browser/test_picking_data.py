@@ -72,6 +72,8 @@ def test_a_point_of_a_scan_is_clicked_on_and_measured(
 ) -> None:
     page = open_viewer(scanned.url)
     user, mouse = page.user, page.page.mouse
+    # What the page has to say of its view comes after its first picture.
+    page.settle(scanned)
     (client,) = session_of(scanned).clients.all.values()
 
     def place(x: float, y: float) -> tuple[float, float]:
