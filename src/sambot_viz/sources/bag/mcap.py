@@ -68,6 +68,8 @@ class McapBag(BlockBag):
     def __init__(self, file: FileBytes) -> None:
         super().__init__(file)
         self._schemas: dict[int, Schema] = {}
+        # Of records of schemas and channels that were taken: a summary repeats them.
+        self._defined: set[int] = set()
         self._is_small = file.size <= SMALL
         self._latest = 0
         self._doubts = 0
@@ -247,10 +249,14 @@ class McapBag(BlockBag):
 
     def _define(self, opcode: int, content: bytes, *, in_summary: bool = False) -> None:
         """Take a schema or a channel; the same ones may come again."""
+        record = hash((opcode, content))
+        if record in self._defined:
+            return
         if opcode == SCHEMA:
             schema = read_schema(content)
             if schema.id and schema.id not in self._schemas:
                 self._schemas[schema.id] = schema_of(schema)
+            self._defined.add(record)
         elif opcode == CHANNEL:
             channel = read_channel(content)
             # A summary may have channels without their schemas: the data have both.
@@ -258,6 +264,8 @@ class McapBag(BlockBag):
             if channel.id not in self._channels and (has_schema or not in_summary):
                 schema = self._schemas.get(channel.schema, NO_SCHEMA)
                 self._add_channel(channel.id, channel_of(channel, schema))
+            if channel.id in self._channels:
+                self._defined.add(record)
 
     def _add_loose(self, loose: LooseMessages) -> None:
         entries = loose.entries(self.damage, None)
