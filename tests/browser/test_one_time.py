@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from inside import node_of
+from inside import node_of, session_of
 from made_recording import START, Message, header, store_of_all, transforms_message
 from made_recording import write_messages as write
 from viewer_page import ViewerPage
@@ -95,11 +95,15 @@ def test_a_step_is_one_picture(
     page = open_viewer(viz.url)
     page.settle(viz)
     page.page.evaluate(WATCH.replace("BASE", repr(node_of(viz, "base"))))
-    viz.player.play()
-    page.user.until(lambda: not viz.player.playing)
-    page.settle(viz)
+    data = session_of(viz).data
+    assert data is not None and data.player is not None
+    # Some steps go out together, whatever the page is doing; then it has them all.
+    for _ in range(3):
+        for _ in range(3):
+            data.player.advance(1 / 30)
+        page.settle(viz)
     seen: list[tuple[float, float, float]] = page.page.evaluate("window.seen")
     bases = [base for base, _, _ in seen]
-    assert len(set(bases)) > 3
+    assert len(set(bases)) >= 3
     for base, cloud, outline in seen:
         assert (cloud, outline) == (pytest.approx(0.0, abs=1e-3), pytest.approx(base))
