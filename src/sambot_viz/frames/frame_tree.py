@@ -7,7 +7,6 @@ it has frames that were somewhere else before.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -148,27 +147,29 @@ class FrameTree(FrameHierarchy):
         Either all values are taken or, after an error, none.
 
         Args:
-            transforms: child frame → (4, 4) float64, T_parent_child. The arrays are
-                kept, not copied, and become read-only.
+            transforms: child frame → (4, 4) float64, T_parent_child.
             stamp: the time of the values [s].
 
         Raises:
             FrameError: a child that has no parent yet.
             TransformRefused: a number that is not finite (TF_NAN_INPUT).
         """
-        known, edges = self._edges, list[Edge]()
+        known = self._edges
+        edges = [known.get(child) or self._edge_of(child) for child in transforms]
         for child, matrix in transforms.items():
-            edges.append(known.get(child) or self._edge_of(child))
-            # The sum of all squares finds NaN and infinity at a third of the cost of
-            # isfinite().all().
-            if matrix.shape != (4, 4) or not math.isfinite(np.vdot(matrix, matrix)):
-                raise TransformRefused(
-                    "TF_NAN_INPUT",
-                    f"the transform of frame '{child}' is not a finite (4, 4) matrix",
-                )
-        for edge, matrix in zip(edges, transforms.values(), strict=True):
-            matrix.flags.writeable = False
-            edge.transform, edge.stamp = Transform.trusted(matrix), stamp
+            if matrix.shape != (4, 4):
+                raise _refused(child)
+        if not edges:
+            return
+        # One array: its numbers are looked at together, and nobody else has it.
+        matrices: Matrix = np.concatenate(tuple(transforms.values()))
+        if not np.isfinite(matrices).all():
+            is_bad = (c for c, T in transforms.items() if not np.isfinite(T).all())
+            raise _refused(next(is_bad))
+        matrices.flags.writeable = False
+        rows = np.reshape(matrices, (-1, 4, 4))
+        for edge, matrix in zip(edges, rows, strict=True):
+            edge.move(matrix, stamp)
         self._seen.clear()
 
     def remove(self, child: str) -> None:
@@ -315,6 +316,13 @@ class FrameTree(FrameHierarchy):
             tuple([edge.transform for edge in below]),
             tuple([edge.transform for edge in above]),
         )
+
+
+def _refused(child: str) -> TransformRefused:
+    return TransformRefused(
+        "TF_NAN_INPUT",
+        f"the transform of frame '{child}' is not a finite (4, 4) matrix",
+    )
 
 
 def _hop(edge: Edge, *, up: bool) -> Hop:

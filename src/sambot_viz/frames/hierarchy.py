@@ -7,6 +7,8 @@ when it would be made.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.frame_errors import (
     FrameCycleError,
@@ -14,12 +16,17 @@ from sambot_viz.frames.frame_errors import (
     TransformRefused,
 )
 from sambot_viz.frames.transform import Transform
+from sambot_viz.geometry import Matrix
 
 
 class Edge:
-    """The transform of a child in its parent; lives as long as the child does."""
+    """The transform of a child in its parent; lives as long as the child does.
 
-    __slots__ = ("child", "parent", "stamp", "static", "transform")
+    Attributes:
+        matrix: (4, 4) float64, read-only; T_parent_child.
+    """
+
+    __slots__ = ("_transform", "child", "matrix", "parent", "stamp", "static")
 
     def __init__(self, parent: str, child: str) -> None:
         self.parent = parent
@@ -27,6 +34,22 @@ class Edge:
         self.transform = Transform.identity()
         self.static = False
         self.stamp = 0.0
+
+    @property
+    def transform(self) -> Transform:
+        """T_parent_child, made when it is asked for."""
+        if self._transform is None:
+            self._transform = Transform.trusted(self.matrix)
+        return self._transform
+
+    @transform.setter
+    def transform(self, transform: Transform) -> None:
+        self._transform: Transform | None = transform
+        self.matrix = transform.matrix
+
+    def move(self, matrix: Matrix, stamp: float) -> None:
+        """Take another matrix, that of a rotation and translation."""
+        self.matrix, self.stamp, self._transform = matrix, stamp, None
 
 
 Path = tuple[tuple[Edge, ...], tuple[Edge, ...]]
@@ -86,10 +109,11 @@ class FrameHierarchy:
         edge = self._edges.get(plain_name(frame))
         return edge.parent if edge else None
 
-    def transform_of(self, frame: str) -> Transform | None:
-        """Return the latest T_parent_frame, or None for a root or an unknown frame."""
-        edge = self._edges.get(plain_name(frame))
-        return edge.transform if edge else None
+    def matrices_of(self, frames: Iterable[str]) -> dict[str, Matrix]:
+        """Return frame → (4, 4) latest T_parent_frame, of those that have a parent."""
+        known = self._edges
+        edges = [(f, known.get(f) or known.get(plain_name(f))) for f in frames]
+        return {frame: edge.matrix for frame, edge in edges if edge is not None}
 
     def children(self, frame: str) -> tuple[str, ...]:
         """Return the children of a frame in the order in which they became known."""

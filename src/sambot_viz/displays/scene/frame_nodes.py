@@ -90,8 +90,7 @@ class FrameNodes:
     def place(self, tree: FrameTree, fixed_frame: str, frames: Iterable[str]) -> None:
         """Send the poses of some frames (and of the roots, if they changed)."""
         # The latest sample of a single step is what tf2 answers for it.
-        found = ((frame, tree.transform_of(frame)) for frame in frames)
-        matrices = {frame: one.matrix for frame, one in found if one is not None}
+        matrices = tree.matrices_of(frames)
         poses = dict(zip(matrices, _poses(list(matrices.values())), strict=True))
         for root in tree.roots:
             connected = root == self._fixed_root
@@ -134,7 +133,7 @@ def _poses(matrices: Sequence[Matrix]) -> list[Pose]:
     """Return the poses of (4, 4) matrices."""
     if len(matrices) <= _FEW:
         return [_pose(T) for T in matrices]
-    all_of_them = np.array(matrices)
+    all_of_them: Matrix = np.reshape(np.concatenate(matrices), (-1, 4, 4))
     positions = all_of_them[:, :3, 3]
     if not np.abs(positions).max() < FARTHEST:
         return [_pose(T) for T in matrices]
