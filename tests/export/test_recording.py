@@ -50,7 +50,7 @@ def test_it_is_said_from_where_a_long_recording_is_left_out(
     lower(monkeypatch, "EXPORTED_RECORDING", 10)
     (said,) = cut_short(session_of(viz).copy())
     rest = round(viz.player.duration - 5.0)
-    assert f"{rest} seconds; the limit is 10" in said.message
+    assert f"10 of {rest} seconds" in said.message
     assert "--at 15.0" in said.hint
 
 

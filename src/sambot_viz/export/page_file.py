@@ -148,8 +148,8 @@ def cut_short(scene: SessionCopy) -> list[Problem]:
         return []
     rest = round((end - played[0]) / 1e9)
     message = (
-        f"the page plays the first of {limits.EXPORTED_RECORDING.said(rest)}; the rest "
-        "is left out"
+        f"the page plays {limits.EXPORTED_RECORDING.value} of {rest} seconds, and the "
+        "rest is left out"
     )
     at = (played[1] - (recording.start_ns or 0)) / 1e9
     hint = f"for what follows, export another page with --at {at:.1f}"

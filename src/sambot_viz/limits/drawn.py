@@ -155,7 +155,7 @@ IMAGES_WAITING = LimitRow(
     "the newest ones wait",
 )
 GRID_LINES = LimitRow(
-    "lines of a Grid",
+    "a Grid",
     100_000,
     "lines",
     "it is drawn with fewer cells; its status says how many",

@@ -267,5 +267,8 @@ def test_a_folder_with_too_many_files_says_so_and_shows_what_it_has_opened(
     assert "more than 2 files" in problem.message
     for path in tmp_path.iterdir():
         path.rename(path.with_suffix(".txt"))
+    # A file that metadata.yaml names may be one of those that are not looked at.
+    names = "  relative_file_paths:\n    - d.mcap\n"
+    (tmp_path / "metadata.yaml").write_text(names, "utf-8")
     with pytest.raises(SourceError, match="more than 2 files"):
         open_recording(tmp_path)

@@ -42,6 +42,12 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
         raise unreadable(folder, error) from error
     files = [path for path in there if path.name.endswith(ENDINGS)]
     too_many = _too_many(folder, every)
+    if too_many:
+        # What was not looked at is not missing.
+        code, where = "folder-too-large", str(folder)
+        if not files:
+            raise refused(folder, code, too_many, _GIVE_FILES)
+        return files, [Problem("warning", code, too_many, _GIVE_FILES, where)]
     named = _named(folder)
     present = {path.name for path in there}
     missing = [name for name in named if name not in present]
@@ -50,14 +56,9 @@ def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
             message = _missing(missing)
             hint = "copy that file into the folder, beside metadata.yaml"
             raise refused(folder, "file-missing", message, hint)
-        if too_many:
-            raise refused(folder, "folder-too-large", too_many, _GIVE_FILES)
         message = f"the folder {folder.name} has no .mcap, .db3 or .bag file"
         hint = "give the folder that 'ros2 bag record' has made, or one of its files"
         raise refused(folder, "file-not-a-bag", message, hint)
-    if too_many:
-        code, where = "folder-too-large", str(folder)
-        return files, [Problem("warning", code, too_many, _GIVE_FILES, where)]
     return files, _stale(folder, named, missing, files)
 
 
