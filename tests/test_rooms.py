@@ -20,7 +20,15 @@ import pytest
 
 SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 """Finds the scripts that one of the page imports."""
-FOUNDATIONS = {"errors", "files", "geometry", "limits", "outlet", "text"}
+FOUNDATIONS = {
+    "errors",
+    "files",
+    "geometry",
+    "limits",
+    "matrices",
+    "outlet",
+    "text",
+}
 """Any room may import these; they import nothing of the package but each other."""
 
 CONCURRENCY = {
@@ -175,6 +183,7 @@ ROOMS: Mapping[str, Row] = {
     ),
     "flags": Row("frames joints"),
     "limits": Row(),
+    "matrices": Row("", "numpy"),
     "listened": Row("sources topics", "", "threading"),
     "moved_by": Row("messages options rviz sources topics"),
     "options": Row("flags frames joints robot rviz sources", "yourdfpy"),

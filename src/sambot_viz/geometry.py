@@ -1,5 +1,7 @@
 """Rotations and rigid transforms as numbers; the one place where they are converted.
 
+Nothing here needs numpy, which takes longer to import than a model to check.
+
 Quaternions say their order in their name: RViz and ROS write (x, y, z, w), viser wants
 (w, x, y, z). `T_parent_child` is a (4, 4) float64 matrix that maps coordinates of the
 child to coordinates of the parent: ``p_parent = T_parent_child @ p_child``.
@@ -8,13 +10,15 @@ child to coordinates of the parent: ``p_parent = T_parent_child @ p_child``.
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-import numpy as np
-import numpy.typing as npt
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
-Matrix = npt.NDArray[np.float64]
+Matrix: TypeAlias = "npt.NDArray[np.float64]"
 Vector3 = tuple[float, float, float]
 Xyzw = tuple[float, float, float, float]
 """A rotation as ROS and RViz write it."""
@@ -39,10 +43,9 @@ def finite(value: Any) -> float | None:
     if type(value) is float:
         # Nearly all are, and each joint of each step is asked.
         return value if math.isfinite(value) else None
-    if isinstance(value, np.ndarray):
-        array = cast("npt.NDArray[Any]", value)
-        value = array[()] if array.ndim == 0 else None
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+    if getattr(value, "ndim", None) == 0:
+        value = value[()]
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return None
     try:
         number = float(cast("float", value))
@@ -172,20 +175,6 @@ def wxyz_from_matrix(T: Matrix) -> Wxyz:
     return (w, x, y, z)
 
 
-def wxyzs_from_matrices(T: Matrix) -> list[Wxyz]:
-    """Return the same of each of (N, 4, 4) matrices, to the last digit."""
-    # As `xyzw_from_matrix`, where the trace is above 0.
-    trace: Matrix = T[:, 0, 0] + T[:, 1, 1] + T[:, 2, 2]
-    root = np.sqrt(np.maximum(trace, 0.0) + 1.0)
-    s = 0.5 / root
-    x, y, z = T[:, 2, 1] - T[:, 1, 2], T[:, 0, 2] - T[:, 2, 0], T[:, 1, 0] - T[:, 0, 1]
-    rows: list[list[float]] = np.stack([0.5 * root, s * x, s * y, s * z], 1).tolist()
-    found: list[Wxyz] = [(w, x, y, z) for w, x, y, z in rows]
-    for row in np.flatnonzero(~(trace > 0.0)).tolist():
-        found[row] = wxyz_from_matrix(T[row])
-    return found
-
-
 def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
     """Return a quaternion (w, x, y, z) with length 1; `IDENTITY` where it has none."""
     w, x, y, z = wxyz
@@ -193,16 +182,6 @@ def unit_wxyz(wxyz: Sequence[float]) -> Wxyz:
     if not SHORTEST < norm < math.inf:
         return IDENTITY
     return (w / norm, x / norm, y / norm, z / norm)
-
-
-def unit_wxyzs(wxyzs: Matrix) -> Matrix:
-    """Return quaternions (N, 4) as `unit_wxyz` does, each by itself."""
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        # `hypot`, since squares of the least and of the greatest numbers are none.
-        pairs = np.hypot(wxyzs[:, 0::2], wxyzs[:, 1::2])
-        norms = np.hypot(pairs[:, :1], pairs[:, 1:])
-        has_length = (norms > SHORTEST) & (norms < np.inf)
-        return np.where(has_length, wxyzs / norms, IDENTITY)
 
 
 def wxyz_product(a: Wxyz, b: Wxyz) -> Wxyz:
@@ -228,28 +207,3 @@ def wxyz_from_z(direction: Vector3) -> Wxyz:
     w = 1.0 + z
     length = math.sqrt(w * w + x * x + y * y)
     return (w / length, -y / length, x / length, 0.0)
-
-
-def matrix_from_wxyz(wxyz: Wxyz, position: Vector3 = ORIGIN) -> Matrix:
-    """Return the (4, 4) transform of a rotation and a position [m]."""
-    w, x, y, z = wxyz
-    T = np.eye(4)
-    T[:3, :3] = rotation_from_xyzw((x, y, z, w))
-    T[:3, 3] = position
-    return T
-
-
-def inverse_matrix(matrix: Matrix) -> Matrix:
-    """Return the inverse of a rigid (4, 4) transform, read-only."""
-    # Twelve products of Python floats take half the time of slicing with numpy.
-    (a, b, c, x), (d, e, f, y), (g, h, i, z), _ = matrix.tolist()
-    inverse = np.array(
-        (
-            (a, d, g, -(a * x + d * y + g * z)),
-            (b, e, h, -(b * x + e * y + h * z)),
-            (c, f, i, -(c * x + f * y + i * z)),
-            (0.0, 0.0, 0.0, 1.0),
-        )
-    )
-    inverse.flags.writeable = False
-    return inverse

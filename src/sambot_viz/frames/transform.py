@@ -17,13 +17,13 @@ from sambot_viz.geometry import (
     Matrix,
     Vector3,
     Xyzw,
-    inverse_matrix,
     rotation_from_xyzw,
     rpy_from_matrix,
     xyzw_from_matrix,
     xyzw_from_rpy,
     xyzw_product,
 )
+from sambot_viz.matrices import inverse_matrix
 from sambot_viz.robot.parts import Origin
 
 if TYPE_CHECKING:

@@ -13,7 +13,8 @@ from blank_messages import blank_message
 from sambot_viz.displays.data.markers.checks import check_of
 from sambot_viz.displays.data.markers.marker_fields import rgba_of
 from sambot_viz.displays.data.message_numbers import points_of, poses_of
-from sambot_viz.geometry import unit_wxyz, unit_wxyzs
+from sambot_viz.geometry import unit_wxyz
+from sambot_viz.matrices import unit_wxyzs
 from sambot_viz.messages import MessageTypes, Rows, Schema
 from sambot_viz.topics.decoding import numbers_of
 

@@ -17,7 +17,7 @@ from situations import TYPES
 from status_world import World, files_of
 
 from sambot_viz import Visualizer
-from sambot_viz.geometry import matrix_from_wxyz
+from sambot_viz.matrices import matrix_from_wxyz
 
 MESSAGES = Path(__file__).parents[2] / "golden" / "messages"
 CASES = sorted(path.parent.name for path in MESSAGES.glob("*/messages.mcap"))

@@ -14,7 +14,7 @@ from sambot_viz.displays.picking.placed_points import (
     PointOutline,
 )
 from sambot_viz.displays.picking.selectable import Hit, Selectable
-from sambot_viz.geometry import matrix_from_wxyz
+from sambot_viz.matrices import matrix_from_wxyz
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
 from sambot_viz.tools.picking.pixel_rays import Picture
 

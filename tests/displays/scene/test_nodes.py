@@ -8,12 +8,8 @@ import numpy as np
 import pytest
 
 from sambot_viz.displays.scene.frame_nodes import position_of
-from sambot_viz.geometry import (
-    inverse_matrix,
-    wxyz_from_matrix,
-    wxyz_from_z,
-    wxyzs_from_matrices,
-)
+from sambot_viz.geometry import wxyz_from_matrix, wxyz_from_z
+from sambot_viz.matrices import inverse_matrix, wxyzs_from_matrices
 from sambot_viz.robot.parts import Origin
 
 

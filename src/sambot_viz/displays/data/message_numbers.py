@@ -14,13 +14,8 @@ from sambot_viz.displays.data.refused_messages import INVALID_FLOATS, MessageRef
 from sambot_viz.displays.data.topic_display import TOPIC
 from sambot_viz.displays.scene.glb_node import single
 from sambot_viz.frames import Transform
-from sambot_viz.geometry import (
-    Vector3,
-    Wxyz,
-    matrix_from_wxyz,
-    unit_wxyz,
-    unit_wxyzs,
-)
+from sambot_viz.geometry import Vector3, Wxyz, unit_wxyz
+from sambot_viz.matrices import matrix_from_wxyz, unit_wxyzs
 from sambot_viz.meanings.schema_row import SENSOR_POSE
 from sambot_viz.topics.decoding import numbers_of
 

@@ -16,7 +16,8 @@ from sambot_viz.displays.picking.rasterise import Covered, blocks, ranges
 from sambot_viz.displays.picking.rays import Array, Balls, Indices, RayGrid
 from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
 from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
-from sambot_viz.geometry import Matrix, Vector3, inverse_matrix
+from sambot_viz.geometry import Matrix, Vector3
+from sambot_viz.matrices import inverse_matrix
 
 NEAR_POINT = 3.0
 """A point is meant from so far, where nothing else is met [pixels]."""

@@ -22,11 +22,10 @@ from sambot_viz.geometry import (
     Matrix,
     Vector3,
     Wxyz,
-    inverse_matrix,
     unit_wxyz,
     wxyz_from_matrix,
-    wxyzs_from_matrices,
 )
+from sambot_viz.matrices import inverse_matrix, wxyzs_from_matrices
 from sambot_viz.viser_private import is_removed, set_poses
 
 Pose = tuple[Wxyz, Vector3]

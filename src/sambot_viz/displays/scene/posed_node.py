@@ -7,12 +7,8 @@ from typing import Generic, TypeVar
 import viser
 
 from sambot_viz.displays.scene.frame_nodes import Pose, any_gone, remove_all
-from sambot_viz.geometry import (
-    IDENTITY,
-    ORIGIN,
-    Matrix,
-    matrix_from_wxyz,
-)
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix
+from sambot_viz.matrices import matrix_from_wxyz
 from sambot_viz.viser_private import set_pose
 
 Handle = TypeVar("Handle", bound=viser.SceneNodeHandle)

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from sambot_viz.errors import Place
-from sambot_viz.geometry import Matrix, Rgba, inverse_matrix, rpy_from_matrix
+from sambot_viz.geometry import Matrix, Rgba, rpy_from_matrix
+from sambot_viz.matrices import inverse_matrix
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Inertial, Link, Material, MeshFile, Origin, Shape
 from sambot_viz.robot.sdf.fields import colour_in, number_in, pose_of, text_in

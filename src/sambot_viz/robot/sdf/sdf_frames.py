@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from sambot_viz.geometry import Matrix, inverse_matrix
+from sambot_viz.geometry import Matrix
+from sambot_viz.matrices import inverse_matrix
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import pose_of, text_in
 from sambot_viz.robot.sdf.frame_cycles import report_cycles

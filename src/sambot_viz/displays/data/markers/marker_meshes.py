@@ -18,15 +18,8 @@ from sambot_viz.displays.robot_model.shape_solids import rgb255
 from sambot_viz.displays.scene.frame_nodes import Handle, NodeCache, any_gone, placed
 from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.errors import Problem, RobotError
-from sambot_viz.geometry import (
-    IDENTITY,
-    ORIGIN,
-    Matrix,
-    Rgba,
-    Vector3,
-    Wxyz,
-    matrix_from_wxyz,
-)
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Rgba, Vector3, Wxyz
+from sambot_viz.matrices import matrix_from_wxyz
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.cache import Content
 from sambot_viz.meshes.glb import OPAQUE_FROM, has_own_normals, to_glb

@@ -28,14 +28,8 @@ from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.displays.scene.frame_nodes import NodeCache, placed
 from sambot_viz.displays.scene.glb_node import GlbNode, digest_of, drawn_glb
 from sambot_viz.displays.scene.solids import Rgb
-from sambot_viz.geometry import (
-    IDENTITY,
-    ORIGIN,
-    Matrix,
-    Vector3,
-    Wxyz,
-    matrix_from_wxyz,
-)
+from sambot_viz.geometry import IDENTITY, ORIGIN, Matrix, Vector3, Wxyz
+from sambot_viz.matrices import matrix_from_wxyz
 from sambot_viz.meshes.glb import OPAQUE_FROM, to_glb
 from sambot_viz.meshes.mesh import MeshPart, Texture
 from sambot_viz.meshes.textures import TextureError
