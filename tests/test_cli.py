@@ -16,7 +16,7 @@ import pytest
 from patience import patience
 from program import address, running, serving
 
-from sambot_viz import Visualizer, load_robot
+from sambot_viz import Visualizer, bundled, load_robot
 from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
@@ -454,6 +454,36 @@ def test_a_robot_is_shown_without_what_data_and_files_need():
     assert late & loaded == set()
     drawn = [name for name in loaded if name.startswith("sambot_viz.displays.data.")]
     assert len(drawn) < 10
+
+
+@pytest.mark.parametrize(
+    "name", ["sam_bot.urdf.xacro", "sam_bot_collision.urdf.xacro", "mbot.urdf.xacro"]
+)
+def test_a_model_without_meshes_is_checked_without_numpy(name: str) -> None:
+    model = str(bundled.model_path(name))
+    loaded = loaded_by(f"from sambot_viz.cli import main\nmain(['check', {model!r}])\n")
+    assert "sambot_viz.checks" in loaded
+    assert "numpy" not in loaded
+
+
+def test_a_drive_in_gazebo_is_checked_without_numpy(tmp_path: Path) -> None:
+    wheel = '<visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" '
+    wheel += 'length="0.04"/></geometry></visual>'
+    text = '<link name="base_link"/>'
+    for side, y in (("left", 0.2), ("right", -0.2)):
+        text += f'<link name="{side}">{wheel}</link><joint name="{side}_joint" '
+        text += f'type="continuous"><parent link="base_link"/><child link="{side}"/>'
+        text += f'<origin xyz="0 {y} 0"/><axis xyz="0 1 0"/></joint>'
+    text += '<gazebo><plugin filename="gz-sim-diff-drive-system" '
+    text += 'name="gz::sim::systems::DiffDrive"><left_joint>left_joint</left_joint>'
+    text += "<right_joint>right_joint</right_joint><wheel_radius>0.2</wheel_radius>"
+    model = tmp_path / "r.urdf"
+    model.write_text(f'<robot name="r">{text}</plugin></gazebo></robot>')
+    loaded = loaded_by(
+        "from sambot_viz import check\n"
+        f"assert [p.code for p in check({str(model)!r})] == ['drive-wheel-radius']\n"
+    )
+    assert "numpy" not in loaded
 
 
 def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:

@@ -12,13 +12,14 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
 Matrix: TypeAlias = "npt.NDArray[np.float64]"
+Vector2 = tuple[float, float]
 Vector3 = tuple[float, float, float]
 Xyzw = tuple[float, float, float, float]
 """A rotation as ROS and RViz write it."""
@@ -31,6 +32,8 @@ _GIMBAL_COSINE = 1e-9
 SHORTEST = 1e-150
 """A quaternion that is not longer has no direction: its squares are 0."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+UP: Vector3 = (0.0, 0.0, 1.0)
+"""The z axis: away from the ground, and the middle line of a cylinder."""
 Rgba = tuple[float, float, float, float]
 """A colour with its opacity, each 0 to 1."""
 
@@ -207,3 +210,58 @@ def wxyz_from_z(direction: Vector3) -> Wxyz:
     w = 1.0 + z
     length = math.sqrt(w * w + x * x + y * y)
     return (w / length, -y / length, x / length, 0.0)
+
+
+def dot(a: Vector3, b: Vector3) -> float:
+    """Return the scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector3, b: Vector3) -> Vector3:
+    """Return the vector product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+class PlainPose(NamedTuple):
+    """A rigid transform as plain numbers, for the few of a model that is checked.
+
+    ``p_parent = T_parent_child.of(p_child)``, and products are written with ``@``.
+
+    Attributes:
+        xyzw: the rotation, a unit quaternion.
+        position: of the child's origin in the parent [m].
+    """
+
+    xyzw: Xyzw = (0.0, 0.0, 0.0, 1.0)
+    position: Vector3 = ORIGIN
+
+    @classmethod
+    def of_matrix(cls, T: Matrix) -> PlainPose:
+        """Return the same transform as a (4, 4) matrix."""
+        x, y, z = T[:3, 3].tolist()
+        return cls(xyzw_from_matrix(T), (x, y, z))
+
+    def turned(self, direction: Vector3) -> Vector3:
+        """Return a direction of the child in the parent."""
+        return xyzw_rotated(self.xyzw, direction)
+
+    def of(self, point: Vector3) -> Vector3:
+        """Return a point of the child in the parent [m]."""
+        x, y, z = xyzw_rotated(self.xyzw, point)
+        px, py, pz = self.position
+        return (x + px, y + py, z + pz)
+
+    def __matmul__(self, inner: PlainPose) -> PlainPose:
+        """Return T_a_c of T_a_b and T_b_c."""
+        return PlainPose(xyzw_product(self.xyzw, inner.xyzw), self.of(inner.position))
+
+    def inverse(self) -> PlainPose:
+        """Return T_child_parent."""
+        x, y, z, w = self.xyzw
+        back = (-x, -y, -z, w)
+        px, py, pz = xyzw_rotated(back, self.position)
+        return PlainPose(back, (-px, -py, -pz))

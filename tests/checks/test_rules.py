@@ -4,11 +4,13 @@ import struct
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sambot_viz.checks import check, check_robot
 from sambot_viz.checks.mesh_files import MeshFiles
 from sambot_viz.errors import Problem
+from sambot_viz.geometry import rotation_from_rpy
 from sambot_viz.robot.model import load_robot
 
 Checked = Callable[..., list[Problem]]
@@ -708,6 +710,42 @@ def test_a_robot_falls_only_where_that_is_certain(
     checked: Checked, body: str, why: str
 ) -> None:
     assert checked(body, "falls-over") == [], why
+
+
+@pytest.mark.parametrize(
+    ("moments", "wrong"),
+    [
+        ((1.0, 2.0, 2.99), False),
+        ((1.0, 2.0, 3.04), True),
+        ((2.0, 2.0, 4.0), False),
+        ((1.0, 1.0, 2.03), True),
+        ((0.0, 5.0, 5.0), False),
+        ((-0.02, 1.0, 1.0), True),
+        ((3.0, 3.0, 3.0), False),
+    ],
+)
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("rpy", [(0, 0, 0), (0.3, 0, 0), (0.4, -1.1, 2.0)])
+def test_principal_moments_are_found_however_the_body_is_turned(
+    checked: Checked,
+    moments: tuple[float, ...],
+    wrong: bool,
+    size: float,
+    rpy: tuple[float, float, float],
+) -> None:
+    R = np.array(rotation_from_rpy(*rpy))
+    tensor: list[list[float]] = (R @ np.diag(moments) @ R.T * size).tolist()
+    rows = {"x": 0, "y": 1, "z": 2}
+    values = " ".join(
+        f'i{a}{b}="{tensor[rows[a]][rows[b]]!r}"'
+        for a, b in ("xx", "xy", "xz", "yy", "yz", "zz")
+    )
+    body = joint("", "fixed").replace(
+        '<link name="b"/>',
+        f'<link name="b"><inertial><mass value="1"/><inertia {values}/>'
+        "</inertial></link>",
+    )
+    assert bool(checked(body, "inertia-impossible")) is wrong
 
 
 def test_links_of_one_macro_with_an_impossible_inertia_are_one_problem(

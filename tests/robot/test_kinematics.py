@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from sambot_viz.errors import JointError
+from sambot_viz.geometry import PlainPose
 from sambot_viz.robot.kinematics import Kinematics
-from sambot_viz.robot.model import load_robot
+from sambot_viz.robot.model import Robot, load_robot
 
 RECORDED = (
     "a1", "all_joints", "chain40", "floating_planar", "kinova", "mimic_chain",
@@ -54,6 +55,47 @@ def joint(name: str, kind: str, parent: int, child: int, inside: str = "") -> st
         f'<joint name="{name}" type="{kind}"><parent link="l{parent}"/>'
         f'<child link="l{child}"/>{limit}{inside}</joint>'
     )
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_the_start_in_plain_numbers_is_that_of_the_arrays(name: str, shared: Path):
+    robot = load_robot(shared / "data" / "tf" / f"{name}.urdf")
+    same_at_start(robot)
+
+
+def test_joints_of_all_types_have_their_start_values_in_plain_numbers():
+    turned = '<origin xyz="0.1 -0.2 0.3" rpy="0.4 1.5 -2.6"/>'
+    slides = f'{turned}<axis xyz="0.6 0 0.8"/><limit lower="0.5" upper="1.5" '
+    turns = f'{turned}<axis xyz="0 -0.6 0.8"/><limit lower="1" upper="2" '
+    rest = 'effort="1" velocity="1"/>'
+    follows = '<axis xyz="0 0 1"/><mimic joint="a" multiplier="2" offset="0.5"/>'
+    robot = robot_with(
+        one_joint("a", "prismatic", 0, 1, slides + rest)
+        + one_joint("b", "revolute", 1, 2, turns + rest)
+        + joint("c", "revolute", 2, 3, turned + follows)
+    )
+    same_at_start(robot)
+    assert robot.at_start["l1"].position != robot.joints["a"].origin.xyz
+
+
+def one_joint(name: str, kind: str, parent: int, child: int, inside: str) -> str:
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="l{parent}"/>'
+        f'<child link="l{child}"/>{inside}</joint>'
+    )
+
+
+def same_at_start(robot: Robot) -> None:
+    poses = robot.forward_kinematics()
+    assert list(robot.at_start) == list(poses)
+    for link, T_root_link in poses.items():
+        placed = robot.at_start[link]
+        corners = [placed.of(point) for point in np.eye(3).tolist()]
+        expected = T_root_link[:3, :3] + T_root_link[:3, 3:]
+        assert np.allclose(np.transpose(corners), expected, atol=1e-9)
+        again = PlainPose.of_matrix(T_root_link) @ placed.inverse()
+        assert np.allclose(again.position, 0, atol=1e-9)
+        assert np.allclose(again.turned((0.6, 0.0, 0.8)), (0.6, 0, 0.8), atol=1e-9)
 
 
 def test_a_robot_of_one_link_has_one_pose():

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator, Mapping
-
-import numpy as np
-import numpy.typing as npt
+from collections.abc import Iterator
 
 from sambot_viz.checks.rule import Subject, axis_text, listed
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import UP, Vector3, cross, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
-
-_Vector = npt.NDArray[np.float64]
 
 _WHEEL = re.compile("wheel|whl|t[iy]re")
 _SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
@@ -32,13 +28,12 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     of a link that is called a wheel, and nothing else, is not.
     """
     robot = subject.robot
-    poses = robot.forward_kinematics()
-    across: dict[str, tuple[Joint, Shape, _Vector]] = {}
+    across: dict[str, tuple[Joint, Shape, Vector3]] = {}
     for joint in robot.joints.values():
         axle = _axle(joint)
         if axle is None:
             continue
-        upright = abs((poses[joint.child][:3, :3] @ axle)[2])
+        upright = abs(robot.at_start[joint.child].turned(axle)[2])
         if upright > _ACROSS and (upright < _ALONG or not _only_rolls(joint, robot)):
             continue
         link = robot.links[joint.child]
@@ -48,17 +43,17 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     if not across:
         return
     joint, shape, axle = next(iter(across.values()))
-    middle = shape.origin.matrix[:3, 2]
-    along = _through_both_wheels(joint, shape, axle, robot, poses)
+    middle = shape.origin.pose.turned(UP)
+    along = _through_both_wheels(joint, shape, axle, robot)
     if along is None:
-        lies_flat = abs((poses[joint.child][:3, :3] @ middle)[2]) > _ACROSS
+        lies_flat = abs(robot.at_start[joint.child].turned(middle)[2]) > _ACROSS
         along = axle if lies_flat else middle
     advice: list[str] = []
     place = joint.place
-    if abs(float(middle @ along)) < _ALONG:
+    if abs(dot(middle, along)) < _ALONG:
         advice.append(_laid_down(shape, along, robot.language))
         place = shape.place
-    if abs(float(axle @ along)) < _ALONG:
+    if abs(dot(axle, along)) < _ALONG:
         advice.append(_turned_axis(joint, along, robot.language))
     turns = "the wheel {} turns" if len(across) == 1 else "the wheels {} turn"
     yield Problem.at(
@@ -73,48 +68,45 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
 
 
 def _through_both_wheels(
-    joint: Joint,
-    shape: Shape,
-    axle: _Vector,
-    robot: Robot,
-    poses: Mapping[str, Matrix],
-) -> _Vector | None:
+    joint: Joint, shape: Shape, axle: Vector3, robot: Robot
+) -> Vector3 | None:
     """Return the direction in which another wheel lies, in this wheel's link, or None.
 
     An axle goes through two wheels. Where one lies in front as well, as with four
     wheels, the axle is the one across x, which is the robot's way forward. The axis,
     the middle line, and what is level and across the axis are asked.
     """
-    turned: _Vector = poses[joint.child][:3, :3]
-    asked: list[_Vector] = [turned @ axle, turned @ shape.origin.matrix[:3, 2]]
-    level: _Vector = np.cross(asked[0], (0.0, 0.0, 1.0))
-    if np.linalg.norm(level) > _ACROSS:
-        asked.append(level / np.linalg.norm(level))
-    ways = list(_ways_to_others(joint, shape, robot, poses))
+    wheel = robot.at_start[joint.child]
+    asked = [wheel.turned(axle), wheel.turned(shape.origin.pose.turned(UP))]
+    x, y, z = cross(asked[0], UP)
+    length = math.hypot(x, y, z)
+    if length > _ACROSS:
+        asked.append((x / length, y / length, z / length))
+    ways = list(_ways_to_others(joint, shape, robot))
     found = [
         direction
         for direction in asked
-        if any(abs(float(way @ direction)) > _ALONG for way in ways)
+        if any(abs(dot(way, direction)) > _ALONG for way in ways)
     ]
     if not found:
         return None
-    return max(found, key=lambda direction: abs(direction[1])) @ turned
+    across = max(found, key=lambda direction: abs(direction[1]))
+    return wheel.inverse().turned(across)
 
 
-def _ways_to_others(
-    joint: Joint, shape: Shape, robot: Robot, poses: Mapping[str, Matrix]
-) -> Iterator[_Vector]:
+def _ways_to_others(joint: Joint, shape: Shape, robot: Robot) -> Iterator[Vector3]:
     """Yield the directions in which wheels of the same size lie, in the root."""
-    here = (poses[joint.child] @ shape.origin.matrix)[:3, 3]
+    here = robot.at_start[joint.child].of(shape.origin.xyz)
     for other in robot.joints.values():
         link = robot.links[other.child]
         for found in (link.visuals or link.collisions)[:1]:
             if _axle(other) is None or not _is_like(found, shape):
                 continue
-            way = (poses[other.child] @ found.origin.matrix)[:3, 3] - here
-            length = float(np.linalg.norm(way))
+            there = robot.at_start[other.child].of(found.origin.xyz)
+            length = math.dist(there, here)
             if length > 0:
-                yield way / length
+                x, y, z = (a - b for a, b in zip(there, here, strict=True))
+                yield (x / length, y / length, z / length)
 
 
 def _is_like(one: Shape, other: Shape) -> bool:
@@ -144,28 +136,28 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
 
 def _in_one_place(one: Joint, other: Joint, language: Language) -> Problem:
     x, y, z = one.origin.xyz
-    written = _numbers(np.array((x, -y, z)))
+    written = _numbers((x, -y, z))
     element = "<pose>" if language == "sdf" else "<origin>"
     return Problem.at(
         other.place,
         "warning",
         "wheels-in-one-place",
         f"the wheels {one.child} and {other.child} are in the same place of "
-        f"{one.parent}, at {_numbers(np.array(one.origin.xyz))}: one hides the other",
+        f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
         f"give one of {one.name} and {other.name} the other side: {written} in its "
         f"{element}, or -1 for 1 where a macro is given the side",
     )
 
 
-def _axle(joint: Joint) -> _Vector | None:
+def _axle(joint: Joint) -> Vector3 | None:
     """Return the unit axis of a joint that turns without end, in the child link."""
     if joint.type not in ("continuous", "revolute"):
         return None
     if joint.limit is not None and joint.limit.ends != (None, None):
         return None
-    axis = np.array(joint.axis, dtype=np.float64)
-    length = float(np.linalg.norm(axis))
-    return axis / length if length > 0 else None
+    x, y, z = joint.axis
+    length = math.hypot(x, y, z)
+    return (x / length, y / length, z / length) if length > 0 else None
 
 
 def _only_rolls(joint: Joint, robot: Robot) -> bool:
@@ -176,18 +168,18 @@ def _only_rolls(joint: Joint, robot: Robot) -> bool:
     return at_end and wheel is not None and not _SWIVELS.search(names)
 
 
-def _is_across(shape: Shape, axle: _Vector) -> bool:
+def _is_across(shape: Shape, axle: Vector3) -> bool:
     """Tell whether a shape is a disc whose middle line is across the axle."""
     disc = shape.geometry
     if not isinstance(disc, Cylinder) or disc.length > disc.radius:
         return False
-    return abs(float(shape.origin.matrix[:3, 2] @ axle)) < _ACROSS
+    return abs(dot(shape.origin.pose.turned(UP), axle)) < _ACROSS
 
 
 _UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
-def _named(direction: _Vector) -> str:
+def _named(direction: Vector3) -> str:
     """Name a direction: "y", or its numbers where it is between x, y and z."""
     for name, part in zip("xyz", direction, strict=True):
         if abs(part) > _ALONG:
@@ -195,22 +187,22 @@ def _named(direction: _Vector) -> str:
     return _numbers(direction)
 
 
-def _numbers(values: _Vector) -> str:
-    return " ".join(f"{round(float(values[i]), 4) + 0.0:g}" for i in range(3))
+def _numbers(values: Vector3) -> str:
+    return " ".join(f"{round(value, 4) + 0.0:g}" for value in values)
 
 
-def _laid_down(shape: Shape, axle: _Vector, language: Language) -> str:
+def _laid_down(shape: Shape, axle: Vector3, language: Language) -> str:
     """Say how a cylinder is laid along its axle."""
     rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0", "z": "0 0 0"}.get(_named(axle))
     if rpy is None:
         return "turn the shape so that its z axis is along the axle"
-    xyz = _numbers(shape.origin.matrix[:3, 3])
+    xyz = _numbers(shape.origin.xyz)
     if language == "sdf":
         return f"lay it down: <pose>{xyz} {rpy}</pose> for the shape"
     return f'lay it down: <origin xyz="{xyz}" rpy="{rpy}"/> for the shape'
 
 
-def _turned_axis(joint: Joint, middle: _Vector, language: Language) -> str:
+def _turned_axis(joint: Joint, middle: Vector3, language: Language) -> str:
     """Say which axis fits a wheel that stands upright."""
     xyz = _UNITS.get(_named(middle)) or _numbers(middle)
     return f"write {axis_text(xyz, language)} for joint {joint.name}"

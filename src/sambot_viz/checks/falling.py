@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from sambot_viz.checks.axles import wheels_in_one_place
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import Vector2, Vector3
 from sambot_viz.robot.balance.balance import SAME_POINT, Balance, Tipping, balance
 from sambot_viz.robot.balance.ground import Contacts, axle_of, contacts
 from sambot_viz.robot.model import Robot
@@ -50,22 +48,21 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
             return None
         return found
 
-    poses = robot.forward_kinematics()
-    found = balance(robot, poses, mesh_of)
+    found = balance(robot, robot.at_start, mesh_of)
     if found is None or found.support is None or found.fixed or unknown:
         return
     on_ground, size = found.support.links, found.support.size
-    wheels = [link for link in on_ground if _is_wheel(robot, link, poses)]
+    wheels = [link for link in on_ground if _is_wheel(robot, link)]
     if len(wheels) < _FEWEST_WHEELS:
         return
     if any(robot.links[link].collisions for link in found.massless):
         return
     if len(on_ground) < _FEWEST_CONTACTS:
-        feet = contacts(robot, poses, mesh_of, math.inf)
+        feet = contacts(robot, robot.at_start, mesh_of, math.inf)
         if feet is not None and _beside_axle(found, feet, wheels):
             yield from _caster_in_the_air(robot, feet, wheels)
         return
-    caught = balance(robot, poses, mesh_of, _CAUGHT * size)
+    caught = balance(robot, robot.at_start, mesh_of, _CAUGHT * size)
     later = None if caught is None else caught.tipping
     if found.tipping and later and -later.margin >= _SMALLEST_SHARE * size:
         yield _problem(robot, found, found.tipping)
@@ -73,14 +70,23 @@ def falls_over(subject: Subject) -> Iterator[Problem]:
 
 def _beside_axle(found: Balance, feet: Contacts, wheels: Sequence[str]) -> bool:
     """Return whether the weight is not above the line on which two wheels stand."""
-    one, other = (np.mean(feet.points[link][:, :2], axis=0) for link in wheels)
-    axle = other - one
-    if float(np.linalg.norm(axle)) < SAME_POINT or found.support is None:
+    (x, y), (other_x, other_y) = (_middle(feet.points[link]) for link in wheels)
+    ahead, aside = other_x - x, other_y - y
+    length = math.hypot(ahead, aside)
+    if length < SAME_POINT or found.support is None:
         return False
-    across: Matrix = np.array((-axle[1], axle[0])) / np.linalg.norm(axle)
-    reach = float(np.abs((found.support.polygon - one) @ across).max())
+
+    def beside(at_x: float, at_y: float) -> float:
+        return abs((at_y - y) * ahead - (at_x - x) * aside) / length
+
+    reach = max(beside(*corner) for corner in found.support.polygon)
     enough = reach + _SMALLEST_SHARE * feet.size
-    return abs(float((found.center[:2] - one) @ across)) > enough
+    return beside(found.center[0], found.center[1]) > enough
+
+
+def _middle(points: Sequence[Vector3]) -> Vector2:
+    x, y, _ = (sum(values) / len(points) for values in zip(*points, strict=True))
+    return x, y
 
 
 def _caster_in_the_air(
@@ -88,7 +94,7 @@ def _caster_in_the_air(
 ) -> Iterator[Problem]:
     """Report the lowest caster of a robot that stands on two wheels alone."""
     gaps = {
-        link: float(points[:, 2].min()) - feet.height
+        link: min(z for _, _, z in points) - feet.height
         for link, points in feet.points.items()
         if link not in wheels
     }
@@ -111,9 +117,9 @@ def _caster_in_the_air(
     )
 
 
-def _is_wheel(robot: Robot, link: str, poses: Mapping[str, Matrix]) -> bool:
+def _is_wheel(robot: Robot, link: str) -> bool:
     joint = next((j for j in robot.joints.values() if j.child == link), None)
-    return axle_of(joint, poses[link]) is not None
+    return axle_of(joint, robot.at_start[link]) is not None
 
 
 def _problem(robot: Robot, found: Balance, tipping: Tipping) -> Problem:

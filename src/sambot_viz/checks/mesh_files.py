@@ -7,8 +7,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from sambot_viz import limits
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Place, Problem, Severity
@@ -118,6 +116,8 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
 
 def _has_area(part: MeshPart) -> bool:
     """Tell whether one of its triangles is more than a point or a line."""
+    import numpy as np
+
     for start in range(0, len(part.faces), _AT_ONCE):
         corners = part.vertices[part.faces[start : start + _AT_ONCE]]
         corners = corners.astype(np.float64)
@@ -199,7 +199,7 @@ def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:
     if found is None or isinstance(found, Problem):
         return None
     low, high = found.bounds
-    sides = np.abs((high - low) * mesh.scale)
+    sides = abs((high - low) * mesh.scale)
     size = float(sides.max())
     return None if sides.min() < _FLAT * size else size
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
 from sambot_viz.errors import Place, Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import ORIGIN, UP, PlainPose, Vector3, dot
 from sambot_viz.robot.parts import Cylinder, Inertial, Joint, Link, Sphere
 
 
@@ -123,21 +122,43 @@ def _why_impossible(inertial: Inertial) -> tuple[str, str] | None:
 
 def _why_no_tensor(inertial: Inertial) -> str:
     """Say why no real body has these six numbers, or "" (tolerances of 1 %)."""
-    tensor = np.array(
-        [
-            [inertial.ixx, inertial.ixy, inertial.ixz],
-            [inertial.ixy, inertial.iyy, inertial.iyz],
-            [inertial.ixz, inertial.iyz, inertial.izz],
-        ]
-    )
-    if not np.isfinite(tensor).all():
+    diagonal = (inertial.ixx, inertial.iyy, inertial.izz)
+    if not all(map(math.isfinite, (*diagonal, *_products(inertial)))):
         return "the inertia is not a finite number"
-    low, middle, high = (float(v) for v in np.linalg.eigvalsh(tensor))
+    low, middle, high = _principal_moments(inertial)
     if high > 0 and low < -0.01 * high:
         return "a principal moment of inertia would be negative"
     if high > 1.01 * (low + middle) and high > 1e-12:
         return "one principal moment of inertia is larger than the sum of the other two"
     return ""
+
+
+def _products(inertial: Inertial) -> Vector3:
+    return (inertial.ixy, inertial.ixz, inertial.iyz)
+
+
+def _principal_moments(inertial: Inertial) -> Vector3:
+    """Return the eigenvalues of the tensor, the lowest first.
+
+    They are the roots of its characteristic polynomial, by the cosine of three angles.
+    """
+    diagonal, products = (inertial.ixx, inertial.iyy, inertial.izz), _products(inertial)
+    # As shares of the largest: squares of the least and of the greatest are none.
+    size = max(map(abs, (*diagonal, *products)))
+    if not size:
+        return ORIGIN
+    mean = sum(value / size for value in diagonal) / 3.0
+    parts = [value / size - mean for value in diagonal]
+    parts += [value / size for value in (*products, *products)]
+    spread = math.hypot(*parts) / math.sqrt(6.0)
+    if not spread:
+        return size * mean, size * mean, size * mean
+    a, b, c, d, e, f, *_ = (part / spread for part in parts)
+    determinant = a * (b * c - f * f) - d * (d * c - e * f) + e * (d * f - b * e)
+    turn = math.acos(min(max(determinant / 2.0, -1.0), 1.0)) / 3.0
+    high = mean + 2.0 * spread * math.cos(turn)
+    low = mean + 2.0 * spread * math.cos(turn + 2.0 * math.pi / 3.0)
+    return size * low, size * (3.0 * mean - low - high), size * high
 
 
 def zero_mass(subject: Subject) -> Iterator[Problem]:
@@ -172,14 +193,13 @@ def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     footprint = next((n for n in robot.links if n.endswith("base_footprint")), None)
     if footprint is None:
         return
-    poses = robot.forward_kinematics()
-    T_footprint_root = np.linalg.inv(poses[footprint])
+    T_footprint_root = robot.at_start[footprint].inverse()
     gaps: dict[str, float] = {}
     standing: list[str] = []
     first: Joint | None = None
     for joint in robot.joints.values():
         link = robot.links[joint.child]
-        gap = _gap(joint, link, T_footprint_root @ poses[link.name])
+        gap = _gap(joint, link, T_footprint_root @ robot.at_start[link.name])
         if gap == 0.0:
             standing.append(link.name)
         elif gap is not None:
@@ -219,7 +239,7 @@ def _one_wheel(joint: Joint, gap: float, standing: Sequence[str]) -> Problem:
     )
 
 
-def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
+def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
     """Height of a wheel's lowest point [m]; 0 when it touches the floor.
 
     A wheel turns without end about a level axis, and is a sphere or a cylinder
@@ -227,19 +247,17 @@ def _gap(joint: Joint, link: Link, T_footprint_link: Matrix) -> float | None:
     """
     if not joint.endless:
         return None
-    axis = T_footprint_link[:3, :3] @ np.array(joint.axis)
+    axis = T_footprint_link.turned(joint.axis)
     if abs(axis[2]) > 0.1:
         return None
     for shape in (*link.collisions, *link.visuals):
-        T = T_footprint_link @ shape.origin.matrix
+        T = T_footprint_link @ shape.origin.pose
         geometry = shape.geometry
-        along_axis = (
-            isinstance(geometry, Cylinder) and abs(float(T[:3, 2] @ axis)) > 0.99
-        )
+        along_axis = abs(dot(T.turned(UP), axis)) > 0.99
         if isinstance(geometry, Sphere) or (
             isinstance(geometry, Cylinder) and along_axis
         ):
-            lowest = float(T[2, 3]) - geometry.radius
+            lowest = T.position[2] - geometry.radius
             tolerance = max(_SMALLEST_GAP, _SHARE_OF_RADIUS * geometry.radius)
             return lowest if abs(lowest) > tolerance else 0.0
     return None

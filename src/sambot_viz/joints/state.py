@@ -14,7 +14,8 @@ from sambot_viz import limits
 from sambot_viz.errors import JointError, Problem, did_you_mean
 from sambot_viz.geometry import Matrix, finite
 from sambot_viz.joints.mimic import Follower, find_followers
-from sambot_viz.robot.kinematics import Kinematics, mimicked
+from sambot_viz.robot.joint_tree import mimicked
+from sambot_viz.robot.kinematics import Kinematics
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
 

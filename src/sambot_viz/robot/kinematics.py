@@ -4,32 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from sambot_viz.errors import JointError, did_you_mean
 from sambot_viz.geometry import Matrix, finite, rotation_from_axis
-from sambot_viz.robot.parts import Joint, Mimic, mimic_chain
+from sambot_viz.robot.joint_tree import (
+    SPINNING,
+    JointTree,
+    by_depth,
+    followers,
+    mimicked,
+    start_of,
+)
+from sambot_viz.robot.parts import Joint
 
 _Ints = npt.NDArray[np.int64]
 _Floats = npt.NDArray[np.float64]
-_SPINNING = ("revolute", "continuous")
-
-
-class JointTree(Protocol):
-    """The parts of a robot that its kinematics needs."""
-
-    @property
-    def root(self) -> str:
-        """The name of the root link."""
-        ...
-
-    @property
-    def joints(self) -> Mapping[str, Joint]:
-        """The joints by name."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +30,6 @@ class _Step:
 
     rows: _Ints
     above: _Ints
-
-
-@dataclass(frozen=True, slots=True)
-class _Follow:
-    """One mimic joint: row = multiplier · leader + offset."""
-
-    row: int
-    leader: int
-    multiplier: float
-    offset: float
 
 
 FEW = 12
@@ -64,14 +46,14 @@ class Kinematics:
     """
 
     def __init__(self, robot: JointTree) -> None:
-        order, parents = _by_depth(robot)
+        order, above = by_depth(robot)
         self.links: tuple[str, ...] = (robot.root, *(j.child for j in order))
         self.joints: tuple[str, ...] = tuple(joint.name for joint in order)
         self._order = order
         self._row = {name: row for row, name in enumerate(self.joints)}
-        self._steps = _steps(parents)
-        self._start: _Floats = np.array([_start(joint) for joint in order], np.float64)
-        self._follows = _follows(order, self._row)
+        self._steps = _steps(np.array(above, np.int64))
+        self._start: _Floats = np.array([start_of(j) for j in order], np.float64)
+        self._follows = followers(order)
         self._terms = _terms(order)
 
     def positions(self, given: Mapping[str, float]) -> dict[str, float]:
@@ -122,7 +104,7 @@ class Kinematics:
         x, y, z = this.axis
         if this.type == "prismatic":
             T[:3, 3] += T[:3, :3] @ np.array([x * q, y * q, z * q])
-        elif this.type in _SPINNING and (x or y or z):
+        elif this.type in SPINNING and (x or y or z):
             T[:3, :3] = T[:3, :3] @ np.array(rotation_from_axis(this.axis, q))
         return T
 
@@ -181,27 +163,6 @@ class Kinematics:
         return np.reshape(T, (-1, 4, 4))
 
 
-def mimicked(leader: float, multiplier: float, offset: float) -> float:
-    """Return the position of a mimic joint [rad or m], from that of its leader."""
-    return min(max(multiplier * leader + offset, -_FARTHEST), _FARTHEST)
-
-
-def _by_depth(robot: JointTree) -> tuple[list[Joint], _Ints]:
-    """Joints by depth, and the row above of each link (of the root: itself)."""
-    children: dict[str, list[Joint]] = {}
-    for joint in robot.joints.values():
-        children.setdefault(joint.parent, []).append(joint)
-    order: list[Joint] = []
-    rows = {robot.root: 0}
-    waiting = [robot.root]
-    for link in waiting:
-        for joint in children.get(link, ()):
-            order.append(joint)
-            rows[joint.child] = len(order)
-            waiting.append(joint.child)
-    return order, np.array([0, *(rows[joint.parent] for joint in order)], np.int64)
-
-
 _CALL = 25
 """What a step costs more than its rows, in rows (3 µs and 0.12 µs)."""
 
@@ -242,7 +203,7 @@ def _terms(order: Sequence[Joint]) -> _Floats:
         return np.reshape(terms, (-1, 4, 16))
     terms[:, 0] = [joint.origin.matrix for joint in order]
     axes: _Floats = np.array([joint.axis for joint in order])
-    turns = np.array([j.type in _SPINNING and any(j.axis) for j in order])
+    turns = np.array([j.type in SPINNING and any(j.axis) for j in order])
     slides = np.array([joint.type == "prismatic" for joint in order])
     R: _Floats = terms[turns, 0, :3, :3]
     a = axes[turns]
@@ -253,32 +214,6 @@ def _terms(order: Sequence[Joint]) -> _Floats:
     terms[turns, 2, :3, :3] = np.cross(R, a[:, None])
     terms[slides, 3, :3, 3] = (terms[slides, 0, :3, :3] @ axes[slides, :, None])[..., 0]
     return np.reshape(terms, (-1, 4, 16))
-
-
-def _follows(order: Iterable[Joint], rows: Mapping[str, int]) -> list[_Follow]:
-    """The mimic joints, leaders first; rings and unknown leaders keep start values.
-
-    joint_state_publisher ends at those with an exception; here a Problem names them.
-    """
-    joints = {joint.name: joint for joint in order}
-    chains = [mimic_chain(joint, joints) for joint in joints.values()]
-    follows: list[_Follow] = []
-    for chain in sorted(chains, key=lambda chain: len(chain.joints)):
-        if len(chain.joints) == 1 or chain.end == "ring":
-            continue
-        joint, leader = chain.joints[:2]
-        mimic = joint.mimic or Mimic(leader.name)
-        row, leader_row = rows[joint.name], rows[leader.name]
-        follows.append(_Follow(row, leader_row, mimic.multiplier, mimic.offset))
-    return follows
-
-
-def _start(joint: Joint) -> float:
-    return joint.start if joint.movable else 0.0
-
-
-_FARTHEST = 1e30
-"""A chain of mimic joints with large factors stops growing here."""
 
 
 def _numbers(given: Mapping[str, float]) -> _Floats | list[float]:

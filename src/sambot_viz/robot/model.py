@@ -10,27 +10,29 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from sambot_viz.errors import JointError, Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import Matrix, PlainPose
 from sambot_viz.meshes.asset import Asset
-from sambot_viz.robot.kinematics import Kinematics
+from sambot_viz.robot.joint_tree import start_poses
 from sambot_viz.robot.parts import Joint, Language, Link, MeshFile, Shape
 from sambot_viz.robot.xml.element import Element
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
     import yourdfpy  # pyright: ignore[reportMissingTypeStubs]
 
     from sambot_viz.meshes.mesh import Mesh
     from sambot_viz.robot.balance.balance import Balance
+    from sambot_viz.robot.kinematics import Kinematics
     from sambot_viz.robot.model_source import OpenedModel, PathLike
 
 
-Positions = Mapping[str, float] | Sequence[float] | npt.NDArray[np.floating]
+Positions: TypeAlias = (
+    "Mapping[str, float] | Sequence[float] | npt.NDArray[np.floating]"
+)
 """Joint name → position [rad or m], or a vector in the order of the joints."""
 
 
@@ -75,7 +77,17 @@ class Robot:
     @cached_property
     def kinematics(self) -> Kinematics:
         """The way from positions to poses, prepared once."""
+        from sambot_viz.robot.kinematics import Kinematics
+
         return Kinematics(self)
+
+    @cached_property
+    def at_start(self) -> Mapping[str, PlainPose]:
+        """Link name → T_root_link where all joints have their start values.
+
+        It is `forward_kinematics` without positions, for what needs no numpy.
+        """
+        return start_poses(self)
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -98,6 +110,8 @@ class Robot:
         """
         if isinstance(positions, Mapping):
             return positions
+        import numpy as np
+
         names, vector = self.joint_names, np.asarray(positions)
         if vector.shape != (len(names),):
             listed = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
@@ -158,7 +172,9 @@ class Robot:
         def mesh_of(shape: MeshFile) -> Mesh | None:
             return None if shape.path is None else read(shape.path)
 
-        return balance(self, self.forward_kinematics(positions), mesh_of)
+        poses = self.forward_kinematics(positions).items()
+        placed = {link: PlainPose.of_matrix(T_root_link) for link, T_root_link in poses}
+        return balance(self, placed, mesh_of)
 
     def to_yourdfpy(self) -> yourdfpy.URDF:
         """Return the same robot as a `yourdfpy.URDF`, meshes not loaded."""

@@ -15,10 +15,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-import numpy as np
-
 from sambot_viz.errors import Place
-from sambot_viz.geometry import Matrix, Rgba, Vector3, rotation_from_rpy
+from sambot_viz.geometry import (
+    Matrix,
+    PlainPose,
+    Rgba,
+    Vector3,
+    rotation_from_rpy,
+    xyzw_from_rpy,
+)
 
 Language = Literal["urdf", "sdf"]
 """What a model is written in."""
@@ -35,11 +40,19 @@ class Origin:
     @cached_property
     def matrix(self) -> Matrix:
         """The read-only (4, 4) transform, R = Rz(yaw) @ Ry(pitch) @ Rx(roll)."""
+        # A model that is only checked needs no numpy, which takes long to import.
+        import numpy as np
+
         T = np.eye(4)
         T[:3, :3] = rotation_from_rpy(*self.rpy)
         T[:3, 3] = self.xyz
         T.flags.writeable = False
         return T
+
+    @property
+    def pose(self) -> PlainPose:
+        """The same transform as plain numbers."""
+        return PlainPose(xyzw_from_rpy(*self.rpy), self.xyz)
 
 
 @dataclass(frozen=True, slots=True)

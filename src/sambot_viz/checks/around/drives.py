@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence, Set
 from typing import NamedTuple
 
-import numpy as np
-
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -113,16 +111,17 @@ def _sides(
     robot: Robot, base: str, lefts: Sequence[Fact], rights: Sequence[Fact]
 ) -> Iterator[Problem]:
     """Report the first pair of wheels that is wrong."""
-    poses = robot.forward_kinematics()
-    T_base_root = np.linalg.inv(poses.get(base, poses[robot.root]))
+    poses = robot.at_start
+    T_base_root = poses.get(base, poses[robot.root]).inverse()
 
     def wheel(fact: Fact) -> _DriveWheel | None:
         joint = robot.joints.get(fact.value)
         if joint is None or not joint.movable:
             return None
         T = T_base_root @ poses[joint.child]
-        axis = float((T[:3, :3] @ np.array(joint.axis))[1])
-        return _DriveWheel(fact, joint, axis, float(T[0, 3]), round(float(T[1, 3]), 4))
+        axis = T.turned(joint.axis)[1]
+        x, y, _ = T.position
+        return _DriveWheel(fact, joint, axis, x, round(y, 4))
 
     for names in zip(lefts, rights, strict=False):
         left, right = map(wheel, names)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Set
 from typing import Literal
 
-import numpy as np
-
 from sambot_viz.errors import nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -25,10 +23,9 @@ def side_of(robot: Robot, joint: str) -> Side:
 
     With an axis that is not y the front may be the back, and left is right.
     """
-    T = robot.forward_kinematics()[robot.joints[joint].child]
-    axis = T[:3, :3] @ np.array(robot.joints[joint].axis)
-    y = round(float(T[1, 3]), 4)
-    if float(axis[1]) < 0.9 or not y:
+    T = robot.at_start[robot.joints[joint].child]
+    y = round(T.position[1], 4)
+    if T.turned(robot.joints[joint].axis)[1] < 0.9 or not y:
         return ""
     return "left" if y > 0 else "right"
 

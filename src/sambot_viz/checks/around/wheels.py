@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Sphere
 
@@ -77,9 +75,8 @@ def wheel_sizes_of_controllers(around: Surroundings) -> Iterator[Problem]:
 def _compare(robot: Robot, drive: _Drive) -> Iterator[Problem]:
     pairs = list(_pairs(robot, drive))
     if pairs:
-        poses = robot.forward_kinematics()
-        yield from _separation(robot, drive, pairs, poses)
-        yield from _radius(robot, drive, pairs[0][0], poses)
+        yield from _separation(robot, drive, pairs)
+        yield from _radius(robot, drive, pairs[0][0])
 
 
 def _pairs(robot: Robot, drive: _Drive) -> Iterator[tuple[Joint, Joint]]:
@@ -90,14 +87,11 @@ def _pairs(robot: Robot, drive: _Drive) -> Iterator[tuple[Joint, Joint]]:
 
 
 def _separation(
-    robot: Robot,
-    drive: _Drive,
-    pairs: list[tuple[Joint, Joint]],
-    poses: Mapping[str, Matrix],
+    robot: Robot, drive: _Drive, pairs: list[tuple[Joint, Joint]]
 ) -> Iterator[Problem]:
     for fact, (left, right) in zip(drive.separations, pairs, strict=False):
-        apart = _apart(left, right, poses)
-        wheel = _wheel(robot, left, poses)
+        apart = _apart(robot, left, right)
+        wheel = _wheel(robot, left)
         if apart is None or fact.number is None:
             continue
         width = wheel.length if isinstance(wheel, Cylinder) else 0.0
@@ -119,21 +113,18 @@ def _separation(
         )
 
 
-def _apart(left: Joint, right: Joint, poses: Mapping[str, Matrix]) -> float | None:
+def _apart(robot: Robot, left: Joint, right: Joint) -> float | None:
     """Distance of two wheels along their common axis [m]; None without one."""
-    T_left, T_right = poses[left.child], poses[right.child]
-    axis = T_left[:3, :3] @ np.array(left.axis)
-    other = T_right[:3, :3] @ np.array(right.axis)
-    if abs(float(axis @ other)) < 0.99:
+    T_left, T_right = robot.at_start[left.child], robot.at_start[right.child]
+    axis, other = T_left.turned(left.axis), T_right.turned(right.axis)
+    if abs(dot(axis, other)) < 0.99:
         return None
-    apart = abs(float((T_left[:3, 3] - T_right[:3, 3]) @ axis))
+    apart = abs(dot(T_left.position, axis) - dot(T_right.position, axis))
     return apart if apart > _SAME_PLACE else None
 
 
-def _radius(
-    robot: Robot, drive: _Drive, pair: Joint, poses: Mapping[str, Matrix]
-) -> Iterator[Problem]:
-    wheel = _wheel(robot, pair, poses)
+def _radius(robot: Robot, drive: _Drive, pair: Joint) -> Iterator[Problem]:
+    wheel = _wheel(robot, pair)
     fact, times, what = (
         (drive.radius, 1, "radius") if drive.radius else (drive.diameter, 2, "diameter")
     )
@@ -153,17 +144,14 @@ def _radius(
     )
 
 
-def _wheel(
-    robot: Robot, joint: Joint, poses: Mapping[str, Matrix]
-) -> Cylinder | Sphere | None:
+def _wheel(robot: Robot, joint: Joint) -> Cylinder | Sphere | None:
     """The shape of a wheel that turns about its own axis; None for other shapes."""
     link = robot.links[joint.child]
-    axis = np.array(joint.axis)
     shapes = link.collisions or link.visuals
     if len(shapes) != 1:
         return None
     geometry = shapes[0].geometry
-    along = abs(float(shapes[0].origin.matrix[:3, 2] @ axis)) > 0.99
+    along = abs(dot(shapes[0].origin.pose.turned(UP), joint.axis)) > 0.99
     if isinstance(geometry, Sphere) or (isinstance(geometry, Cylinder) and along):
         return geometry
     return None

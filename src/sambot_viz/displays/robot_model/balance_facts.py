@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-
 from sambot_viz.displays.display import DisplayContext, Status, numbers
 from sambot_viz.frames import LookupRefused
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import PlainPose, Vector3
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.robot.balance.balance import WORLD, Balance, Tipping, balance
@@ -46,12 +44,13 @@ def weigh(
         None where no link has a mass.
     """
     root = frame_of(robot.root)
-    poses: dict[str, Matrix] = {}
+    poses: dict[str, PlainPose] = {}
     for link in robot.links:
         try:
-            poses[link] = context.tree.drawn(root, frame_of(link)).matrix
+            T_root_link = context.tree.drawn(root, frame_of(link)).matrix
         except LookupRefused:
             continue
+        poses[link] = PlainPose.of_matrix(T_root_link)
 
     def mesh_of(shape: MeshFile) -> Mesh | None:
         if shape.path is None:
@@ -101,9 +100,9 @@ def _assumed(robot: Robot) -> Sequence[str]:
     return [link.name for link in links if link.inertial and not link.inertial.place]
 
 
-def _place(point: Matrix) -> str:
+def _place(point: Vector3) -> str:
     """Write a point, to a tenth of a millimetre: a panel is narrow."""
-    return numbers(np.round(point, _DECIMALS).tolist())
+    return numbers([round(value, _DECIMALS) for value in point])
 
 
 def _stands_on(found: Balance) -> str:
@@ -134,7 +133,7 @@ def _sides(tipping: Tipping) -> str:
     """Return where it falls, such as "to the front left or front right"."""
     eighths = [
         round(math.atan2(y, x) / (math.pi / 4)) % len(_SIDES)
-        for x, y in tipping.directions.tolist()
+        for x, y in tipping.directions
     ]
     *sides, last = dict.fromkeys(_SIDES[eighth] for eighth in sorted(eighths))
     return f"to the {', '.join(sides)}{' or ' if sides else ''}{last}"

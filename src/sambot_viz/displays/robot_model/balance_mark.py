@@ -52,9 +52,9 @@ class BalanceMark:
             self.remove()
             self._make(above)
         self._above = above
-        support, center = found.support, np.round(found.center / _STEP) * _STEP
+        support, center = found.support, np.array(found.center)
         size = USUAL_SIZE if support is None else support.size
-        x, y, z = center.tolist()
+        x, y, z = (np.round(center / _STEP) * _STEP).tolist()
         radius = BALL_SHARE * size
         self._ball.draw(radius, YELLOW, (x, y, z))
         if support is None or found.fixed:
@@ -65,7 +65,7 @@ class BalanceMark:
         stands = tipping is not None and tipping.margin >= 0.0
         color = STANDS if stands else FALLS
         height = support.height
-        corners = np.insert(support.polygon, 2, height, axis=1)
+        corners = np.array([(*corner, height) for corner in support.polygon])
         lines = [_cross(x, y, z, height, radius)]
         if len(corners) > 1:
             lines.append(chain_segments(corners, closed=True))

@@ -6,12 +6,11 @@ All is in the root link, whose −z is down.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import mul
 
-import numpy as np
-
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import PlainPose, Vector2, Vector3
 from sambot_viz.robot.balance.ground import Contacts, LinkTree, Meshes, contacts
 
 WORLD = "world"
@@ -27,14 +26,14 @@ class Support:
     Attributes:
         height: of the ground [m].
         links: those that touch it.
-        polygon: the convex hull of where they do, counter-clockwise from above, (N, 2)
-            [m]; two corners are a line, one is a point.
+        polygon: the convex hull of where they do, counter-clockwise from above [m];
+            two corners are a line, one is a point.
         size: the longest side of the robot [m].
     """
 
     height: float
     links: tuple[str, ...]
-    polygon: Matrix
+    polygon: tuple[Vector2, ...]
     size: float
 
 
@@ -48,12 +47,12 @@ class Tipping:
         margin: of the centre of mass to the edge of the support polygon, along the
             ground [m]; negative outside.
         directions: from the polygon across that edge, and across those that are as
-            near, (N, 2), of length 1.
+            near, of length 1.
     """
 
     angle: float
     margin: float
-    directions: Matrix
+    directions: tuple[Vector2, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,14 +61,14 @@ class Balance:
 
     Attributes:
         mass: of all links together [kg].
-        center: the centre of mass, (3,) [m].
+        center: the centre of mass [m].
         massless: links that have a shape and no mass, so that they do not count.
         fixed: whether the robot is fixed to the world, and cannot tip over.
         support: what it stands on; None where no link has a shape.
     """
 
     mass: float
-    center: Matrix
+    center: Vector3
     massless: tuple[str, ...]
     fixed: bool
     support: Support | None
@@ -82,20 +81,23 @@ class Balance:
         """
         if self.fixed or self.support is None or len(self.support.polygon) < 3:
             return None
+        x, y, z = self.center
         corners = self.support.polygon
-        edges: Matrix = np.roll(corners, -1, axis=0) - corners
-        outside = np.stack((edges[:, 1], -edges[:, 0]), axis=1)
-        outside /= np.linalg.norm(outside, axis=1)[:, None]
-        margins: Matrix = ((corners - self.center[:2]) * outside).sum(axis=1)
-        margin = float(margins.min())
-        height = float(self.center[2]) - self.support.height
-        nearest = margins < margin + SAME_POINT
-        return Tipping(math.atan2(margin, height), margin, outside[nearest])
+        edges: list[tuple[float, Vector2]] = []
+        for one, other in zip(corners, (*corners[1:], corners[0]), strict=True):
+            length = math.dist(one, other)
+            outside = (other[1] - one[1]) / length, (one[0] - other[0]) / length
+            margin = (one[0] - x) * outside[0] + (one[1] - y) * outside[1]
+            edges.append((margin, outside))
+        least = min(margin for margin, _ in edges)
+        nearest = (way for margin, way in edges if margin < least + SAME_POINT)
+        angle = math.atan2(least, z - self.support.height)
+        return Tipping(angle, least, tuple(nearest))
 
 
 def balance(
     robot: LinkTree,
-    poses: Mapping[str, Matrix],
+    poses: Mapping[str, PlainPose],
     meshes: Meshes,
     gap: float | None = None,
 ) -> Balance | None:
@@ -103,7 +105,7 @@ def balance(
 
     Args:
         robot: the robot.
-        poses: link → T_root_link, (4, 4); links that are not in it are left out.
+        poses: link → T_root_link; links that are not in it are left out.
         meshes: gives what is in files; what is not known supports nothing.
         gap: of what stands on the ground too, as for `contacts` [m].
 
@@ -111,7 +113,7 @@ def balance(
         None where no link has a mass.
     """
     masses: list[float] = []
-    centers: list[Matrix] = []
+    centers: list[Vector3] = []
     massless: list[str] = []
     for link in robot.links.values():
         T_root_link, inertial = poses.get(link.name), link.inertial
@@ -123,39 +125,41 @@ def balance(
                 massless.append(link.name)
             continue
         masses.append(inertial.mass)
-        at: Matrix = T_root_link @ np.array((*inertial.origin.xyz, 1.0))
-        centers.append(at[:3])
+        centers.append(T_root_link.of(inertial.origin.xyz))
     if not masses:
         return None
-    center = np.average(centers, axis=0, weights=masses)
+    mass = sum(masses)
+    x, y, z = (
+        sum(map(mul, masses, values)) / mass for values in zip(*centers, strict=True)
+    )
     fixed = robot.root == WORLD
     support = _support(contacts(robot, poses, meshes, gap))
-    return Balance(sum(masses), center, tuple(massless), fixed, support)
+    return Balance(mass, (x, y, z), tuple(massless), fixed, support)
 
 
 def _support(found: Contacts | None) -> Support | None:
     if found is None:
         return None
-    points = np.concatenate([*found.points.values()])[:, :2]
+    points = [(x, y) for feet in found.points.values() for x, y, _ in feet]
     links = tuple(found.points)
     return Support(found.height, links, convex_hull(points), found.size)
 
 
-def convex_hull(points: Matrix) -> Matrix:
-    """Return the corners of the convex hull, counter-clockwise from the left, (M, 2).
+def convex_hull(points: Iterable[Vector2]) -> tuple[Vector2, ...]:
+    """Return the corners of the convex hull, counter-clockwise from the left.
 
     Args:
-        points: (N, 2), at least one; points on a line give its two ends.
+        points: at least one; points on a line give its two ends.
     """
-    ordered: list[list[float]] = np.unique(np.round(points, 9), axis=0).tolist()
+    ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     # Andrew's monotone chain.
     corners = [*_chain(ordered)[:-1], *_chain(ordered[::-1])[:-1]] or ordered
-    return _simplified(np.array(corners))
+    return tuple(_simplified(corners))
 
 
-def _chain(points: Sequence[list[float]]) -> list[list[float]]:
+def _chain(points: Sequence[Vector2]) -> list[Vector2]:
     """Return the corners below points that are sorted along x."""
-    chain: list[list[float]] = []
+    chain: list[Vector2] = []
     for point in points:
         while len(chain) > 1 and not _is_left(chain[-2], chain[-1], point):
             chain.pop()
@@ -163,42 +167,48 @@ def _chain(points: Sequence[list[float]]) -> list[list[float]]:
     return chain
 
 
-def _is_left(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> bool:
+def _is_left(a: Vector2, b: Vector2, c: Vector2) -> bool:
     """Return whether c lies left of the way from a to b."""
     return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _simplified(ring: Matrix) -> Matrix:
+def _simplified(ring: list[Vector2]) -> list[Vector2]:
     """Leave out corners that are on the line between others.
 
     Only a hull tells them: of points on one line but for a rounding, those that sorting
     puts in the middle may be the ends of it.
     """
     # The corner that is farthest from any is an end, also of a line.
-    ring = np.roll(ring, -_farthest(ring, ring[0]), axis=0)
+    start = _farthest(ring, ring[0])
+    ring = ring[start:] + ring[:start]
     other = _farthest(ring, ring[0])
     if math.dist(ring[0], ring[other]) <= SAME_POINT:
         return ring[:1]
-    there, back = ring[: other + 1], np.concatenate((ring[other:], ring[:1]))
+    there, back = ring[: other + 1], ring[other:] + ring[:1]
     corners = [*_bends(there)[:-1], *_bends(back)[:-1]]
-    left = min(range(len(corners)), key=lambda at: tuple(corners[at]))
-    return np.roll(corners, -left, axis=0)
+    left = corners.index(min(corners))
+    return corners[left:] + corners[:left]
 
 
-def _farthest(points: Matrix, point: Matrix) -> int:
-    return int(np.linalg.norm(points - point, axis=1).argmax())
+def _farthest(points: Sequence[Vector2], point: Vector2) -> int:
+    return max(range(len(points)), key=lambda at: math.dist(points[at], point))
 
 
-def _bends(line: Matrix) -> list[Matrix]:
+def _bends(line: Sequence[Vector2]) -> list[Vector2]:
     """Return the ends of a line, and its points that are beside the way between them.
 
     This is the way of Ramer, Douglas and Peucker.
     """
-    start, way = line[0], line[-1] - line[0]
-    shares: Matrix = (line - start) @ way / float(way @ way)
-    shares = np.minimum(np.maximum(shares, 0.0), 1.0)
-    beside: Matrix = np.linalg.norm(line - start - np.outer(shares, way), axis=1)
-    most = int(beside.argmax())
-    if float(beside[most]) <= SAME_POINT:
-        return [start, line[-1]]
+    (x, y), end = line[0], line[-1]
+    ahead, aside = end[0] - x, end[1] - y
+    square = ahead * ahead + aside * aside
+
+    def beside(at: int) -> float:
+        to_x, to_y = line[at][0] - x, line[at][1] - y
+        share = min(max((to_x * ahead + to_y * aside) / square, 0.0), 1.0)
+        return math.hypot(to_x - share * ahead, to_y - share * aside)
+
+    most = max(range(len(line)), key=beside)
+    if beside(most) <= SAME_POINT:
+        return [line[0], end]
     return [*_bends(line[: most + 1])[:-1], *_bends(line[most:])]
