@@ -496,6 +496,8 @@ def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
         "from sambot_viz.cli import main\n"
         f"assert main(['check', {str(model)!r}]) == 0\n"
     )
-    heavy = set("trimesh scipy networkx PIL yaml viser yourdfpy lxml".split())
+    heavy = set("trimesh scipy networkx PIL yaml viser yourdfpy lxml secrets".split())
     heavy.update(f"sambot_viz.{name}" for name in ("frames", "topics", "displays"))
+    late = ("child.exchange", "diagnose.source_files")
+    heavy.update(f"sambot_viz.robot.xacro.{name}" for name in late)
     assert heavy & loaded == set()

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os.path
 import re
-import secrets
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal
@@ -172,6 +171,9 @@ def check_choice(option: Field[Any], value: object) -> None:
 
 def new_token() -> str:
     """Return a token that cannot be guessed: 22 characters, 128 bits."""
+    # Commands without a server must not wait for it.
+    import secrets
+
     return secrets.token_urlsafe(16)
 
 

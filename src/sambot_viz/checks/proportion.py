@@ -6,13 +6,16 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.lengths import UNITS, written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, MeshFile, Shape
-from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.diagnose.source_files import SourceSet
 
 _TIMES, _TIMES_WITH_MESHES = 4.5, 8.0
 """So many times larger than all others; the sizes of meshes are not known here."""
@@ -118,6 +121,9 @@ def _properties(
     subject: Subject, large: Sequence[_Written], usual: float
 ) -> Iterator[Problem]:
     """Report the properties that give these lengths."""
+    # Most models have none, and must not wait for this to be imported.
+    from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
+
     least = min(
         abs(value)
         for element in large

@@ -6,17 +6,20 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.packages.package_index import Lookup
 from sambot_viz.robot.slips.needs_xacro import missing_prefix
-from sambot_viz.robot.xacro.child.exchange import (
-    ChildAnswer,
-    ExpandedAnswer,
-    FailureAnswer,
-)
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.child.exchange import (
+        ChildAnswer,
+        ExpandedAnswer,
+        FailureAnswer,
+    )
 
 _NAME = re.compile(r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)*")
 _BLANKS = re.compile(r"[\t\r\n]")

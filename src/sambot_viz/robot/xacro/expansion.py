@@ -17,15 +17,18 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz import limits as table
-from sambot_viz.robot.xacro.child.exchange import ChildAnswer, Job
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
     ExpansionError,
     XacroFailure,
     read_result,
 )
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.child.exchange import ChildAnswer, Job
 
 _CHILD = Path(__file__).parent / "child" / "main.py"
 _SECRET_NAME = re.compile(

@@ -10,11 +10,13 @@ from __future__ import annotations
 import xml.dom.minidom
 import xml.parsers.expat
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.dom import expatbuilder
 
-from sambot_viz.robot.xacro.child.exchange import Call, Node, NodePlace
 from sambot_viz.robot.xml.decode import XmlFault
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.child.exchange import Call, Node, NodePlace
 
 _minidom: Any = xml.dom.minidom
 _ELEMENT = _minidom.Node.ELEMENT_NODE

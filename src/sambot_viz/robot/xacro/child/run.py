@@ -10,19 +10,9 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz.robot.packages.package_index import PackageIndex
-from sambot_viz.robot.xacro.child.exchange import (
-    Call,
-    ChildAnswer,
-    DefinitionRow,
-    ExpandedAnswer,
-    FailureAnswer,
-    Job,
-    UnprefixedRow,
-    WarningRow,
-)
 from sambot_viz.robot.xacro.child.failure import OutputLimit, again, unwrapped
 from sambot_viz.robot.xacro.child.package_files import XacroFiles
 from sambot_viz.robot.xacro.child.places import (
@@ -34,6 +24,18 @@ from sambot_viz.robot.xacro.child.places import (
 from sambot_viz.robot.xacro.child.sandbox import Guard
 from sambot_viz.robot.xacro.child.speed import import_lazily, skipping_plain_text
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.xacro.child.exchange import (
+        Call,
+        ChildAnswer,
+        DefinitionRow,
+        ExpandedAnswer,
+        FailureAnswer,
+        Job,
+        UnprefixedRow,
+        WarningRow,
+    )
 
 _XACRO_WORDS = frozenset(
     {"property", "macro", "arg", "if", "unless", "insert_block", "include"}
