@@ -23,7 +23,10 @@ _COMMENT = re.compile(
     r"^[ \t]*(?://[^\n]*|/\*(?:(?!\*/).)*\*/[ \t]*)\n", re.MULTILINE | re.DOTALL
 )
 """Lines that are nothing but a comment."""
-_IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.{1,2}/[^"']+)\2""")
+_IMPORT = re.compile(
+    r"""^((?:import|export|\})[^"'\n]*)(["'])(\.{1,2}/[^"']+)\2""", re.MULTILINE
+)
+"""The line of a statement that names another module, which begins the line."""
 _FIRST = "address.js"
 """Runs before all other scripts."""
 _FOR_VISER = ("viser_poses.js", "viser_address.js")
@@ -132,7 +135,7 @@ def _head(first: str, styles: Iterable[str], look: str) -> str:
         styles: the style sheets.
         look: what `look.js` begins with.
     """
-    modules = {_PREFIX + name: _address(name) for name in sorted(_needed(first))}
+    modules = _modules(first)
     css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
     return (
         f"{_early() if first != _NO_VIEW else ''}"
@@ -155,21 +158,16 @@ def _plain(name: str) -> str:
     return f"<script>{_FOLDER.joinpath(name).read_text('utf-8')}</script>"
 
 
-def _needed(first: str) -> set[str]:
-    """A script and all that it imports, as paths in this folder."""
-    needed: set[str] = set()
+def _modules(first: str) -> dict[str, str]:
+    """A script and all that it imports as data addresses, by name in the import map."""
+    made: dict[str, str] = {}
     pending = [first]
     while pending:
         name = pending.pop()
-        if name not in needed:
-            needed.add(name)
-            source = _FOLDER.joinpath(name).read_text("utf-8")
-            pending += [_imported(name, found[3]) for found in _IMPORT.finditer(source)]
-    return needed
-
-
-def _imported(name: str, path: str) -> str:
-    return posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
+        if _PREFIX + name not in made:
+            made[_PREFIX + name], imported = _address(name)
+            pending += imported
+    return dict(sorted(made.items()))
 
 
 def licenses() -> bytes:
@@ -177,14 +175,21 @@ def licenses() -> bytes:
     return _FOLDER.joinpath("vendor", "LICENSES.txt").read_bytes()
 
 
-def _address(name: str) -> str:
-    """A script as a data address; what it imports is named as in the import map."""
+def _address(name: str) -> tuple[str, list[str]]:
+    """A script as a data address, and what it imports, as paths in this folder.
+
+    In the script these are named as in the import map.
+    """
+    imported: list[str] = []
 
     def absolute(found: re.Match[str]) -> str:
-        return f'{found[1]}"{_PREFIX}{_imported(name, found[3])}"'
+        path = posixpath.join(posixpath.dirname(name), found[3])
+        imported.append(posixpath.normpath(path))
+        return f'{found[1]}"{_PREFIX}{imported[-1]}"'
 
-    source = _IMPORT.sub(absolute, _FOLDER.joinpath(name).read_text("utf-8"))
+    source = _FOLDER.joinpath(name).read_text("utf-8")
     # The lines keep their numbers.
     source = _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), source)
-    packed = base64.b64encode(f"{source}\n//# sourceURL={_PREFIX}{name}\n".encode())
-    return "data:text/javascript;charset=utf-8;base64," + packed.decode()
+    source = f"{_IMPORT.sub(absolute, source)}\n//# sourceURL={_PREFIX}{name}\n"
+    packed = base64.b64encode(source.encode()).decode()
+    return f"data:text/javascript;charset=utf-8;base64,{packed}", imported
