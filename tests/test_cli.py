@@ -486,6 +486,22 @@ def test_a_drive_in_gazebo_is_checked_without_numpy(tmp_path: Path) -> None:
     assert "numpy" not in loaded
 
 
+def test_the_address_is_printed_before_session_and_panels_are_loaded() -> None:
+    loaded = loaded_by(
+        "from sambot_viz import outlet\n"
+        "from sambot_viz.cli import main\n"
+        "def write_out(url): raise KeyboardInterrupt\n"
+        "outlet.write_out = write_out\n"
+        "assert main(['--port', '0']) == 0"
+    )
+    own = {name for name in loaded if name.startswith("sambot_viz.")}
+    # Of `panels` only the rows of pages, and how what they send is read.
+    rooms = {"commands", "limits", "panels", "robot", "server", "viser_private"}
+    assert {name.split(".")[1] for name in own if name.count(".") > 1} == rooms
+    assert {"rich.console", "sambot_viz.panels.command", "yaml"} & loaded == set()
+    assert len(own) < 75
+
+
 def test_check_imports_only_what_a_small_model_needs(tmp_path: Path) -> None:
     facet = struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0)
     (tmp_path / "part.stl").write_bytes(bytes(80) + struct.pack("<I", 1) + facet)

@@ -417,11 +417,10 @@ class Inputs:
 
     def _choose_robot(self) -> None:
         """Take the robot whose topic the config names, where messages have several."""
-        given = self._options.config
-        read = self._document if isinstance(given, Path | str | None) else given
-        named = named_descriptions(read)
         if self.moved_by is not None:
-            self.moved_by.choose(named)
+            given = self._options.config
+            read = self._document if isinstance(given, Path | str | None) else given
+            self.moved_by.choose(named_descriptions(read))
 
     def _open_model(self, model: PathLike) -> None:
         try:

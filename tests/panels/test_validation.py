@@ -12,7 +12,7 @@ from typing import Any, get_args
 import pytest
 
 from sambot_viz import SambotVizError, limits
-from sambot_viz.panels import validation
+from sambot_viz.panels import sent, validation
 from sambot_viz.panels.command import (
     FLAG,
     INTEGER,
@@ -109,14 +109,14 @@ def test_what_is_no_new_value_is_dropped() -> None:
     chance = random.Random(2)
     for _ in range(5000):
         message = garbage(chance)
-        found = validation.read(message)
+        found = sent.read(message)
         if found is not None:
             assert isinstance(found.id, str)
             assert found.gesture is None or type(found.gesture) is int
     for message in ([], ["row"], ["row", 1, 2, 3], [1, 2], ["x" * 401, 1], "row", None):
-        assert validation.read(message) is None
+        assert sent.read(message) is None
     for gesture in (True, 1.5, "1", [1]):
-        assert validation.read(["row", 1, gesture]) is None
+        assert sent.read(["row", 1, gesture]) is None
 
 
 def test_a_deep_nest_of_lists_is_refused() -> None:

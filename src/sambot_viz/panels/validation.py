@@ -1,8 +1,6 @@
 """The one place that checks what a browser sends back: role, type and limits.
 
-A message is a list: the id of a row and its new value, or the id of a command and its
-arguments; and for what a hand does in one go (a drag, a key that is held) the number of
-that gesture.
+`panels.sent` reads which row or command a message names.
 """
 
 from __future__ import annotations
@@ -11,7 +9,6 @@ import math
 import re
 import reprlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, cast
 
@@ -27,34 +24,6 @@ _REPR = reprlib.Repr()
 """Of lists in lists only the outermost are written."""
 _REPR.maxlevel = 3
 _REPR.maxstring = 60
-
-
-@dataclass(frozen=True, slots=True)
-class Sent:
-    """A value that a browser wants a row to have, or a command to be called with.
-
-    Attributes:
-        id: of the row or command.
-        value: not checked yet.
-        gesture: the same number for all values of one drag; None for a single one.
-    """
-
-    id: str
-    value: Json
-    gesture: int | None
-
-
-def read(message: object) -> Sent | None:
-    """Read what a browser has sent; None when it is not an edit."""
-    if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
-        return None
-    parts = cast("list[Any]", message)
-    gesture = parts[2] if len(parts) == 3 else None
-    if not isinstance(parts[0], str) or len(parts[0]) > limits.PAGE_ID.value:
-        return None
-    if isinstance(gesture, bool) or not isinstance(gesture, int | None):
-        return None
-    return Sent(parts[0], parts[1], gesture)
 
 
 def accept(

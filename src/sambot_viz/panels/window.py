@@ -20,6 +20,7 @@ from sambot_viz.panels.row_sync import RowSync
 from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.saved_pictures import AskPage
+from sambot_viz.panels.sent import Sent, read
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.panels.sources.recordings_panel import OtherRecordings
 from sambot_viz.panels.sources.source_panel import SourcePanel
@@ -155,7 +156,7 @@ class Window:
 
     def receive(self, client_id: int, message: object) -> None:
         """Take a message of a browser; called on the event loop, returns at once."""
-        sent = validation.read(message)
+        sent = read(message)
         if sent is None:
             return
         # Of the values of one drag that wait, only the last one counts; and of numbers
@@ -172,7 +173,7 @@ class Window:
         found = [store.get(row_id) for store in rows.stores] if rows else []
         return any(row is not None and row.get("kind") in _NUMBERS for row in found)
 
-    def _take(self, client_id: int, sent: validation.Sent) -> None:
+    def _take(self, client_id: int, sent: Sent) -> None:
         """Check what a browser wants and do it; a refusal is answered there."""
         browser = self._browsers.get(client_id)
         if browser is None:

@@ -7,7 +7,7 @@ page's.
 The server sends JSON objects: what the page lacks of the rows (`panels.row_store`), as
 text or, when long, compressed in a binary frame, and the camera that it is asked for
 (`session.clients.client_camera`). The page sends JSON lists: an edit, or what a button
-does (`panels.validation`); and objects: where its camera is. It may ask ``"ping"`` at
+does (`panels.sent`); and objects: where its camera is. It may ask ``"ping"`` at
 any time and is answered ``"pong"`` behind everything that its edits before have changed
 so far; a page that gets no answer knows that its connection is lost.
 
@@ -25,7 +25,7 @@ from typing import Any, cast
 import msgspec
 from websockets.protocol import State
 
-from sambot_viz.panels import validation
+from sambot_viz.panels import sent
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.server.connections.connection import Connection
 from sambot_viz.server.connections.rate_limit import InFlightLimit
@@ -87,7 +87,7 @@ class Channel:
             report(None, "an edit before the first camera")
         elif isinstance(edit, dict):
             self._take_camera(self._client_id, cast("dict[str, Any]", edit))
-        elif validation.read(edit) is None:
+        elif sent.read(edit) is None:
             report(self._client_id, "what is not an edit")
         else:
             self._handler().take_edit(self._client_id, edit)

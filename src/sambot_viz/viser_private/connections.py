@@ -70,14 +70,21 @@ def allow_late_messages(client: viser.ClientHandle) -> None:
 
 @contextlib.contextmanager
 def without_banner() -> Generator[None]:
-    """Keep viser's own lines off the terminal while it starts or stops."""
-    console = rich.get_console()
-    before = console.quiet
-    console.quiet = True
+    """Keep viser's own lines off the terminal while it starts or stops.
+
+    They are not made either: what rich imports to print a table costs as much as a
+    tenth of viser.
+    """
+    before = rich.print
+    rich.print = _print_nothing
     try:
         yield
     finally:
-        console.quiet = before
+        rich.print = before
+
+
+def _print_nothing(*_: object, **__: object) -> None:
+    """Stand in for `rich.print`."""
 
 
 def quiet_websockets() -> None:
