@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 from close import is_close
+from work import calls_of
 
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import (
@@ -133,6 +135,15 @@ def test_separate_trees_have_tf2s_and_rvizs_texts(tree: FrameTree) -> None:
     )
     assert not tree.can_lookup("map", "camera_optical")
     assert tree.can_lookup("map", "wheel")
+
+
+def test_a_frame_at_the_end_of_a_chain_takes_no_more_work_than_the_first() -> None:
+    tree, names = FrameTree(), [f"f{i}" for i in range(200)]
+    work = [
+        calls_of(lambda p=parent, c=child: tree.set_static(p, c, at(1)))
+        for parent, child in itertools.pairwise(names)
+    ]
+    assert work[-1] <= work[1]
 
 
 def test_a_ring_is_refused_with_the_ring(tree: FrameTree) -> None:

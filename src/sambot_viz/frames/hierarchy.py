@@ -146,6 +146,9 @@ class FrameHierarchy:
             raise TransformRefused(
                 "TF_SELF_TRANSFORM", f"'{child}' cannot be its own parent"
             )
+        if not self._children.get(child):
+            # Nothing hangs below it: of a long chain each link is looked at once.
+            return
         ring = [parent]
         while (edge := self._edges.get(ring[-1])) is not None:
             ring.append(edge.parent)
