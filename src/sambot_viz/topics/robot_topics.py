@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from xml.sax.saxutils import quoteattr
 
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.meanings import Meaning, meaning_of
@@ -108,6 +107,9 @@ def describes_robot(name: str, type_name: str) -> bool:
 
 def stand_in_model(link: str = STAND_IN_LINK) -> str:
     """Return the XML text of a robot of one link, for messages without a robot."""
+    # It imports what asks the web for files, and most robots need no other.
+    from xml.sax.saxutils import quoteattr
+
     return f'<robot name="{STAND_IN_NAME}"><link name={quoteattr(link)}/></robot>'
 
 
