@@ -188,3 +188,30 @@ def test_a_file_is_sent_as_it_is_and_kept(server: viser.ViserServer) -> None:
     # What comes later takes the place of what was there.
     sent = [m for m in buffer.message_from_id.values() if hasattr(m, "updates")]
     assert len(sent) == 1
+
+
+@pytest.mark.parametrize("value", [0.0, 1e-5, -0.3, 1.0, 700.0])
+def test_a_pose_is_the_same_as_the_last_one_where_numpy_finds_it_close(
+    server: viser.ViserServer, value: float
+) -> None:
+    node, buffer = server.scene.add_frame("/a"), viser_private.broadcast_buffer(server)
+    limit = 1e-8 + 1e-5 * abs(value)
+    for change in (0.0, 0.9 * limit, -0.9 * limit, 1.1 * limit, -1.1 * limit):
+        viser_private.set_pose(node, None, (value, value, value))
+        before = buffer.message_counter
+        node.position = (value, value + change, value)
+        is_same = np.allclose(value + change, value)
+        assert buffer.message_counter - before == (0 if is_same else 1)
+        assert node.position[1] == (value if is_same else value + change)
+    with pytest.raises(ValueError, match="length"):
+        node.position = (1.0, 2.0)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def test_a_node_is_made_without_numpy_comparing_its_pose(
+    server: viser.ViserServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(np, "allclose")
+    turned = (0.0, 1.0, 0.0, 0.0)
+    node = server.scene.add_frame("/a", wxyz=turned, position=(1.0, 2.0, 3.0))
+    assert node.wxyz.tolist() == list(turned)
+    assert node.position.tolist() == [1.0, 2.0, 3.0]

@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from inside import session_of
+from work import calls_of
 
-from sambot_viz import JointError, Visualizer, bundled
+from sambot_viz import JointError, Visualizer, bundled, load_robot
 from sambot_viz.bundled import poses_beside
 
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
@@ -83,3 +85,29 @@ def test_wheels_that_do_not_exist_are_told_in_the_problems() -> None:
         session = viz._server.sessions.all()[0]  # pyright: ignore[reportPrivateUsage]
         problem = next(p for p in session.problems.of_model if p.code == "drive-wheels")
         assert "no continuous joint 'lft'" in problem.message
+
+
+def star(links: int) -> str:
+    """A robot of boxes, all of them on joints of the first one."""
+    box = '<visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual>'
+    parts = [f'<link name="l{i}">{box}</link>' for i in range(links)]
+    for i in range(1, links):
+        parts.append(
+            f'<joint name="j{i}" type="continuous"><parent link="l0"/>'
+            f'<child link="l{i}"/><origin xyz="0.2 0 0"/><axis xyz="0 0 1"/></joint>'
+        )
+    return f'<robot name="star of {links}">{"".join(parts)}</robot>'
+
+
+def test_each_link_takes_the_same_work_to_be_shown(tmp_path: Path) -> None:
+    file, work = tmp_path / "star.urdf", list[int]()
+    for links in (80, 120, 160):
+        file.write_text(star(40))
+        with Visualizer(file, port=0, watch=False) as viz:
+            file.write_text(star(links))
+            session, robot = session_of(viz), load_robot(file)
+            work.append(calls_of(lambda s=session, r=robot: s.show_robot(r)))
+    first, second = work[1] - work[0], work[2] - work[1]
+    assert second == pytest.approx(first, rel=0.05)
+    # More than half of that is viser's, which makes three nodes for a link.
+    assert second / 40 < 1500

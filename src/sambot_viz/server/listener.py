@@ -183,6 +183,7 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
         listening = _bind_in_file_system(path)
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
+    viser_private.compare_poses_quickly()
     viser_private.tell_poses_of_remade_nodes()
     channels = Channels()
     checked = handshake.checked(

@@ -25,6 +25,7 @@ from sambot_viz.viser_private.outgoing import (
     replace_window_loop,
 )
 from sambot_viz.viser_private.scene_nodes import (
+    compare_poses_quickly,
     fill_background,
     is_removed,
     node_count,
@@ -53,6 +54,7 @@ __all__ = [
     "allow_late_messages",
     "awaits_picture",
     "broadcast_buffer",
+    "compare_poses_quickly",
     "connection_of",
     "drawn_by",
     "fill_background",

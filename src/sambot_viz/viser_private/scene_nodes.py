@@ -6,12 +6,15 @@ import functools
 import itertools
 import struct
 import zlib
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 import viser
 from viser import (
     _assignable_props_api,  # pyright: ignore[reportPrivateUsage]
     _messages,  # pyright: ignore[reportPrivateUsage]
+    _scene_api,  # pyright: ignore[reportPrivateUsage]
+    _scene_handles,  # pyright: ignore[reportPrivateUsage]
 )
 
 from sambot_viz.viser_private.moving_poses import set_pose
@@ -148,3 +151,31 @@ def remember_prop_types() -> None:
     module: Any = _assignable_props_api
     if not hasattr(module.get_type_hints, "cache_info"):
         module.get_type_hints = functools.cache(module.get_type_hints)
+
+
+def compare_poses_quickly() -> None:
+    """Let viser compare the pose of a node with the last one without numpy.
+
+    It does so twice for every node that is made, and takes 40 µs, a fifth of the node.
+    """
+    module: Any = _scene_handles
+    module._set_pose_vector = _set_vector
+
+
+def _set_vector(
+    current: Any,
+    value: Sequence[float],
+    length: int,
+    queue: Callable[[Any], object],
+    make_message: Callable[[Any], Any],
+) -> None:
+    """Set a rotation or a position as viser does, with the tolerance of `allclose`."""
+    cast_value: tuple[float, ...] = cast(Any, _scene_api).cast_vector(value, length)
+    before: list[float] = current.tolist()
+    if all(
+        abs(a - b) <= 1e-8 + 1e-5 * abs(b)
+        for a, b in zip(cast_value, before, strict=True)
+    ):
+        return
+    current[:] = cast_value
+    queue(make_message(cast_value))

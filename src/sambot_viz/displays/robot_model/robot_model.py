@@ -123,17 +123,19 @@ class RobotModelDisplay(TriangleDisplay):
             "collision": bool(self.config.get(COLLISIONS)),
         }
         wanted: set[_ShapeKey] = set()
-        for link in robot.links.values():
+        for number, link in enumerate(robot.links.values()):
             frame = self.frame_of(link.name)
             connected = self.context.nodes.connected(frame)
             above = self.context.nodes.path(frame) if connected else ""
+            # Names below a frame are unique by its path; here the link makes them so.
+            place = f"{above}/{self.key}" if above else f"/{self.key}{number}."
             own = entries.link(link.name)
             opacity = alpha * own.get("Alpha") if connected else 1.0
             color = None if self.own_robot else self.context.color_of(link.name)
             for kind, index, shape in _shapes_of(link):
                 key = (link.name, kind, index)
                 wanted.add(key)
-                node = self._node(key, above or "", shape)
+                node = self._node(key, place, shape)
                 shown = on[kind] and own.get(BOX)
                 node.draw(ShapeLook(shown, opacity, not connected, color))
         for key in [key for key in self._shapes if key not in wanted]:
@@ -156,14 +158,10 @@ class RobotModelDisplay(TriangleDisplay):
         status = balance_status(found)
         self.status.set("Balance", status.level, status.text)
 
-    def _node(self, key: _ShapeKey, above: str, shape: Shape) -> ShapeNode:
+    def _node(self, key: _ShapeKey, place: str, shape: Shape) -> ShapeNode:
         """The node of a shape, made again when its frame has moved in the tree."""
-        link, kind, index = key
-        at_root = ""
-        if not above and self._source.robot is not None:
-            # Names below a frame are unique by its path; here the link makes them so.
-            at_root = f"{list(self._source.robot.links).index(link)}."
-        name = f"{above}/{self.key}{at_root}{kind[0]}{index}"
+        _, kind, index = key
+        name = f"{place}{kind[0]}{index}"
         roots = None if self._source.robot is None else self._source.robot.file_roots
         asset = asset_of(shape, roots)
         known = self._shapes.get(key)

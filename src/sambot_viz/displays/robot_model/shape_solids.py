@@ -90,12 +90,24 @@ class ShapePiece:
         if not isinstance(self.handle, Painted):
             return
         # viser sends no value twice, but takes longer to find that out than to send it.
-        if before is None or (look.error, look.color) != (before.error, before.color):
-            own = self.color if look.color is None else look.color
-            self.handle.color = ERROR_WHITE if look.error else own
+        color, opacity = self._paint_of(look)
+        was, was_opacity = (
+            (self.color, None) if before is None else self._paint_of(before)
+        )
+        is_error = before is not None and before.error
+        if color != was:
+            self.handle.color = color
+        if look.error != is_error:
             self.handle.material = UNLIT if look.error else "standard"
-        opacity = None if look.error else _opacity_of(look.alpha * self.alpha)
-        self.handle.opacity = opacity
+        if opacity != was_opacity:
+            self.handle.opacity = opacity
+
+    def _paint_of(self, look: ShapeLook) -> tuple[Rgb, float | None]:
+        """Return the colour and the opacity of the node in a look."""
+        if look.error:
+            return ERROR_WHITE, None
+        own = self.color if look.color is None else look.color
+        return own, _opacity_of(look.alpha * self.alpha)
 
 
 def _opacity_of(alpha: float) -> float | None:

@@ -43,6 +43,7 @@ UPSIDE_DOWN: Wxyz = (0.0, 1.0, 0.0, 0.0)
 AXIS_COLORS: tuple[Rgb, ...] = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 
 
+@cache
 def linear(channel: int) -> float:
     """Return an 8-bit sRGB channel in linear colour space, 0 to 1."""
     return srgb_to_linear(channel / 255)
@@ -97,10 +98,11 @@ def add_batch(
     scales: Sequence[Vector3],
     colors: Sequence[Rgb],
     alphas: Sequence[float] = (),
+    scale: float = 1.0,
 ) -> viser.BatchedMeshHandle:
     """One node for several copies of a unit shape (see the fields of viser).
 
-    Alphas are 0 to 1; none for opaque copies.
+    Alphas are 0 to 1; none for opaque copies. The scale is that of the node.
 
     Colours are sRGB as everywhere here; viser takes those of batches as linear.
     """
@@ -120,6 +122,7 @@ def add_batch(
         flat_shading=True,
         cast_shadow=False,
         receive_shadow=False,
+        scale=scale,
     )
 
 
@@ -181,6 +184,7 @@ def add_axes(
     diameter: float,
     colors: Sequence[Rgb] = AXIS_COLORS,
     alpha: float = 1.0,
+    scale: float = 1.0,
 ) -> viser.BatchedMeshHandle:
     """Three cylinders from the origin along +x (red), +y (green) and +z (blue).
 
@@ -191,6 +195,7 @@ def add_axes(
         diameter: what RViz calls "radius" is the diameter of the cylinders [m].
         colors: of the three.
         alpha: 0 to 1.
+        scale: of the node, which can be changed later.
     """
     scales = [(diameter, diameter, length)] * 3
     return add_batch(
@@ -202,6 +207,7 @@ def add_axes(
         scales,
         colors,
         [alpha] * 3,
+        scale,
     )
 
 

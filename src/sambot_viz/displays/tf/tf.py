@@ -147,8 +147,13 @@ class TfDisplay(TriangleDisplay):
         if bool(self.config.get("Show Axes")):
             colors = [look.of(color) for color in AXIS_COLORS]
             axes = f"{path}/{self.key}a", AXES_LENGTH, AXES_DIAMETER, colors, look.alpha
-            (node,) = overlays.axes.show((path, look), lambda: [add_axes(scene, *axes)])
-            node.scale = float(self.config.get("Marker Scale"))
+            scale = float(self.config.get("Marker Scale"))
+            (node,) = overlays.axes.show(
+                (path, look), lambda: [add_axes(scene, *axes, scale)]
+            )
+            # viser takes long to find out that a value is the same.
+            if node.scale != scale:
+                node.scale = scale
         else:
             overlays.axes.remove()
         if bool(self.config.get("Show Names")):
@@ -166,7 +171,8 @@ class TfDisplay(TriangleDisplay):
                     )
                 ],
             )
-            label.font_scene_height = height
+            if label.font_scene_height != height:
+                label.font_scene_height = height
         else:
             overlays.name.remove()
 
