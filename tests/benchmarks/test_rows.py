@@ -42,17 +42,18 @@ ALL_ROWS = f"""(() => {{
   const now = performance.now(), seen = window.benchmarkSeen ||= {{}};
   if (window.sambotVizLook?.lit > 0) seen.picture ||= now;
   const joints = document.querySelector("#sambot .joints");
-  const there = joints?.querySelectorAll(".k-slider").length;
-  if (there === {COUNT} && joints.querySelector("[type=search]")) seen.rows ||= now;
+  const there = joints?.querySelector("[role=treegrid]")?.ariaRowCount;
+  if (there >= {COUNT} && joints.querySelector("[type=search]")) seen.rows ||= now;
   return seen.picture && seen.rows;
 }})()"""
 SEARCH = f"""(async () => {{
   const joints = document.querySelector("#sambot .joints"), start = performance.now();
   const box = joints.querySelector("[type=search]"), times = [];
-  for (const [text, wanted] of [["joint_{COUNT}", 1], ["", {COUNT}]]) {{
+  const tree = joints.querySelector("[role=treegrid]");
+  for (const [text, all] of [["joint_{COUNT}", false], ["", true]]) {{
     box.value = text;
     box.dispatchEvent(new Event("input", {{ bubbles: true }}));
-    while (joints.querySelectorAll(".k-slider").length !== wanted)
+    while (tree.ariaRowCount >= {COUNT} !== all)
       await new Promise(requestAnimationFrame);
     times.push(performance.now() - start);
   }}

@@ -64,7 +64,8 @@ def draws_nothing(viewer: ViewerPage, seconds: float) -> bool:
 
 
 def test_a_joint_is_a_few_elements_and_a_folded_one_none(viewer: ViewerPage) -> None:
-    viewer.wait_for(f"{ROWS}.length === {COUNT}")
+    tree = "document.querySelector('#sambot .joints [role=treegrid]')"
+    viewer.wait_for(f"{tree}.ariaRowCount > {COUNT} && {ROWS}.length")
     most = viewer.page.evaluate(
         f"Math.max(...[...{ROWS}].map(row => row.querySelectorAll('*').length))"
     )

@@ -5,6 +5,7 @@ import { test } from "node:test";
 
 import { isPlain } from "../../src/sambot_viz/page/tree/row_element.js";
 import { RowList } from "../../src/sambot_viz/page/tree/row_list.js";
+import { LENGTH } from "../../src/sambot_viz/page/tree/stretch.js";
 import { lineText } from "../../src/sambot_viz/page/tree/row_text.js";
 import { within } from "../../src/sambot_viz/page/tree/sight.js";
 import { rows } from "../../src/sambot_viz/page/wire/channel.js";
@@ -12,15 +13,17 @@ import { degrees } from "../../src/sambot_viz/page/state.js";
 
 const HEIGHT = 20;
 
-/** As much of an element as rows out of sight need; it counts the texts that it is given. */
+/** As much of an element as rows out of sight need; all count the texts that they are given. */
 class FakeElement {
   static texts = 0;
+  static made = 0;
   constructor() {
     this.children = [];
     this.dataset = {};
     this.attributes = {};
     this.style = { setProperty() {} };
     this.classList = { add() {}, remove() {} };
+    FakeElement.made += 1;
   }
   get firstElementChild() {
     return this.children[0] ?? null;
@@ -57,7 +60,7 @@ const joint = (at, value = 0) => ({
   value,
   unit: "rad",
 });
-const FACTS = { depth: 0, opens: false, open: false, current: false, chosen: false };
+const FACTS = { depth: 0, opens: false, open: false, current: false, chosen: false, row: 1 };
 const moved = (count, value) =>
   rows.take("session", {
     rows: Object.fromEntries(Array.from({ length: count }, (_, at) => [`j${at}`, { value }])),
@@ -70,7 +73,10 @@ test("rows out of sight that move are written when they have come to rest, each 
   rows.take("session", { all: true, panels: { joints } });
   const list = new RowList(new FakeElement());
   list.show(joints.map(({ id }) => ({ id, facts: FACTS, view: () => null })));
-  assert.equal(FakeElement.texts, count);
+  // An element and a cell for so many rows.
+  const stretches = count / LENGTH;
+  assert.equal(FakeElement.made, 1 + 2 * stretches);
+  assert.equal(FakeElement.texts, stretches);
   FakeElement.texts = 0;
   for (let step = 1; step <= 50; step++) {
     moved(count, step / 100);
@@ -78,14 +84,15 @@ test("rows out of sight that move are written when they have come to rest, each 
   }
   assert.equal(FakeElement.texts, 0);
   t.mock.timers.tick(1000);
-  assert.equal(FakeElement.texts, count);
-  assert.equal(list.slots[7].element.children[0].text, "joint_7\u20030.5 rad");
+  assert.equal(FakeElement.texts, stretches);
+  const lines = list.stretches[0].element.children[0].text.split("\n");
+  assert.equal(lines[7], "joint_7\u20030.5 rad");
   t.mock.timers.tick(10000);
-  assert.equal(FakeElement.texts, count);
+  assert.equal(FakeElement.texts, stretches);
   list.clear();
   moved(count, 0);
   t.mock.timers.tick(10000);
-  assert.equal(FakeElement.texts, count);
+  assert.equal(FakeElement.texts, stretches);
 });
 
 test("what is in sight is what reaches into the window, whatever the heights", () => {
@@ -119,6 +126,7 @@ test("the line of a row has its name and its value as its cell shows it", () => 
   assert.equal(line("color", [1, 2, 3]), "N\u20031; 2; 3");
   assert.equal(line("status", "Ok", { whole: true }), "N: Ok");
   assert.equal(line("enum", "Orbit"), "N\u2003Orbit");
+  assert.equal(line("readonly", "two\n lines"), "N\u2003two lines");
   for (const kind of ["bool", "display", "group"]) assert.equal(line(kind, true), "N");
   degrees.set(true);
   assert.equal(line("slider", Math.PI / 2, { unit: "rad" }), "N\u200390 °");

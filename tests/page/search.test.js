@@ -11,6 +11,7 @@ import {
   searchKey,
   wordsOf,
 } from "../../src/sambot_viz/page/tree/search.js";
+import { lists } from "../../src/sambot_viz/page/tree/row_list.js";
 import { visible } from "../../src/sambot_viz/page/tree/tree.js";
 import { rows } from "../../src/sambot_viz/page/wire/channel.js";
 
@@ -124,8 +125,9 @@ test("what is found first may be limited, and is nothing without a text or a hit
 test("Enter in a search goes to what is found, and nowhere without a hit or a text", () => {
   take();
   const asked = [];
-  globalThis.CSS = { escape: (id) => id };
-  globalThis.document = { querySelector: (which) => void asked.push(which) };
+  const tree = {};
+  lists.set(tree, { touch: (id) => void asked.push(id) });
+  globalThis.document = { querySelector: () => tree };
   const press = (key, value, first) => {
     const cleared = [];
     const event = { key, target: { value }, preventDefault() {}, stopPropagation() {} };
@@ -133,23 +135,22 @@ test("Enter in a search goes to what is found, and nowhere without a hit or a te
     return [...asked.splice(0), ...cleared];
   };
   try {
-    assert.deepEqual(press("Enter", "wheel"), ['[data-panel="displays"] [data-row="r/l/w"]']);
+    assert.deepEqual(press("Enter", "wheel"), ["r/l/w"]);
     assert.deepEqual(press("Enter", "xyzzy"), []);
     assert.deepEqual(press("Enter", ""), []);
     assert.deepEqual(press("ArrowDown", "xyzzy"), []);
-    assert.deepEqual(press("ArrowDown", ""), ['[data-panel="displays"] [data-row]']);
+    assert.deepEqual(press("ArrowDown", ""), ["g"]);
     assert.deepEqual(press("Escape", "x"), ["Escape"]);
     // Where the server searches, the names of rows do not say what is found.
     assert.deepEqual(
       press("Enter", "camera/image", (text) => text && "leaf"),
-      ['[data-panel="displays"] [data-row="leaf"]'],
+      ["leaf"],
     );
     assert.deepEqual(
       press("Enter", "wheel", () => undefined),
       [],
     );
   } finally {
-    delete globalThis.CSS;
     delete globalThis.document;
   }
 });

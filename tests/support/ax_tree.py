@@ -13,6 +13,8 @@ from patience import patience
 Name = str | re.Pattern[str] | None
 """An exact name, a pattern that is searched in it, or any name."""
 Role = str | re.Pattern[str]
+_GAP = "\u2003"
+"""Stands before a line for each level above it, and between a name and a value."""
 
 
 @dataclass(eq=False, slots=True)
@@ -166,15 +168,23 @@ def rows_of(grid: Thing) -> list[tuple[tuple[str, ...], Thing]]:
     """The rows of a tree grid, each with its label behind those of the rows above.
 
     The label is what its first cell says; where a row out of sight is a line of text,
-    the part before the value.
+    the part before the value. Rows that are far out of sight are lines in one thing.
     """
-    labels: dict[str, str] = {}
+    first: dict[str, str] = {}
     for cell in grid.all("gridcell"):
-        labels.setdefault(cell.around, cell.name.partition("\u2003")[0])
+        first.setdefault(cell.around, cell.name)
     found: list[tuple[tuple[str, ...], Thing]] = []
     above: list[str] = []
     for row in grid.all("row"):
-        del above[max(0, int(row.states.get("level", 1)) - 1) :]
-        above.append(labels.get(row.number, row.name))
-        found.append((tuple(above), row))
+        level = row.states.get("level")
+        for line in [first.get(row.number, row.name)] if level else _lines(row):
+            text = line.lstrip(_GAP)
+            del above[max(0, int(level or 1 + len(line) - len(text)) - 1) :]
+            above.append(text.partition(_GAP)[0])
+            found.append((tuple(above), row))
     return found
+
+
+def _lines(row: Thing) -> list[str]:
+    """The lines of what stands for many rows; a name has no ends of lines in it."""
+    return "".join(text.name for text in row.all("StaticText")).split("\n")

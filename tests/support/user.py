@@ -91,7 +91,7 @@ _MARKED = """function () {
   return this.type === "number"
     ? false : this.selectionEnd - this.selectionStart === this.value.length;
 }"""
-_IS_LINE = "function () { return this.classList.contains('line'); }"
+_IS_LINE = "function () { return this.matches('.line, .lines'); }"
 _HAS_FOCUS = "function () { return document.activeElement === this; }"
 _CUT_OFF = """function () {
   const element = this.nodeType === 3 ? this.parentElement : this;

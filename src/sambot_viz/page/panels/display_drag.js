@@ -4,6 +4,7 @@
 
 import { act } from "../wire/channel.js";
 import { fold } from "../state.js";
+import { rowElement, rowPlace } from "../tree/row_list.js";
 import { reveal } from "../tree/tree.js";
 import { members, nearest, places } from "./display_order.js";
 import { forTopic, makeDisplay } from "./selected_display.js";
@@ -30,7 +31,7 @@ const INDENT = 14;
 export function dragDisplay(down, row, tree) {
   if (!row.display || down.pointerType === "touch") return;
   new Drag(down, tree, {
-    source: rowIn(tree, row.id),
+    source: rowElement(tree, row.id),
     moved: row.id,
     drop: (to) => {
       if (to.group === row.in && to.index === members(row.in).indexOf(row.id)) return;
@@ -53,7 +54,7 @@ export function dragTopic(down, row, from) {
   // Beside its name are texts that can be marked.
   if (!down.target.closest(".name")) return;
   new Drag(down, tree, {
-    source: rowIn(from, row.id),
+    source: rowElement(from, row.id),
     refused: !row.display,
     drop: (to) => {
       if (to.group && row.display) fold(to.group, true);
@@ -62,9 +63,6 @@ export function dragTopic(down, row, from) {
     },
   });
 }
-
-/** @param {HTMLElement} tree @param {string} id */
-const rowIn = (tree, id) => tree.querySelector(`[data-row="${CSS.escape(id)}"]`);
 
 class Drag {
   /**
@@ -141,7 +139,7 @@ class Drag {
     const { moved = "", refused } = this.what;
     const origin = this.tree.getBoundingClientRect();
     const seen = this.box.getBoundingClientRect();
-    const all = places(moved, (id) => rowIn(this.tree, id)?.getBoundingClientRect() ?? null);
+    const all = places(moved, (id) => rowPlace(this.tree, id));
     const x = this.at.x - origin.left - MARGIN;
     const to = this.over ? nearest(all, x, this.at.y, INDENT) : undefined;
     this.to = to;
@@ -149,7 +147,7 @@ class Drag {
     this.line.hidden = !to || Boolean(to.into || refused);
     if (refused && to) this.tree.classList.add("refuses");
     if (refused || !to) return;
-    if (to.into) rowIn(this.tree, to.into)?.classList.add("into");
+    if (to.into) rowElement(this.tree, to.into)?.classList.add("into");
     const y = Math.min(Math.max(to.y, seen.top), seen.bottom);
     this.line.style.top = `${y - origin.top - 1}px`;
     this.line.style.left = `${MARGIN + to.depth * INDENT}px`;

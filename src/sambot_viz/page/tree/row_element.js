@@ -7,9 +7,10 @@ import { rows } from "../wire/channel.js";
 /**
  * What a row is drawn from, beside itself.
  * @typedef {{depth: number, opens: boolean, open: boolean, current: boolean, chosen: boolean,
- *   renaming: boolean, hover: boolean}} Facts
+ *   renaming: boolean, hover: boolean, row: number, place: number, of: number}} Facts
  *   opens: whether rows are below it; current: whether the Tab key stops here; hover: whether its
- *   help is shown on hover
+ *   help is shown on hover; row: its number in the tree; place and of: which it is of how many below
+ *   the same row
  */
 
 /** Why a viewer's controls are grey. */
@@ -61,7 +62,8 @@ const given = new WeakMap();
  * Bring the element of a row up to date.
  * @param {HTMLElement} element @param {Row} row @param {Facts} facts
  */
-export function dress(element, row, { depth, opens, open, current, chosen, hover }) {
+export function dress(element, row, facts) {
+  const { depth, opens, open, current, chosen, hover } = facts;
   const before = given.get(element) || [];
   const now = classes(row);
   if (String(before) !== String(now)) {
@@ -75,13 +77,17 @@ export function dress(element, row, { depth, opens, open, current, chosen, hover
   set(element, "tabindex", current ? "0" : "-1");
   set(element, "title", locked || help);
   set(element, "aria-level", String(depth + 1));
+  // The others may have no elements.
+  set(element, "aria-rowindex", String(facts.row));
+  set(element, "aria-posinset", String(facts.place));
+  set(element, "aria-setsize", String(facts.of));
   set(element, "aria-expanded", opens ? String(open) : undefined);
   set(element, "aria-selected", String(chosen));
   element.style.setProperty("--depth", String(depth));
 }
 
 /** @param {HTMLElement} element @param {string} name @param {string | undefined} value */
-function set(element, name, value) {
+export function set(element, name, value) {
   if (value === undefined) element.removeAttribute(name);
   else if (element.getAttribute(name) !== value) element.setAttribute(name, value);
 }

@@ -1,95 +1,41 @@
 // @ts-check
 /* The rows of a tree in the document. Of a long list only the rows in sight are drawn whole; each
- * other one is an element with its text, as high as before. A row that has the focus is never
- * moved in the document, as it would lose it, and half typed text with it; the others are put
- * round it. */
+ * other one is a line of text: near them in an element of its own, else in that of its stretch. A
+ * row that has the focus is never moved in the document, as it would lose it, and half typed text
+ * with it; the others are put round it. */
 
-import { render } from "../vendor/preact.js";
 import { rows } from "../wire/channel.js";
 import { refusals } from "../window/notices.js";
 import { degrees } from "../state.js";
-import { dress, isPlain } from "./row_element.js";
-import { lineText } from "./row_text.js";
 import { Sight } from "./sight.js";
+import { Slot } from "./slot.js";
+import { LENGTH, Stretch } from "./stretch.js";
 
-/** @typedef {import("./row_element.js").Facts} Facts */
-/** @typedef {{id: string, facts: Facts, view: () => any}} Drawn
- *   facts: what the row is drawn from, beside itself; view: what is in its element */
+/** @typedef {import("./slot.js").Drawn} Drawn */
 
 /** How long nothing changes before the texts of rows out of sight are brought up to date [ms]. */
 const REST = 500;
 
-/** A row in the document. */
-class Slot {
-  /** @param {Drawn} drawn @param {(slot: Slot) => void} changed */
-  constructor(drawn, changed) {
-    this.id = drawn.id;
-    this.drawn = drawn;
-    /** What it was drawn from. */
-    this.facts = "";
-    this.isWhole = false;
-    /** Whether the text that it has while it is not drawn whole may be an old one. */
-    this.isStale = true;
-    this.element = document.createElement("div");
-    this.element.className = "line";
-    this.element.dataset.row = this.id;
-    this.element.setAttribute("role", "row");
-    this.stop = rows.listen(this.id, () => changed(this));
-  }
+/** The lists by their trees. @type {WeakMap<Element, Pick<RowList, "touch" | "place">>} */
+export const lists = new WeakMap();
 
-  /** Whether it is drawn whole also out of sight. */
-  get isKept() {
-    const row = rows.get(this.id);
-    const { current, chosen, renaming } = this.drawn.facts;
-    return current || chosen || renaming || refusals.has(this.id) || Boolean(row && !isPlain(row));
-  }
+/** The element of a row that is shown, also of one out of sight: it is drawn whole for a moment.
+ * @param {Element | null} tree @param {string} id @returns {HTMLElement | null} */
+export const rowElement = (tree, id) => (tree && lists.get(tree)?.touch(id)) || null;
 
-  dress() {
-    const row = rows.get(this.id);
-    if (row) dress(this.element, row, this.drawn.facts);
-  }
-
-  /** Draw it whole, again where its facts are others. */
-  draw() {
-    if (!this.isWhole) this.element.replaceChildren();
-    this.isWhole = true;
-    this.element.classList.remove("line");
-    this.element.style.minHeight = "";
-    render(this.drawn.view(), this.element);
-  }
-
-  /** Leave its text. @param {number} height as it was drawn [px] */
-  shrink(height) {
-    render(null, this.element);
-    this.isWhole = false;
-    this.element.classList.add("line");
-    this.element.style.minHeight = `${height}px`;
-    this.isStale = true;
-  }
-
-  /** Show the text of a row that is not drawn whole. */
-  say() {
-    const row = rows.get(this.id);
-    const cell = this.element.firstElementChild || document.createElement("span");
-    if (!cell.isConnected) this.element.append(cell);
-    cell.setAttribute("role", "gridcell");
-    if (row) cell.textContent = lineText(row);
-    this.isStale = false;
-  }
-
-  remove() {
-    this.stop();
-    if (this.isWhole) render(null, this.element);
-    this.element.remove();
-  }
-}
+/** Where a row is that is shown, also one out of sight; null for any other.
+ * @param {Element} tree @param {string} id */
+export const rowPlace = (tree, id) => lists.get(tree)?.place(id) || null;
 
 export class RowList {
   /** @param {HTMLElement} host */
   constructor(host) {
     this.host = host;
+    lists.set(host, this);
     /** In the order in which they are shown. @type {Slot[]} */
     this.slots = [];
+    /** The same, so many at a time. @type {Stretch[]} */
+    this.stretches = [];
     /** @type {Map<string, Slot>} */
     this.byId = new Map();
     /** The row that was pressed last: what a hand holds stays. */
@@ -118,20 +64,24 @@ export class RowList {
     const wanted = new Set(shown.map(({ id }) => id));
     for (const slot of this.slots) {
       if (wanted.has(slot.id)) continue;
-      slot.remove();
+      slot.end();
       this.byId.delete(slot.id);
     }
     this.slots = shown.map((drawn) => this.slot(drawn));
+    this.divide();
     // A row is drawn in its place: what it shows over all else must be in the document.
-    this.order(this.slots.map(({ element }) => element));
+    this.order();
     this.slots.forEach((slot, at) => {
       const facts = JSON.stringify(shown[at].facts);
       slot.drawn = shown[at];
       if (slot.facts === facts) return;
       slot.facts = facts;
+      slot.isStale = true;
       slot.dress();
-      if (slot.isWhole || slot.isKept) slot.draw();
+      if (slot.isWhole) slot.draw();
     });
+    // Only with their texts they are as high as their rows.
+    for (const stretch of this.stretches) stretch.say();
     this.look();
   }
 
@@ -142,8 +92,20 @@ export class RowList {
     return slot;
   }
 
-  /** @param {HTMLElement[]} elements */
-  order(elements) {
+  /** Divide the rows into stretches. */
+  divide() {
+    const count = Math.ceil(this.slots.length / LENGTH);
+    for (const stretch of this.stretches.splice(count)) stretch.remove();
+    for (let at = 0; at < count; at++) {
+      const stretch = (this.stretches[at] ||= new Stretch());
+      stretch.slots = this.slots.slice(at * LENGTH, (at + 1) * LENGTH);
+      for (const slot of stretch.slots) slot.stretch = stretch;
+    }
+  }
+
+  /** Bring the elements into the order of the rows. */
+  order() {
+    const elements = this.stretches.flatMap((stretch) => stretch.elements);
     const focused = elements.findIndex((element) => element.contains(document.activeElement));
     for (let i = focused; i > 0; i--) {
       if (elements[i].previousSibling !== elements[i - 1]) elements[i].before(elements[i - 1]);
@@ -158,26 +120,41 @@ export class RowList {
   /** Draw the rows whole that are in sight or in a hand, and of each other one its text. */
   look() {
     const { slots } = this;
-    const elements = slots.map(({ element }) => element);
-    const [first, end] = this.sight.of(elements);
+    const [first, end] = this.sight.of(slots, ({ place }) => place);
     const at = document.activeElement;
     /** @param {Slot} slot */
     const isHeld = ({ id, element, isKept }) =>
-      isKept || id === this.pressed || element.contains(at);
-    const wanted = slots.map((slot, i) => (i >= first && i < end) || isHeld(slot));
-    const leave = slots.filter(({ isWhole }, i) => isWhole && !wanted[i]);
-    const heights = leave.map(({ element }) => element.offsetHeight);
+      isKept || id === this.pressed || element?.contains(at);
+    const wanted = new Set(slots.filter((slot, i) => (i >= first && i < end) || isHeld(slot)));
+    const leave = slots.filter((slot) => slot.isWhole && !wanted.has(slot));
+    const heights = leave.map(({ element }) => element?.offsetHeight || 0);
     leave.forEach((slot, i) => slot.shrink(heights[i]));
-    slots.forEach((slot, i) => {
-      if (wanted[i]) this.touch(slot.id);
-      else if (slot.isStale) slot.say();
-    });
+    for (const stretch of this.stretches) {
+      const near = stretch.slots.find((slot) => wanted.has(slot));
+      if (near) near.make();
+      else stretch.close();
+    }
+    this.order();
+    for (const slot of wanted) if (!slot.isWhole) slot.draw();
+    for (const stretch of this.stretches) stretch.say();
   }
 
   /** Draw a row whole, before the focus or a hand is in it. @param {string} id */
   touch(id) {
     const slot = this.byId.get(id);
-    if (slot && !slot.isWhole) slot.draw();
+    if (!slot) return null;
+    if (!slot.element) {
+      slot.make();
+      this.order();
+      slot.stretch?.say();
+    }
+    if (!slot.isWhole) slot.draw();
+    return slot.element;
+  }
+
+  /** @param {string} id */
+  place(id) {
+    return this.byId.get(id)?.place;
   }
 
   /** A row is pressed: it is drawn whole until another one is. @param {string} id */
@@ -190,7 +167,8 @@ export class RowList {
   change(slot) {
     if (slot.isWhole || refusals.has(slot.id)) {
       slot.dress();
-      return this.touch(slot.id);
+      this.touch(slot.id);
+      return;
     }
     slot.isStale = true;
     this.changes += 1;
@@ -210,7 +188,11 @@ export class RowList {
 
   /** Rows that are drawn whole again have other heights. */
   forgetHeights() {
-    for (const { element } of this.slots) element.style.minHeight = "";
+    for (const slot of this.slots) {
+      slot.height = 0;
+      slot.size();
+    }
+    for (const stretch of this.stretches) stretch.size();
   }
 
   /** Take all rows out. */

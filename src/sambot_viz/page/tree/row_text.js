@@ -33,9 +33,9 @@ const GAP = "\u2003";
 
 /** A row in one line: its name, and its value as its cell shows it. @param {Row} row */
 export function lineText(row) {
-  if (row.whole) return nameText(row);
-  const value = cellText(row);
-  return value ? row.name + GAP + value : nameText(row);
+  const value = row.whole ? "" : cellText(row);
+  const text = value ? row.name + GAP + value : nameText(row);
+  return text.replace(/\s*\n\s*/g, " ");
 }
 
 /** @param {Row} row @returns {string} */

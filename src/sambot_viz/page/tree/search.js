@@ -6,6 +6,7 @@ import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
 import { focusWhole } from "../cells/field.js";
 import { act, ONLINE, rows } from "../wire/channel.js";
 import { Cell, useAfter, useRow } from "../state.js";
+import { rowElement } from "./row_list.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
@@ -135,13 +136,11 @@ export function searchKey(event, panel, { finds, first: firstOf, enter, clear })
   else if (event.key === "Enter" || event.key === "ArrowDown") {
     // The text decides: keys come faster than the page is drawn.
     const first = firstOf ? firstOf(text) : firstFound(panel, text, finds);
-    const any = event.key === "ArrowDown" && !text.trim() ? "[data-row]" : null;
-    const which = first ? `[data-row="${CSS.escape(first)}"]` : any;
-    const row = which ? document.querySelector(`[data-panel="${panel}"] ${which}`) : null;
-    // A row out of sight has its cells when it has the focus.
-    /** @type {HTMLElement | null} */ (row)?.focus();
-    const inside = enter && row?.querySelector(enter);
-    if (inside) /** @type {HTMLElement} */ (inside).focus();
+    const any = event.key === "ArrowDown" && !text.trim() ? rows.children(`panel:${panel}`) : [];
+    const id = first ?? any.find((one) => !rowOf(one).apart);
+    const row = id ? rowElement(document.querySelector(`[data-panel="${panel}"]`), id) : null;
+    row?.focus();
+    if (enter) row?.querySelector(enter)?.focus();
     gone = Boolean(row);
   } else return undefined;
   event.preventDefault();

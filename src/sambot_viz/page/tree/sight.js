@@ -23,9 +23,6 @@ export function within(list, top, bottom, place) {
   return [from, first((one) => place(one).top >= bottom, from)];
 }
 
-/** @param {HTMLElement} element */
-const place = (element) => element.getBoundingClientRect();
-
 export class Sight {
   /**
    * @param {HTMLElement} host the tree; its parent scrolls it, or what that is in
@@ -51,10 +48,15 @@ export class Sight {
       this.observer.observe(one);
   }
 
-  /** The rows that are in sight. @param {HTMLElement[]} elements @returns {[number, number]} */
-  of(elements) {
-    const box = place(this.host.parentElement || this.host);
-    return within(elements, Math.max(0, box.top), Math.min(innerHeight, box.bottom), place);
+  /**
+   * The part of the rows that is in sight.
+   * @template T
+   * @param {T[]} list @param {(one: T) => {top: number, bottom: number}} place
+   * @returns {[number, number]}
+   */
+  of(list, place) {
+    const box = (this.host.parentElement || this.host).getBoundingClientRect();
+    return within(list, Math.max(0, box.top), Math.min(innerHeight, box.bottom), place);
   }
 
   end() {

@@ -6,7 +6,7 @@ import { act, ONLINE, rows } from "../wire/channel.js";
 import { isTyping } from "../window/keys.js";
 import { Menu } from "../window/menu.js";
 import { Divider } from "./divider.js";
-import { RowList } from "./row_list.js";
+import { RowList, rowElement } from "./row_list.js";
 import { copyRow, valueText } from "./row_text.js";
 import { useRowMouse } from "./row_mouse.js";
 import { RowView } from "./row_view.js";
@@ -155,8 +155,8 @@ function RowTree(props) {
       onKey,
     });
   return html`<div class="treebox" style=${`--split: ${(ratio * 100).toFixed(1)}%`}>
-    <div class="tree" role="treegrid" aria-label=${label} data-panel=${panel} ref=${element}
-      ...${mouse} onKeyDown=${key}
+    <div class="tree" role="treegrid" aria-label=${label} aria-rowcount=${shown.length}
+      data-panel=${panel} ref=${element} ...${mouse} onKeyDown=${key}
       onPointerDown=${() => (led.current = "")}></div>
     ${split && html`<${Divider} panel=${panel} ratio=${ratio} />`}
     ${
@@ -166,9 +166,6 @@ function RowTree(props) {
     }
   </div>`;
 }
-
-/** @param {HTMLElement} tree @param {string} id @returns {HTMLElement | null} */
-const rowElement = (tree, id) => tree.querySelector(`[data-row="${CSS.escape(id)}"]`);
 
 /** Where the menu of a row opens: at the mouse, or below the row. @param {Press | Key} event */
 function menuPlace(event) {
@@ -190,7 +187,7 @@ function menuItems(row, menu) {
  * @param {Ref} element
  * @param {Shown} shown
  * @param {{current: TreeApi}} api
- * @param {(id: string, open: boolean) => Omit<Facts, "depth">} factsOf
+ * @param {(id: string, open: boolean) => Omit<Facts, "depth" | "row" | "place" | "of">} factsOf
  */
 function useRowList(element, shown, api, factsOf) {
   const list = useRef(/** @type {RowList | null} */ (null));
@@ -198,16 +195,29 @@ function useRowList(element, shown, api, factsOf) {
     list.current = new RowList(element.current);
     return () => list.current?.clear();
   }, []);
-  useLayoutEffect(() =>
+  useLayoutEffect(() => {
+    const places = placesOf(shown);
     list.current?.show(
-      shown.map(({ id, depth, open }) => {
-        const facts = { depth, ...factsOf(id, open) };
+      shown.map(({ id, depth, open }, at) => {
+        const facts = { depth, row: at + 1, ...places[at], ...factsOf(id, open) };
         const view = () => html`<${RowView} id=${id} api=${api} ...${facts} />`;
         return { id, facts, view };
       }),
-    ),
-  );
+    );
+  });
   return list;
+}
+
+/** Which each row is of how many below the same one. @param {Shown} shown */
+function placesOf(shown) {
+  /** Of the rows that the last one is below. @type {{count: number}[]} */
+  const around = [];
+  const places = shown.map(({ depth }) => {
+    around.length = depth + 1;
+    const below = (around[depth] ||= { count: 0 });
+    return { place: (below.count += 1), below };
+  });
+  return places.map(({ place, below }) => ({ place, of: below.count }));
 }
 
 /**
