@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 import robots
+from made_recording import write_recording
 from presses import press_all
 from viewer_page import ViewerPage
 
@@ -114,6 +116,27 @@ def test_nodes_grow_little_with_a_robot_and_listeners_do_not(
     assert many[1] - few[1] <= 30
     assert many[0] < 1200
     assert many[1] < 500
+
+
+def test_nodes_grow_little_with_the_topics_of_a_recording(
+    tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    found: list[int] = []
+    for count in (FEW, MANY):
+        texts = {f"/topic_{at:03}": "said" for at in range(count)}
+        bag = write_recording(tmp_path / f"{count}.mcap", texts)
+        with Visualizer(source=f"bag:{bag}", port=0, look="rviz") as viz:
+            viewer = open_viewer(viz.url)
+            viewer.settle(viz)
+            viewer.user.tab("Topics")
+            viewer.user.until(lambda v=viewer: len(v.user.rows("Topics")) >= FEW)
+            found.append(counts(viewer)[0])
+            if count == MANY:
+                steps = viewer.user.find("combobox", "Step to messages of")
+                viewer.user.choose(steps, "/topic_222")
+            viewer.expects_errors = True
+    # Of the rows in sight, and of those near them, some may be others.
+    assert found[1] - found[0] <= MOST_NODES * (MANY - FEW) + 100
 
 
 @pytest.mark.parametrize("panel", ["joints", "displays"])

@@ -336,10 +336,10 @@ class User:
     def choose(self, thing: Thing, option: str) -> None:
         """Choose from a list by the keyboard: go to it and type the option."""
         self.go_to(thing)
-        has = _HAS_OPTION.replace("OPTION", json.dumps(option.lower()))
-        # The list may be the one that was there before.
-        self.until(lambda: self._ask(thing, has)[0], why=f"there is no {option}")
         self.page.call("DOM.focus", {"backendNodeId": thing.node})
+        has = _HAS_OPTION.replace("OPTION", json.dumps(option.lower()))
+        # The list may be the one that was there before, or be filled by the focus.
+        self.until(lambda: self._ask(thing, has)[0], why=f"there is no {option}")
         self.page.keyboard.type_quickly(option)
         self.until(lambda: self._ask(thing, has)[1], why=f"{option} is not chosen")
 

@@ -292,13 +292,18 @@ function Times({ ros, first }) {
   )}</table>`;
 }
 
-/** Whose messages the steps go to. */
+/** Whose messages the steps go to. A recording may have hundreds of topics, and each choice is seven
+ * nodes: the others than the chosen one are there as soon as a hand or the keys come. */
 function Topic() {
   const row = useRow("player/topic");
+  const [filled, setFilled] = useState(false);
   if (!row) return null;
+  const fill = () => setFilled(true);
+  const options = (filled && row.options) || [row.value];
   return html`<select class="topic needs-control" aria-label="Step to messages of" title=${row.help}
-    value=${row.value} onChange=${(/** @type {any} */ event) => send("player/topic", event.currentTarget.value)}>
-    ${(row.options || []).map(
+    value=${row.value} onPointerDown=${fill} onFocus=${fill}
+    onChange=${(/** @type {any} */ event) => send("player/topic", event.currentTarget.value)}>
+    ${options.map(
       (/** @type {string} */ one) =>
         html`<option value=${one} selected=${one === row.value}>${one === "any" ? "any topic" : one}</option>`,
     )}
