@@ -90,6 +90,7 @@ def test_links_of_the_documents_lead_to_files() -> None:
         "docs/deploy.md",
         "docs/first-robot.md",
         "docs/live.md",
+        "docs/viser.md",
         ".github/CONTRIBUTING.md",
         ".github/SECURITY.md",
         "CHANGELOG.md",
