@@ -26,8 +26,8 @@ WRITERS: Mapping[str, Collection[str]] = {
 }  # fmt: skip
 """Module → what of it writes to a terminal or a log."""
 ALLOWED = {
-    # Which records of other libraries there are at all.
-    "viser_private/connections.py": {"logging.getLogger"},
+    # Which records of other libraries there are at all, and that viser prints none.
+    "viser_private/connections.py": {"logging.getLogger", "rich.print"},
     # To a pipe of its child.
     "robot/xacro/expansion.py": {"os.write"},
 }
