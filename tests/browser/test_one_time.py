@@ -23,6 +23,8 @@ Visualization Manager:
     - Class: rviz_default_plugins/PointCloud2
       Enabled: true
       Topic: {Value: /cloud}
+      Style: Points
+      Size (Pixels): 1
     - Class: rviz_default_plugins/Polygon
       Enabled: true
       Topic: {Value: /outline}

@@ -131,8 +131,8 @@ def test_both_connections_of_a_page_are_one_client_in_any_order(
     for channel in (early, late):
         answers(channel)
     early.send(f'["{JOINT}",0.5]')
-    # Undo is offered where the joint was moved, and nowhere else. What is known late, as
-    # that the model was checked, may come between the two.
+    # Undo is offered where the joint was moved, and nowhere else. What is known late,
+    # as that the model was checked, may come between the two.
     told = set[str]()
     while told != {"session", "browser"}:
         told.add(decode(early.recv(timeout=patience(10.0)))["of"])
