@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from sambot_viz.geometry import (
@@ -16,8 +18,14 @@ from sambot_viz.geometry import (
 )
 
 
+def stacked(matrices: Iterable[Matrix]) -> Matrix:
+    """Return one (N, 4, 4) array of (4, 4) matrices; there is one at least."""
+    # It takes half the time of `np.array`.
+    return np.reshape(np.concatenate(tuple(matrices)), (-1, 4, 4))
+
+
 def wxyzs_from_matrices(T: Matrix) -> list[Wxyz]:
-    """Return the same of each of (N, 4, 4) matrices, to the last digit."""
+    """Return `wxyz_from_matrix` of each of (N, 4, 4) matrices, to the last digit."""
     # As `xyzw_from_matrix`, where the trace is above 0.
     trace: Matrix = T[:, 0, 0] + T[:, 1, 1] + T[:, 2, 2]
     root = np.sqrt(np.maximum(trace, 0.0) + 1.0)

@@ -18,6 +18,7 @@ from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import Sample
 from sambot_viz.frames.transform import Transform, compose
 from sambot_viz.geometry import Matrix
+from sambot_viz.matrices import stacked
 
 _SEEN_LIMIT = 4096
 """Upper bound of the look-up cache."""
@@ -162,13 +163,12 @@ class FrameTree(FrameHierarchy):
         if not edges:
             return
         # One array: its numbers are looked at together, and nobody else has it.
-        matrices: Matrix = np.concatenate(tuple(transforms.values()))
+        matrices = stacked(transforms.values())
         if not np.isfinite(matrices).all():
             is_bad = (c for c, T in transforms.items() if not np.isfinite(T).all())
             raise _refused(next(is_bad))
         matrices.flags.writeable = False
-        rows = np.reshape(matrices, (-1, 4, 4))
-        for edge, matrix in zip(edges, rows, strict=True):
+        for edge, matrix in zip(edges, matrices, strict=True):
             edge.move(matrix, stamp)
         self._seen.clear()
 

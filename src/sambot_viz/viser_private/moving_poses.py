@@ -232,8 +232,7 @@ def set_pose(
 ) -> None:
     """Give a node another rotation, position [m] or both, and send them.
 
-    viser's own setters compare every value with the last one by `numpy.allclose`, which
-    is two thirds of what a step of a joint costs, and which drops small steps.
+    viser's own setters compare every value with the last one, and drop small steps.
 
     Args:
         handle: the node; it was not removed.

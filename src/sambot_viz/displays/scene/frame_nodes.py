@@ -25,7 +25,7 @@ from sambot_viz.geometry import (
     unit_wxyz,
     wxyz_from_matrix,
 )
-from sambot_viz.matrices import inverse_matrix, wxyzs_from_matrices
+from sambot_viz.matrices import inverse_matrix, stacked, wxyzs_from_matrices
 from sambot_viz.viser_private import is_removed, set_poses
 
 Pose = tuple[Wxyz, Vector3]
@@ -132,7 +132,7 @@ def _poses(matrices: Sequence[Matrix]) -> list[Pose]:
     """Return the poses of (4, 4) matrices."""
     if len(matrices) <= _FEW:
         return [_pose(T) for T in matrices]
-    all_of_them: Matrix = np.reshape(np.concatenate(matrices), (-1, 4, 4))
+    all_of_them = stacked(matrices)
     positions = all_of_them[:, :3, 3]
     if not np.abs(positions).max() < FARTHEST:
         return [_pose(T) for T in matrices]

@@ -398,6 +398,8 @@ class RobotState:
         if frames:
             self._tree.update(frames)
         for frame, T in poses.items():
+            # It is kept here and by the recorder.
+            T.flags.writeable = False
             self._added.moved(frame, Transform.trusted(T))
         return frames
 
