@@ -73,15 +73,16 @@ class Rows(Sequence[Any]):
         Raises:
             AttributeError: the elements have no such number.
         """
-        found = np.empty((self._count, len(paths)), np.float64)
+        # Each field in one piece: they come twice as fast as into the rows of all.
+        found = np.empty((len(paths), self._count), np.float64)
         for column, path in enumerate(paths):
             if path not in self._second.numbers:
                 raise AttributeError(path)
             place, kind = self._first.numbers[path]
             begin = self._first.begin + place
-            found[0, column] = np.frombuffer(self._data, kind, 1, begin)[0]
-            found[1:, column] = self._rest(*self._second.numbers[path])
-        return found
+            found[column, 0] = np.frombuffer(self._data, kind, 1, begin)[0]
+            found[column, 1:] = self._rest(*self._second.numbers[path])
+        return np.transpose(found)
 
     def are_uniform(self) -> bool:
         """Return whether all elements but the first have the same texts.

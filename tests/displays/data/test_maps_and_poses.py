@@ -171,13 +171,13 @@ def test_only_a_path_that_has_changed_is_drawn(
 
     shown = messages("Path", path_of(0, 1), path_of(0, 2), **{"Buffer Length": 2})
     assert len(shown.node_names()) == 2
-    draw, drawn = LineNode.draw, list[LineNode]()
+    draw, drawn = LineNode.draw_chain, list[LineNode]()
 
     def count(node: LineNode, *args: Any, **options: Any) -> None:
         drawn.append(node)
         draw(node, *args, **options)
 
-    monkeypatch.setattr(LineNode, "draw", count)
+    monkeypatch.setattr(LineNode, "draw_chain", count)
     shown.set("Buffer Length", 3)
     assert drawn == []
     shown.set("Alpha", 0.5)

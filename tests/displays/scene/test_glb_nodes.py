@@ -41,6 +41,33 @@ def test_a_pose_is_sent_without_the_lines(drawn: Drawn) -> None:
     assert drawn.bytes() < 100
 
 
+@pytest.mark.parametrize("count", [2, 3, 10_000])
+def test_a_chain_sends_each_point_once(
+    drawn: Drawn, count: int, document: Document, numbers: Numbers
+) -> None:
+    points = np.arange(3 * count, dtype=np.float32).reshape(-1, 3)
+    node = LineNode(drawn.scene, "/c")
+    node.draw_chain(points, (51, 0, 255), alpha=0.4)
+    file = drawn.files()["/c"]
+    assert np.array_equal(numbers(file, "POSITION"), points)
+    (primitive,) = document(file)["meshes"][0]["primitives"]
+    assert (primitive["mode"], list(primitive["attributes"])) == (3, ["POSITION"])
+    (material,) = document(file)["materials"]
+    color = material["pbrMetallicRoughness"]["baseColorFactor"]
+    assert (color, material["alphaMode"]) == ([0.2, 0.0, 1.0, 0.4], "BLEND")
+    (placed,) = node.placed(np.eye(4), None)
+    assert np.array_equal(placed.segments, chain_segments(points))
+
+
+def test_no_line_of_a_chain_goes_to_what_is_not_finite(
+    drawn: Drawn, numbers: Numbers
+) -> None:
+    points = np.array([[0, 0, 0], [1, 0, 0], [1e300, 0, 0], [2, 0, 0], [3, 0, 0]])
+    LineNode(drawn.scene, "/c").draw_chain(points, RED)
+    ends = numbers(drawn.files()["/c"], "POSITION")
+    assert ends[:, 0].tolist() == [0, 1, 2, 3]
+
+
 def test_other_lines_are_one_message(drawn: Drawn) -> None:
     node = RibbonNode(drawn.scene, "/r")
     node.draw(CORNER, 0.1, RED)

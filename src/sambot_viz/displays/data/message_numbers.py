@@ -128,9 +128,17 @@ def poses_of(poses: Any, path: str = "") -> tuple[Floats, Floats]:
     Raises:
         MessageRefused: one is not finite, or there are too many.
     """
+    turns, places = given_poses(poses, path)
+    return unit_wxyzs(turns), places
+
+
+def given_poses(poses: Any, path: str = "") -> tuple[Floats, Floats]:
+    """Return poses as `poses_of` does, with rotations of any length, as they came."""
     require_few(len(poses))
-    turns = _finite(numbers_of(poses, *(f"{path}orientation.{one}" for one in "wxyz")))
-    return unit_wxyzs(turns), points_of(poses, f"{path}position.")
+    turns = (f"{path}orientation.{one}" for one in "wxyz")
+    places = (f"{path}position.{one}" for one in "xyz")
+    numbers = _finite(numbers_of(poses, *turns, *places))
+    return numbers[:, :4], numbers[:, 4:]
 
 
 def covariance_of(pose: Any) -> Floats:

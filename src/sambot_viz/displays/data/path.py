@@ -11,16 +11,17 @@ import viser
 from sambot_viz import limits
 from sambot_viz.displays.data.kept import Taken
 from sambot_viz.displays.data.message_filter import MessageFilterDisplay
-from sambot_viz.displays.data.message_numbers import Floats, poses_of
+from sambot_viz.displays.data.message_numbers import Floats, given_poses
 from sambot_viz.displays.data.properties import metres
 from sambot_viz.displays.data.topic_display import topic_property
 from sambot_viz.displays.display import DisplayContext
 from sambot_viz.displays.picking.placed import HERE, Placed
 from sambot_viz.displays.scene.frame_nodes import position_of, short_id
-from sambot_viz.displays.scene.lines import LineNode, chain_segments
+from sambot_viz.displays.scene.lines import LineNode
 from sambot_viz.displays.scene.ribbons import RibbonNode
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode, AxesNode
 from sambot_viz.geometry import Vector3, wxyz_from_matrix
+from sambot_viz.matrices import unit_wxyzs
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     ColorProperty,
@@ -35,7 +36,7 @@ LINES, RIBBONS = "Lines", "Billboards"
 NONE, AXES, ARROWS = "None", "Axes", "Arrows"
 _IF_AXES, _IF_ARROWS = ("Pose Style", AXES), ("Pose Style", ARROWS)
 Poses = tuple[Floats, Floats]
-"""Rotations, (N, 4), and positions, (N, 3) [m]."""
+"""Rotations of any length, (N, 4), and positions, (N, 3) [m]."""
 
 
 class _PathNodes:
@@ -129,7 +130,7 @@ class PathDisplay(MessageFilterDisplay[Poses]):
 
     def read(self, message: Any) -> Poses:
         """Return the rotations and the positions of the poses of a path."""
-        return poses_of(message.poses, "pose.")
+        return given_poses(message.poses, "pose.")
 
     def placed(self) -> Iterator[Placed]:
         """Yield the paths, which cannot be selected, as in RViz."""
@@ -180,16 +181,17 @@ class PathDisplay(MessageFilterDisplay[Poses]):
             nodes.ribbon.draw(points, width, color, alpha=alpha, **place)
         else:
             nodes.ribbon.remove()
-            nodes.lines.draw(chain_segments(points), color, alpha=alpha, **place)
-        style, poses = str(get("Pose Style")), path.read
+            nodes.lines.draw_chain(points, color, alpha=alpha, **place)
+        style, turns = str(get("Pose Style")), path.read[0]
         if style == AXES:
             sizes = float(get("Length")), float(get("Radius"))
-            nodes.axes.draw(*poses, *sizes, **place)
+            nodes.axes.draw(unit_wxyzs(turns), points, *sizes, **place)
         else:
             nodes.axes.remove()
         if style == ARROWS:
             shaft = float(get("Shaft Length")), float(get("Shaft Diameter"))
             head = float(get("Head Length")), float(get("Head Diameter"))
-            nodes.arrows.draw(*poses, shaft, head, get("Pose Color"), **place)
+            look = shaft, head, get("Pose Color")
+            nodes.arrows.draw(unit_wxyzs(turns), points, *look, **place)
         else:
             nodes.arrows.remove()

@@ -23,13 +23,14 @@ from sambot_viz.meshes.glb import glb_file
 from sambot_viz.viser_private import send_file
 
 Array = npt.NDArray[Any]
-POINTS, LINES, TRIANGLES = 0, 1, 4
+POINTS, LINES, LINE_STRIP, TRIANGLES = 0, 1, 3, 4
 _UINT8, _UINT32, _FLOAT = 5121, 5125, 5126
 ONE_PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mNg"
     "AAAAAgAB5Sfe/AAAAABJRU5ErkJggg=="
 )
 """A PNG file: with it a part has a texture, whose picture the page makes."""
+WHITE: Array = np.full(4, 255, np.uint8)
 _LONG = 65_536
 """A file of so many bytes is sent as it is."""
 _TOGETHER = 16
@@ -156,6 +157,7 @@ def drawn_glb(
     mode: int = TRIANGLES,
     indices: Array | None = None,
     blended: bool = False,
+    color: Array = WHITE,
     image: bytes | None = None,
     has_bounds: bool = True,
 ) -> bytes:
@@ -166,9 +168,10 @@ def drawn_glb(
         attributes: glTF's name → (N, 1 to 4) float32 or uint8, 0 to 255 for 0 to 1;
             none for a file that only carries `extras`.
         extras: what else the page has to know.
-        mode: `POINTS`, `LINES` or `TRIANGLES`.
+        mode: `POINTS`, `LINES`, `LINE_STRIP` or `TRIANGLES`.
         indices: of the corners of the triangles, uint32.
         blended: whether alpha is looked at; then it writes no depth.
+        color: of all vertices, (4,) uint8, which those in the attributes multiply.
         image: a PNG file, the texture.
         has_bounds: whether the page looks at the bounds of the positions, to leave out
             what is not in sight.
@@ -191,7 +194,7 @@ def drawn_glb(
     body.accessors[first] |= _limits(position) if has_bounds else _NO_LIMITS
     if indices is not None:
         primitive["indices"] = body.add(np.reshape(indices.astype("<u4"), (-1, 1)))
-    surface: dict[str, Any] = {"baseColorFactor": [1, 1, 1, 1]}
+    surface: dict[str, Any] = {"baseColorFactor": (color / 255).tolist()}
     if image is not None:
         surface["baseColorTexture"] = {"index": 0}
         nearest, clamped = 9728, 33071

@@ -13,6 +13,7 @@ from sambot_viz.displays.picking.placed_lines import PlacedLines
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.scene.frame_nodes import any_gone, remove_all
 from sambot_viz.displays.scene.glb_node import (
+    LINE_STRIP,
     LINES,
     GlbNode,
     drawn_glb,
@@ -164,6 +165,44 @@ class LineNode(LinesNode):
                 {"POSITION": points, "COLOR_0": colors},
                 mode=LINES,
                 blended=bool(colors[:, 3].min() < 255),
+            ),
+            wxyz,
+            position,
+        )
+
+    def draw_chain(
+        self,
+        points: npt.ArrayLike,
+        color: Rgb,
+        *,
+        alpha: float = 1.0,
+        wxyz: Wxyz = IDENTITY,
+        position: Vector3 = ORIGIN,
+    ) -> None:
+        """Draw a line from each point to the next, of which each is sent once.
+
+        Args:
+            points: (N, 3) [m]; to and from one that is not finite there is no line.
+            color: 0 to 255.
+            alpha: as for `draw`, and so are the others.
+            wxyz: rotation in the frame of the node above.
+            position: there [m].
+        """
+        at: Floats = np.ascontiguousarray(single(points))
+        if len(at) < 2 or not np.isfinite(at).all():
+            chain = chain_segments(at)
+            self.draw(chain, color, alpha=alpha, wxyz=wxyz, position=position)
+            return
+        (rgba,) = rgba_rows(color, alpha, 1)
+        self._lines = lambda: (chain_segments(at), 0.0)
+        self.show(
+            (at, rgba),
+            lambda: drawn_glb(
+                "lines",
+                {"POSITION": at},
+                mode=LINE_STRIP,
+                blended=bool(rgba[3] < 255),
+                color=rgba,
             ),
             wxyz,
             position,
