@@ -187,6 +187,21 @@ class User:
         """The labels of the rows of a panel that are unfolded."""
         return [path[-1] for path, _ in rows_of(self.see().one("treegrid", panel))]
 
+    def new_row(self, panel: str, before: Sequence[str]) -> str:
+        """Wait for a row that was not in a panel before; return its label.
+
+        A row whose cells are not known yet is called after all that is in it.
+        """
+
+        def found() -> str:
+            for path, row in rows_of(self.see().one("treegrid", panel)):
+                is_known = row.all("gridcell") or self._ask(row, _IS_LINE)
+                if path[-1] not in before and is_known:
+                    return path[-1]
+            raise AssertionError(f"no row in {panel} but {before}")
+
+        return self.until(found)
+
     def reads(self, text: str, timeout: float = PATIENCE) -> None:
         """Wait until the page shows a text."""
         self.until(lambda: text in self.see().text, timeout, f"{text!r} is not shown")

@@ -123,9 +123,7 @@ def test_task_42_keep_a_view_and_return_to_it(s: Desk) -> None:
     s.user.until(lambda: is_near(s, "Yaw", 2.2))
     before = s.user.rows("Views")
     s.user.click("button", "Save", ("region", "Views"))
-    saved = s.user.until(lambda: [n for n in s.user.rows("Views") if n not in before])[
-        0
-    ]
+    saved = s.user.new_row("Views", before)
     assert "Orbit" in saved
     set_number(s, "Distance", "5")
     set_number(s, "Yaw", "0.3")

@@ -120,7 +120,7 @@ def test_task_68_a_saved_view_and_a_property_of_a_tool_come_back(s: Desk) -> Non
     user.until(lambda: "Angle" in user.rows("Views"))
     before = user.rows("Views")
     user.click("button", "Save", VIEWS)
-    (saved,) = user.until(lambda: [n for n in user.rows("Views") if n not in before])
+    saved = user.new_row("Views", before)
 
     def is_seen() -> bool:
         place = user.place(user.row("Views", saved))
