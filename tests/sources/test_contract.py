@@ -214,8 +214,10 @@ def test_it_can_do_what_it_says(world: World) -> None:
     source = world.source
     assert source.capabilities <= set(get_args(Capability))
     assert {"topics", "subscribe", "latched"} <= source.capabilities
-    # Each of these is of another issue; a source that has one says so here.
-    assert not source.capabilities & {"graph", "parameters", "publish", "call"}
+    # No source has these yet; one that has them says so here.
+    assert not source.capabilities & {"parameters", "call"}
+    is_live = source.live is not None
+    assert ({"publish", "graph"} <= source.capabilities) == is_live
     assert ("seek" in source.capabilities) == (source.playback is not None)
     before = source.clock_ns()
     assert before > 0

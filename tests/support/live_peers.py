@@ -11,10 +11,19 @@ import socket
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 import foxglove
-from foxglove.websocket import Capability, ChannelView, Client, ServerListener
+from foxglove.websocket import (
+    Capability,
+    ChannelView,
+    Client,
+    ClientChannel,
+    ConnectionGraph,
+    ServerListener,
+    StatusLevel,
+)
 from patience import until
 
 from sambot_viz.sources.message import Recorded
@@ -65,6 +74,15 @@ class Inbox:
         )
 
 
+@dataclass(frozen=True)
+class Came:
+    """A message that a client has published: CDR, or what JSON says."""
+
+    topic: str
+    type_name: str
+    content: Any
+
+
 class LivePeer(ABC):
     """A robot with one transport."""
 
@@ -94,6 +112,22 @@ class LivePeer(ABC):
     def subscribed(self) -> list[str]:
         """Topics that clients have subscribed to, sorted; one for each subscription."""
 
+    @abstractmethod
+    def advertised(self) -> list[tuple[str, str]]:
+        """Topics that clients publish now, and their types."""
+
+    @abstractmethod
+    def came(self) -> list[Came]:
+        """What clients have published."""
+
+    @abstractmethod
+    def listen_as(self, topic: str, *nodes: str) -> None:
+        """Let nodes have subscribed to a topic."""
+
+    @abstractmethod
+    def complain(self, words: str) -> None:
+        """Tell all clients of an error."""
+
 
 class FoxglovePeer(LivePeer, ServerListener):
     """The server of Foxglove's SDK, which keeps latched messages as the bridge does."""
@@ -107,12 +141,19 @@ class FoxglovePeer(LivePeer, ServerListener):
         self._channels: dict[str, foxglove.Channel] = {}
         self._latched: dict[str, list[bytes]] = {}
         self._subscribed: list[tuple[int, str]] = []
+        self._advertised: dict[tuple[int, int], tuple[str, str]] = {}
+        self._came: list[Came] = []
         self.start()
 
     def start(self) -> None:
         options: dict[str, Any] = {
             "name": "robot",
-            "capabilities": [Capability.Time, Capability.ConnectionGraph],
+            "capabilities": [
+                Capability.Time,
+                Capability.ConnectionGraph,
+                Capability.ClientPublish,
+            ],
+            "supported_encodings": ["cdr", "json"],
             # Else the oldest of what is published at once goes missing.
             "message_backlog_size": 100_000,
             **self.options,
@@ -135,6 +176,7 @@ class FoxglovePeer(LivePeer, ServerListener):
             self.server.stop()
             self.server = None
             self._subscribed.clear()
+            self._advertised.clear()
 
     def advertise(
         self,
@@ -171,6 +213,34 @@ class FoxglovePeer(LivePeer, ServerListener):
 
     def subscribed(self) -> list[str]:
         return sorted(topic for _, topic in self._subscribed)
+
+    def advertised(self) -> list[tuple[str, str]]:
+        return list(self._advertised.values())
+
+    def came(self) -> list[Came]:
+        return list(self._came)
+
+    def listen_as(self, topic: str, *nodes: str) -> None:
+        graph = ConnectionGraph()
+        graph.set_subscribed_topic(topic, list(nodes))
+        assert self.server is not None
+        self.server.publish_connection_graph(graph)
+
+    def complain(self, words: str) -> None:
+        assert self.server is not None
+        self.server.publish_status(words, StatusLevel.Error)
+
+    def on_client_advertise(self, client: Client, channel: ClientChannel) -> None:
+        named = channel.topic, channel.schema_name
+        self._advertised[client.id, channel.id] = named
+
+    def on_client_unadvertise(self, client: Client, client_channel_id: int) -> None:
+        self._advertised.pop((client.id, client_channel_id), None)
+
+    def on_message_data(
+        self, client: Client, client_channel_id: int, data: bytes
+    ) -> None:
+        self._came.append(Came(*self._advertised[client.id, client_channel_id], data))
 
     def on_subscribe(self, client: Client, channel: ChannelView) -> None:
         self._subscribed.append((client.id, channel.topic))

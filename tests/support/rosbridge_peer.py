@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from live_peers import STRING, WAIT, LivePeer, cdr_string, free_port
+from live_peers import STRING, WAIT, Came, LivePeer, cdr_string, free_port
 from patience import until
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import Server, ServerConnection, serve
@@ -83,6 +83,7 @@ class RosbridgePeer(LivePeer):
             "/rosapi/topics_and_raw_types": self._raw_topics,
             "/rosapi/topics": self._topics,
             "/rosapi/publishers": self._publishers,
+            "/rosapi/subscribers": self._subscribers,
         }
         self.is_json = False
         self.operations: list[dict[str, Any]] = []
@@ -91,6 +92,8 @@ class RosbridgePeer(LivePeer):
         self._server: Server | None = None
         self._thread: threading.Thread | None = None
         self._clients: set[ServerConnection] = set()
+        self._advertised: dict[str, str] = {}
+        self._listeners: dict[str, list[str]] = {}
         self._subscriptions: list[Subscription] = []
         self.start()
 
@@ -137,6 +140,22 @@ class RosbridgePeer(LivePeer):
         with self._lock:
             return sorted(one.topic for one in self._subscriptions)
 
+    def advertised(self) -> list[tuple[str, str]]:
+        with self._lock:
+            return list(self._advertised.items())
+
+    def came(self) -> list[Came]:
+        with self._lock:
+            types = {one["topic"]: one["type"] for one in self.asked("advertise")}
+            sent = self.asked("publish")
+        return [Came(one["topic"], types[one["topic"]], one["msg"]) for one in sent]
+
+    def listen_as(self, topic: str, *nodes: str) -> None:
+        self._listeners[topic] = list(nodes)
+
+    def complain(self, words: str) -> None:
+        self.send(json.dumps({"op": "status", "level": "error", "msg": words}))
+
     def asked(self, op: str) -> list[dict[str, Any]]:
         """The operations of a kind that clients have sent."""
         return [one for one in list(self.operations) if one["op"] == op]
@@ -175,6 +194,10 @@ class RosbridgePeer(LivePeer):
             if topic in self.there and self.there[topic].publishers:
                 for payload in self.there[topic].kept:
                     self._publish(client, topic, payload)
+        elif op == "advertise":
+            self._advertised[topic] = operation["type"]
+        elif op == "unadvertise":
+            self._advertised.pop(topic, None)
         elif op == "unsubscribe":
             self._subscriptions = [
                 one
@@ -222,3 +245,6 @@ class RosbridgePeer(LivePeer):
     def _publishers(self, arguments: dict[str, Any]) -> Answer:
         topic = self.there.get(arguments["topic"])
         return {"publishers": topic.publishers if topic else []}
+
+    def _subscribers(self, arguments: dict[str, Any]) -> Answer:
+        return {"subscribers": self._listeners.get(arguments["topic"], [])}

@@ -65,7 +65,7 @@ class MessageShape:
     def __init__(self, definition: TypeDefinition) -> None:
         from rosbags.typesys.store import Typestore
 
-        store = Typestore()
+        store = self._store = Typestore()
         with _register_lock:
             store.register({n: ([], fields) for n, fields in definition.types.items()})
         self._classes: Mapping[str, Any] = store.types
@@ -82,6 +82,14 @@ class MessageShape:
             DecodeError: a field is not what its type says.
         """
         return self._fill(fields)
+
+    def as_cdr(self, fields: Mapping[str, Any]) -> bytes:
+        """Return a message of the type as ROS 2 writes it, little-endian.
+
+        Raises:
+            DecodeError: a field is not what its type says.
+        """
+        return bytes(self._store.serialize_cdr(self._fill(fields), self.name))
 
     def _of_type(self, name: str) -> Fill:
         known = self._fills.get(name)

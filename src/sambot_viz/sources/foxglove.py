@@ -1,7 +1,7 @@
 """Foxglove's websocket protocol: foxglove_bridge, or a server of Foxglove's SDK.
 
-Schemas, files, parameters and the graph come over the same connection. Read-only:
-nothing is published, no parameter is set, no service is called.
+Schemas, files, parameters and the graph come over the same connection. What goes out is
+CDR; its QoS is the bridge's. No parameter is set, no service is called.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import time
 from itertools import count
+from typing import Literal
 
 from sambot_viz import limits
 from sambot_viz.messages import Schema
@@ -19,7 +20,9 @@ from sambot_viz.sources.message import (
     TopicChannel,
     is_latched_name,
 )
+from sambot_viz.sources.source import Capability, Receivers
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
+from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
 from sambot_viz.text import text
 
@@ -27,6 +30,14 @@ _ALLOW = (
     "if the file is there, add a pattern for it to the parameter "
     "`asset_uri_allowlist` of foxglove_bridge"
 )
+_OFFERS: dict[str, Capability] = {
+    "assets": "files",
+    "clientPublish": "publish",
+    "connectionGraph": "graph",
+}
+"""What the server calls them → what they are here."""
+_ERROR = 2
+"""The level of a line of the server."""
 _UNKNOWN_CHANNEL = re.compile(r"[Uu]nknown channel\D{0,9}(\d{1,18})")
 _DESCRIPTION = "robot_description"
 _TICKS_FOR_TOPICS = 2
@@ -37,8 +48,13 @@ _MOST_NOTES = 3
 class FoxgloveConversation(Conversation):
     """One connection to a Foxglove server."""
 
+    publishes: Literal["cdr", "json"] = "cdr"
+
     def __init__(self, ends: Ends) -> None:
         super().__init__(ends)
+        self._encodings: tuple[str, ...] = ()
+        self._outgoing: dict[int, OutgoingTopic] = {}
+        self._subscribers: dict[str, tuple[str, ...]] = {}
         self._channels: dict[int, TopicChannel] = {}
         self._by_topic: dict[str, list[int]] = {}
         self._publishers: dict[str, tuple[str, ...]] = {}
@@ -85,6 +101,49 @@ class FoxgloveConversation(Conversation):
             why = f"a frame may hold {limits.MESSAGE.value:,} bytes, the file has more"
             self.ends.assets.answer(parsed.request_id, b"", why, "")
         return ""
+
+    @property
+    def offers(self) -> frozenset[Capability]:
+        """What the server can do: files, publish and graph."""
+        told: set[Capability] = {
+            _OFFERS[name] for name in self.capabilities & _OFFERS.keys()
+        }
+        if self.unpublishable:
+            told.discard("publish")
+        return frozenset(told)
+
+    @property
+    def unpublishable(self) -> str:
+        """Why nothing can be published, with the remedy; empty when it can be."""
+        label = self.ends.address.label
+        if "clientPublish" not in self.capabilities:
+            return (
+                f"the server at {label} takes no messages; with foxglove_bridge, add "
+                "clientPublish to its parameter `capabilities`"
+            )
+        if self._encodings and self.publishes not in self._encodings:
+            takes = text(", ".join(self._encodings), 80)
+            return f"the server at {label} takes {takes}, and not the CDR of ROS 2"
+        return ""
+
+    def advertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the server of a topic that is published."""
+        outgoing.number = next(self._ids)
+        self._outgoing[outgoing.number] = outgoing
+        self._note_receivers()
+        self.ends.send(
+            wire.advertise(outgoing.number, outgoing.topic, outgoing.type_name)
+        )
+
+    def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
+        """Send a message."""
+        if outgoing.number in self._outgoing:
+            self.ends.send(wire.published(outgoing.number, message))
+
+    def unadvertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the server that a topic is published no longer."""
+        if self._outgoing.pop(outgoing.number, None) is not None:
+            self.ends.send(wire.unadvertise(outgoing.number))
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the channels of the wanted topics, and to no others."""
@@ -208,6 +267,7 @@ class FoxgloveConversation(Conversation):
         self.is_ready = True
         self.server, self.session_id = info.name, info.session_id
         self.capabilities = frozenset(info.capabilities)
+        self._encodings = info.supported_encodings
         if self.ends.session_id != info.session_id:
             self.ends.assets.forget()
         if "connectionGraph" in self.capabilities:
@@ -228,6 +288,7 @@ class FoxgloveConversation(Conversation):
         )
         self._by_topic.setdefault(topic, []).append(server_channel.id)
         self.topics_changed = True
+        self._note_receivers()
 
     def _remove(self, channel_id: int) -> None:
         channel = self._channels.get(channel_id)
@@ -276,9 +337,24 @@ class FoxgloveConversation(Conversation):
                 or len(self._publishers) < limits.TOPICS.value
             ):
                 self._publishers[topic.name] = topic.publisher_ids
+        for topic in update.subscribed_topics:
+            known = topic.name in self._subscribers
+            if known or len(self._subscribers) < limits.TOPICS.value:
+                self._subscribers[topic.name] = topic.subscriber_ids
         for name in update.removed_topics:
             self._publishers.pop(name, None)
+            self._subscribers.pop(name, None)
         self.topics_changed = True
+        self._note_receivers()
+
+    def _note_receivers(self) -> None:
+        """Note who has subscribed to the topics that are published."""
+        has_graph = "connectionGraph" in self.capabilities
+        for outgoing in self._outgoing.values():
+            ids = self._by_topic.get(outgoing.topic)
+            type_name = self._channels[ids[0]].schema.name if ids else ""
+            names = self._subscribers.get(outgoing.topic, ()) if has_graph else None
+            outgoing.receivers = Receivers(names, type_name)
 
     def _ask_for_descriptions(self) -> None:
         """Ask for a robot's description by name; nothing waits for the answer.
@@ -311,11 +387,20 @@ class FoxgloveConversation(Conversation):
         self.ends.put(Recorded(topic, channel, now, None, payload))
 
     def _status(self, status: wire.ServerStatus) -> None:
+        if status.level >= _ERROR:
+            self._note_refusal(status.message)
         if refused := _UNKNOWN_CHANNEL.search(status.message):
             # The next update subscribes again.
             self._forget_subscription(int(refused[1]))
         elif status.level >= 1:
             self._note(status)
+
+    def _note_refusal(self, line: str) -> None:
+        """Note an error of the server for the topic that it is about."""
+        every = self._outgoing.values()
+        about = [one for one in every if one.topic in line] or [*every]
+        if len(about) == 1:
+            about[0].refused = line
 
     def _note(self, status: wire.ServerStatus) -> None:
         if status.id is None:

@@ -26,6 +26,7 @@ SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 
 _MESSAGE, _TIME, _ASSET = 1, 2, 4
 _MESSAGE_HEAD = struct.Struct("<BIQ")
+_PUBLISHED_HEAD = struct.Struct("<BI")
 _TIME_HEAD = struct.Struct("<BQ")
 _ASSET_HEAD = struct.Struct("<BIBI")
 _BASE64_SCHEMAS = ("protobuf", "flatbuffer")
@@ -99,6 +100,7 @@ class ServerInfo(msgspec.Struct, rename="camel"):
 
     name: str = ""
     capabilities: tuple[str, ...] = ()
+    supported_encodings: tuple[str, ...] = ()
     session_id: str | None = None
 
 
@@ -171,10 +173,18 @@ class TopicPublishers(msgspec.Struct, rename="camel"):
     publisher_ids: tuple[str, ...] = ()
 
 
+class TopicSubscribers(msgspec.Struct, rename="camel"):
+    """Who has subscribed to a topic."""
+
+    name: str
+    subscriber_ids: tuple[str, ...] = ()
+
+
 class GraphUpdate(msgspec.Struct, rename="camel"):
-    """Topics whose publishers have changed, and topics that are gone."""
+    """Topics whose publishers or subscribers have changed, and topics that are gone."""
 
     published_topics: tuple[TopicPublishers, ...] = ()
+    subscribed_topics: tuple[TopicSubscribers, ...] = ()
     removed_topics: tuple[str, ...] = ()
 
 
@@ -291,6 +301,22 @@ def get_parameters(names: Sequence[str], request_id: str) -> str:
 def subscribe_connection_graph() -> str:
     """Ask to be told who publishes what."""
     return _text("subscribeConnectionGraph")
+
+
+def advertise(channel_id: int, topic: str, type_name: str) -> str:
+    """Begin to publish a topic, whose messages are CDR."""
+    channel = {"id": channel_id, "topic": topic, "encoding": "cdr"}
+    return _text("advertise", channels=[{**channel, "schemaName": type_name}])
+
+
+def unadvertise(channel_id: int) -> str:
+    """Publish a topic no longer."""
+    return _text("unadvertise", channelIds=[channel_id])
+
+
+def published(channel_id: int, message: bytes) -> bytes:
+    """Publish a message of a topic that was advertised."""
+    return _PUBLISHED_HEAD.pack(_MESSAGE, channel_id) + message
 
 
 def _text(op: str, **content: object) -> str:

@@ -11,6 +11,7 @@ from sambot_viz.sources.source import (
     Asset,
     Capability,
     OnMessage,
+    Outgoing,
     Playback,
     Source,
     SourceStatus,
@@ -164,6 +165,12 @@ class JoinedSources:
             if "files" in part.capabilities:
                 return part.fetch_asset(uri)
         return no_file(f"{self.uri}: none of them hands out files, and not {uri}")
+
+    def advertise(self, topic: str, type_name: str) -> Outgoing:
+        """Begin to publish a topic at the robot that has it, or at the first one."""
+        robots = [part for part in self.parts if part.live is not None] or self.parts
+        robot = next((one for one in robots if topic in one.topics()), robots[0])
+        return robot.advertise(topic, type_name)
 
     def _ask(self, topic: str, callback: OnMessage) -> None:
         """Subscribe at the part that has a topic, now or when it comes."""

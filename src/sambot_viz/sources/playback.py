@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
+from sambot_viz.errors import SourceError
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
     Asset,
     Capability,
     OnMessage,
+    Outgoing,
     SourceStatus,
     no_file,
 )
@@ -102,6 +104,17 @@ class RecordingPlayback:
     def fetch_asset(self, uri: str) -> Asset:
         """Refuse: a recording has messages alone."""
         return no_file(f"{self.uri} has no files, and not {uri}")
+
+    def advertise(self, topic: str, type_name: str) -> Outgoing:
+        """Refuse: what was recorded is over.
+
+        Raises:
+            SourceError: always.
+        """
+        raise SourceError(
+            f"{self.uri} is a recording, and nothing can be sent to it: name a live "
+            "robot with --source foxglove://HOST:8765 or rosbridge://HOST:9090"
+        )
 
     def subscribe(
         self, topic: str, callback: OnMessage, on_kept: OnMessage | None = None

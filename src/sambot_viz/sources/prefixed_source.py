@@ -10,6 +10,7 @@ from sambot_viz.sources.source import (
     Asset,
     Capability,
     OnMessage,
+    Outgoing,
     Source,
     SourceStatus,
 )
@@ -52,6 +53,10 @@ class PrefixedSource:
     def fetch_asset(self, uri: str) -> Asset:
         """Ask for a file."""
         return self._source.fetch_asset(uri)
+
+    def advertise(self, topic: str, type_name: str) -> Outgoing:
+        """Begin to publish a topic; see `Source.advertise`."""
+        return self._source.advertise(self._prefix.inner(topic), type_name)
 
     def of_session(self) -> Source:
         """Return it: one connection serves all sessions."""

@@ -119,6 +119,18 @@ class Rosapi:
         if len(self._calls) < limits.CALLS.value:
             self._call("/rosapi/publishers", take, topic=topic)
 
+    def ask_subscribers(
+        self, topic: str, then: Callable[[tuple[str, ...] | None], None]
+    ) -> None:
+        """Ask who has subscribed to a topic; `then` gets None if nobody knows that."""
+
+        def take(response: wire.ServiceResponse | None) -> None:
+            found = _values(response, wire.SubscriberList)
+            then(None if found is None else found.subscribers)
+
+        if len(self._calls) < limits.CALLS.value:
+            self._call("/rosapi/subscribers", take, topic=topic)
+
     def _take_raw_topics(self, response: wire.ServiceResponse | None) -> None:
         found = _values(response, wire.TopicList)
         if found is None:

@@ -12,6 +12,7 @@ import time
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import count
+from typing import Literal
 
 from sambot_viz import limits
 from sambot_viz.sources import rosbridge_wire as wire
@@ -22,7 +23,9 @@ from sambot_viz.sources.message import (
     is_latched_name,
 )
 from sambot_viz.sources.rosapi import Rosapi
+from sambot_viz.sources.source import Capability, Receivers
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
+from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text
 
@@ -52,10 +55,16 @@ class _Subscription:
 
 
 class RosbridgeConversation(Conversation):
-    """One connection to a rosbridge server."""
+    """One connection to a rosbridge server.
+
+    Nothing that is published is latched: the server keeps it for a second.
+    """
+
+    publishes: Literal["cdr", "json"] = "json"
 
     def __init__(self, ends: Ends) -> None:
         super().__init__(ends)
+        self._outgoing: list[OutgoingTopic] = []
         self._rosapi = Rosapi(ends.send, self._listed)
         self._subscriptions: dict[str, _Subscription] = {}
         self._wanted: frozenset[str] = frozenset()
@@ -80,6 +89,7 @@ class RosbridgeConversation(Conversation):
         elif isinstance(operation, wire.StatusLine):
             self.is_ready = True
             if operation.level in ("error", "warning"):
+                self._note_refusal(operation.msg)
                 self._line = operation.msg
                 self._line_end = time.monotonic() + _LINE_LASTS
         elif operation.op == "serverInfo":
@@ -93,6 +103,34 @@ class RosbridgeConversation(Conversation):
         """Return the topic of a message, which the servers write before its fields."""
         topic = wire.topic_of(head)
         return topic if topic in self._subscriptions else ""
+
+    @property
+    def offers(self) -> frozenset[Capability]:
+        """What the server can do: publish, and with rosapi graph."""
+        can: list[Capability] = ["publish"]
+        return frozenset([*can, "graph"] if self._rosapi.is_there else can)
+
+    @property
+    def unpublishable(self) -> str:
+        """Nothing: each rosbridge takes messages."""
+        return ""
+
+    def advertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the server of a topic that is published."""
+        self._outgoing.append(outgoing)
+        self.ends.send(wire.advertise(outgoing.topic, self._spelled(outgoing)))
+        self._ask_receivers()
+
+    def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
+        """Send a message."""
+        if outgoing in self._outgoing:
+            self.ends.send(wire.published(outgoing.topic, message))
+
+    def unadvertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the server that a topic is published no longer."""
+        if outgoing in self._outgoing:
+            self._outgoing.remove(outgoing)
+            self.ends.send(wire.unadvertise(outgoing.topic))
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
@@ -145,6 +183,30 @@ class RosbridgeConversation(Conversation):
             )
         return found
 
+    def _spelled(self, outgoing: OutgoingTopic) -> str:
+        """Return the type as the server's ROS writes it."""
+        types = self._rosapi.types.values()
+        is_ros1 = any(types) and not any(map(wire.is_ros2, types))
+        return wire.plain_name(outgoing.type_name) if is_ros1 else outgoing.type_name
+
+    def _ask_receivers(self) -> None:
+        """Ask who has subscribed to the topics that are published."""
+        for outgoing in self._outgoing:
+            take = partial(self._take_receivers, outgoing)
+            self._rosapi.ask_subscribers(outgoing.topic, take)
+
+    def _take_receivers(
+        self, outgoing: OutgoingTopic, names: tuple[str, ...] | None
+    ) -> None:
+        type_name = self._rosapi.types.get(outgoing.topic, "")
+        outgoing.receivers = Receivers(names, type_name)
+
+    def _note_refusal(self, line: str) -> None:
+        """Note a line of the server for the topic that it is about."""
+        about = [one for one in self._outgoing if one.topic in line] or self._outgoing
+        if len(about) == 1:
+            about[0].refused = line
+
     def _note_changes(self) -> None:
         self.topics_changed = self.topics_changed or self._rosapi.has_changed
         self._rosapi.has_changed = False
@@ -181,6 +243,7 @@ class RosbridgeConversation(Conversation):
     def _listed(self) -> None:
         """Follow the list of topics: some are gone, others have another type now."""
         types = self._rosapi.types
+        self._ask_receivers()
         for topic, subscription in list(self._subscriptions.items()):
             if self._rosapi.is_there and types.get(topic) != subscription.type_name:
                 self._unsubscribe(topic)

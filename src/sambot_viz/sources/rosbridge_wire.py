@@ -121,6 +121,12 @@ class PublisherList(msgspec.Struct):
     publishers: tuple[str, ...] = ()
 
 
+class SubscriberList(msgspec.Struct):
+    """What `/rosapi/subscribers` answers."""
+
+    subscribers: tuple[str, ...] = ()
+
+
 class FieldList(msgspec.Struct):
     """A type as `/rosapi/message_details` describes it."""
 
@@ -294,6 +300,22 @@ def subscribe(
 def unsubscribe(subscription: str, topic: str) -> str:
     """End a subscription."""
     return _text("unsubscribe", id=subscription, topic=topic)
+
+
+def advertise(topic: str, type_name: str) -> str:
+    """Begin to publish a topic."""
+    return _text("advertise", topic=topic, type=type_name)
+
+
+def unadvertise(topic: str) -> str:
+    """Publish a topic no longer."""
+    return _text("unadvertise", topic=topic)
+
+
+def published(topic: str, message: bytes) -> str:
+    """Publish a message, which is JSON already."""
+    head = f'{{"op":"publish","topic":{json.dumps(topic)},"msg":'
+    return f"{head}{message.decode()}}}"
 
 
 def call_service(call: str, service: str, **arguments: object) -> str:

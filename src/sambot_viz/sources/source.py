@@ -25,6 +25,51 @@ Asset = Future[bytes]
 
 
 @dataclass(frozen=True, slots=True)
+class Receivers:
+    """Who gets what is published on a topic.
+
+    Attributes:
+        names: of the nodes that have subscribed to it; None where the peer says none.
+        type_name: of the messages that they know; "" where nobody says it.
+    """
+
+    names: tuple[str, ...] | None = None
+    type_name: str = ""
+
+
+class Outgoing(Protocol):
+    """A topic that is published to a robot, as long as the connection lasts.
+
+    Nothing of it is kept or sent again: what cannot be sent now is refused.
+
+    Attributes:
+        topic: its name.
+        type_name: of its messages, as ROS 2 writes it.
+        encoding: how messages are to be written.
+        refused: the peer's own words when it has refused the topic or a message.
+        receivers: who gets the messages, as far as the peer has said it.
+    """
+
+    topic: str
+    type_name: str
+    encoding: Literal["cdr", "json"]
+    refused: str
+    receivers: Receivers
+
+    def send(self, message: bytes) -> None:
+        """Publish a message.
+
+        Raises:
+            SourceError: the connection, or the topic, has ended.
+        """
+        ...
+
+    def close(self) -> None:
+        """Publish the topic no longer; a second call does nothing."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
 class SourceStatus:
     """How a source is.
 
@@ -66,9 +111,9 @@ Capability = Literal[
 
 topics: it lists them. subscribe: it hands on their messages. latched: those who come
 late get the messages that hold. seek: its time can be moved, see `playback`. clock: it
-has a time that goes on by itself. files: it hands out the files of a robot. No source
-has the others yet: graph, which nodes there are; parameters of nodes; publish and call,
-the way back to a robot.
+has a time that goes on by itself. files: it hands out the files of a robot. publish:
+topics can be published to the robot. graph: it tells who has subscribed to a topic. No
+source has the others yet: parameters of nodes; call, of services.
 """
 
 
@@ -163,6 +208,19 @@ class Source(Protocol):
 
         The result raises `SourceError` with the peer's own text when it is refused, and
         without the capability files.
+        """
+        ...
+
+    def advertise(self, topic: str, type_name: str) -> Outgoing:
+        """Begin to publish a topic; its receivers may need a moment to find it.
+
+        Args:
+            topic: its name.
+            type_name: of its messages, such as geometry_msgs/msg/PoseStamped.
+
+        Raises:
+            SourceError: there is no connection, or it lacks the capability publish:
+                then with what would turn that on.
         """
         ...
 

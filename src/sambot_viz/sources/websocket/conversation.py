@@ -6,14 +6,16 @@ connection begins a new conversation, so that no id of the old one can be used a
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz.sources.message import Recorded, SourceTopic, too_large
+from sambot_viz.sources.source import Capability
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.sources.websocket.outgoing_topic import Publisher
 from sambot_viz.text import text
 
 _LATE = 1.0
@@ -39,7 +41,7 @@ class Ends:
 
     Attributes:
         address: of the peer.
-        send: queues a text frame for the peer.
+        send: queues a frame for the peer.
         put: hands a message to the subscribers.
         clock: notes the peer's time.
         assets: files of the peer.
@@ -47,14 +49,14 @@ class Ends:
     """
 
     address: Address
-    send: Callable[[str], None]
+    send: Callable[[str | bytes], None]
     put: Callable[[Recorded], None]
     clock: SourceClock
     assets: AssetStore
     session_id: str | None = None
 
 
-class Conversation(ABC):
+class Conversation(Publisher):
     """One connection's state; all methods are called in one thread.
 
     Attributes:
@@ -77,6 +79,7 @@ class Conversation(ABC):
         self.topics_changed = False
         self.unreadable = 0
         self.large: dict[str, LargeMessages] = {}
+        self.is_over = False
 
     @abstractmethod
     def begin(self) -> None:
@@ -117,6 +120,16 @@ class Conversation(ABC):
         """Return what of a topic is left out; empty for nothing."""
         known = self.large.get(topic)
         return too_large(known.count, known.largest) if known else ""
+
+    @property
+    @abstractmethod
+    def unpublishable(self) -> str:
+        """Why nothing can be published, with the remedy; empty when it can be."""
+
+    @property
+    @abstractmethod
+    def offers(self) -> frozenset[Capability]:
+        """What the source can do with this peer, beside what each of its kind can."""
 
     @abstractmethod
     def update(self, wanted: frozenset[str]) -> None:

@@ -31,7 +31,7 @@ class ConversationRunner:
         self,
         websocket: ClientConnection,
         conversation: Conversation,
-        outbound: asyncio.Queue[str],
+        outbound: asyncio.Queue[str | bytes],
         follow: Callable[[], object],
         tell_health: Callable[[], object],
     ) -> None:

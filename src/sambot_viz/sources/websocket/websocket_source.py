@@ -20,7 +20,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import limits
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, SourceError
 from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
@@ -36,6 +36,7 @@ from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.delivery import Delivery
 from sambot_viz.sources.websocket.event_loop import SourceLoop
+from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.paced_connection import PacedConnection
 from sambot_viz.sources.websocket.runner import ConversationRunner
 from sambot_viz.sources.websocket.trouble import explain
@@ -50,7 +51,6 @@ _TOPICS_PAUSE = 0.05
 """Topics that are advertised one by one are told together [s]."""
 
 _ALWAYS = frozenset[Capability](("topics", "subscribe", "latched", "clock"))
-_FILES = frozenset[Capability](("files",))
 
 _log = logger(__name__)
 
@@ -84,6 +84,7 @@ class WebsocketSource:
         self._status = SourceStatus(sentence=f"Connecting to {address.label}")
         self._topics: Mapping[str, SourceTopic] = MappingProxyType({})
         self._capabilities: frozenset[str] = frozenset()
+        self._offers = frozenset[Capability]()
         self._session_id: str | None = None
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -137,8 +138,8 @@ class WebsocketSource:
 
     @property
     def capabilities(self) -> frozenset[Capability]:
-        """What it can do; what the server says of files, of the last connection."""
-        return _ALWAYS | _FILES if "assets" in self._capabilities else _ALWAYS
+        """What it can do, as the server has said when it was connected last."""
+        return _ALWAYS | self._offers
 
     @property
     def hidden(self) -> tuple[Problem, ...]:
@@ -187,6 +188,19 @@ class WebsocketSource:
         self._post(self._update)
         return future
 
+    def advertise(self, topic: str, type_name: str) -> OutgoingTopic:
+        """Begin to publish a topic over the present connection.
+
+        Raises:
+            SourceError: there is none, or the server takes nothing.
+        """
+        conversation = self._conversation
+        if conversation is None or not conversation.is_ready:
+            raise SourceError(f"nothing can be sent: {self._status.sentence}")
+        if why := conversation.unpublishable:
+            raise SourceError(f"nothing can be sent: {why}")
+        return OutgoingTopic(topic, type_name, conversation, self._post)
+
     def _post(self, action: Callable[[], object]) -> None:
         loop = self._loop
         if loop is not None:
@@ -215,6 +229,8 @@ class WebsocketSource:
                 _log.debug("%s: %s", self._address.label, sentence, exc_info=error)
             finally:
                 self._tell_topics()
+                if self._conversation is not None:
+                    self._conversation.is_over = True
                 self._conversation = None
             lasted = asyncio.get_running_loop().time() - begun
             attempt = 0 if lasted > STEADY else attempt
@@ -244,7 +260,7 @@ class WebsocketSource:
 
     async def _converse(self, websocket: ClientConnection) -> None:
         """Speak until one side ends; raises what has ended it."""
-        outbound: asyncio.Queue[str] = asyncio.Queue()
+        outbound: asyncio.Queue[str | bytes] = asyncio.Queue()
         ends = Ends(
             self._address,
             outbound.put_nowait,
@@ -284,6 +300,7 @@ class WebsocketSource:
             session += 1
         self._session_id = conversation.session_id
         self._capabilities = conversation.capabilities
+        self._offers = conversation.offers
         conversation.topics_changed = True
         self._say(
             is_connected=True,

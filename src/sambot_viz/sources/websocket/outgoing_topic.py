@@ -1,0 +1,88 @@
+"""A topic that is published over one connection."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from functools import partial
+from typing import Literal
+
+from sambot_viz.errors import SourceError
+from sambot_viz.sources.source import Receivers
+from sambot_viz.text import text
+
+
+class Publisher(ABC):
+    """What tells a peer of topics, in the thread of the connection.
+
+    Attributes:
+        publishes: how messages to the peer are written.
+        is_over: the connection has ended.
+    """
+
+    publishes: Literal["cdr", "json"]
+    is_over: bool
+
+    @abstractmethod
+    def advertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the peer of a topic that is published, and note who gets it."""
+
+    @abstractmethod
+    def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
+        """Send a message of such a topic."""
+
+    @abstractmethod
+    def unadvertise(self, outgoing: OutgoingTopic) -> None:
+        """Tell the peer that a topic is published no longer."""
+
+
+class OutgoingTopic:
+    """Implements `Outgoing`; what it asks for is done in the thread of the connection.
+
+    Args:
+        topic: its name.
+        type_name: of its messages.
+        publisher: of the connection that was there when it was made.
+        post: has something done in that thread.
+
+    Attributes:
+        number: which topic it is, for the peer.
+        receivers: as of `Outgoing`, as the publisher hears it.
+        refused: the same.
+    """
+
+    number = 0
+    receivers = Receivers()
+    refused = ""
+
+    def __init__(
+        self,
+        topic: str,
+        type_name: str,
+        publisher: Publisher,
+        post: Callable[[Callable[[], object]], object],
+    ) -> None:
+        self.topic = topic
+        self.type_name = type_name
+        self.encoding: Literal["cdr", "json"] = publisher.publishes
+        self._publisher = publisher
+        self._post = post
+        self._is_closed = False
+        post(partial(publisher.advertise, self))
+
+    def send(self, message: bytes) -> None:
+        """Publish a message.
+
+        Raises:
+            SourceError: the connection, or the topic, has ended.
+        """
+        if self._is_closed or self._publisher.is_over:
+            why = "it was closed" if self._is_closed else "the connection was lost"
+            raise SourceError(f"nothing is sent on {text(self.topic, 80)}: {why}")
+        self._post(partial(self._publisher.publish, self, message))
+
+    def close(self) -> None:
+        """Publish the topic no longer; a second call does nothing."""
+        if not self._is_closed:
+            self._is_closed = True
+            self._post(partial(self._publisher.unadvertise, self))
