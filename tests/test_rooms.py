@@ -119,6 +119,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     # What there is at a time, and why something is not seen.
     "topics": Row("frames joints meanings messages robot sources", "numpy"),
+    # The way back to a robot.
+    "publishing": Row("frames messages sources topics"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
@@ -160,8 +162,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     "commands": Row(
         "_version bundled checks export flags frames inputs joints listened "
-        "moved_by options problems robot rviz server session sources topics "
-        "visualizer",
+        "moved_by options problems publishing robot rviz server session sources "
+        "topics visualizer",
         "PIL",
         "signal webbrowser",
     ),

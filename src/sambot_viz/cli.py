@@ -34,6 +34,7 @@ COMMANDS = (
     "expand",
     "export",
     "frames",
+    "goal",
     "snapshot",
     "topics",
 )

@@ -16,6 +16,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   ├── TransformRefused        a transform that tf2 would not take
     │   └── FrameCycleError         a transform that would form a ring
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
+    ├── PublishError                a message that is not sent, or that a robot refuses
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── DecodeError                 a message, or its definition, that cannot be read
     │   └── UnreadFieldError        a field of a kind that is not read
@@ -238,6 +239,10 @@ class SourceError(_ErrorWithProblems):
 
 class FrameError(SambotVizError):
     """A transform cannot be looked up or set."""
+
+
+class PublishError(SambotVizError):
+    """A message is not sent to a robot, or the robot refuses it."""
 
 
 class JointError(SambotVizError):

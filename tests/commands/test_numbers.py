@@ -31,7 +31,7 @@ FORMS = {
 OTHERS = {
     "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI",
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
-    "JOINT", "SOURCE", "TARGET", "HOST",
+    "JOINT", "SOURCE", "TARGET", "HOST", "TOPIC",
     None,
 }  # fmt: skip
 """Placeholders of what is no number."""
@@ -47,7 +47,7 @@ def numbers_of(parser: Parser) -> Iterator[tuple[str, str]]:
     """Yield the options with numbers, and the form of their values."""
     for action in parser.actions:
         form = FORMS.get(str(action.metavar)) or ("{}" if action.type else None)
-        if form is not None:
+        if form is not None and action.option_strings:
             yield action.option_strings[-1], form
 
 
@@ -89,7 +89,8 @@ def test_a_number_is_taken_or_refused_in_words(
     monkeypatch.chdir(bag.parent)
     for number in NUMBERS:
         value = form.format(*2 * [number])
-        words = [str(bag), f"{flag}={value}"]
+        model = ["1", "2", "0", "--source"] if command == "goal" else []
+        words = [*model, str(bag), f"{flag}={value}"]
         if flag != "--for":
             words += [] if command == "show" else ["--for=0.1"]
         words += {"echo": ["a", "b"], "snapshot": ["-o", "a.png"]}.get(command, [])

@@ -42,10 +42,12 @@ class Parser(argparse.ArgumentParser):
     Args:
         prog: the command, such as "sambot-viz check".
         groups: which of the `Options` it takes; with any, it takes a MODEL.
+        takes_model: whether it does.
         model: what MODEL is.
         rest: as for `argparse.ArgumentParser`.
 
     Attributes:
+        takes_model: whether the command takes a MODEL.
         alone: flags whose value, if any, is written in the same word, and the value
             without one.
     """
@@ -55,13 +57,15 @@ class Parser(argparse.ArgumentParser):
         prog: str,
         groups: Sequence[Group] = (),
         model: str = "model file or package folder",
+        takes_model: bool = True,
         **rest: Any,
     ) -> None:
-        if groups:
+        self.takes_model = takes_model and bool(groups)
+        if self.takes_model:
             rest.setdefault("epilog", _ABOUT_MODELS)
         super().__init__(prog=prog, **rest)
         self.options = [o for o in declared(Options) if _is_taken(flag_of(o), groups)]
-        if groups:
+        if self.takes_model:
             add = self.add_argument
             add("model", nargs="?", metavar="MODEL", help=model)
             add(
@@ -93,15 +97,22 @@ class Parser(argparse.ArgumentParser):
             help="how to print it (default: %(default)s)",
         )
 
-    def add_listen(self) -> None:
-        """Add ``--for``, for commands that look once."""
+    def add_listen(
+        self, default: float = LISTEN, what: str = "how long to listen to a live robot"
+    ) -> None:
+        """Add ``--for``, for commands that look once.
+
+        Args:
+            default: how long, where it is not given [s].
+            what: its help.
+        """
         self.add_argument(
             "--for",
             dest="listen",
             type=_seconds,
-            default=LISTEN,
+            default=default,
             metavar="SECONDS",
-            help="how long to listen to a live robot [s] (default: %(default)g)",
+            help=f"{what} [s] (default: %(default)g)",
         )
 
     def error(self, message: str) -> NoReturn:
@@ -119,12 +130,12 @@ class Parser(argparse.ArgumentParser):
 def parse(
     parser: Parser, words: Sequence[str], **fixed: Any
 ) -> tuple[argparse.Namespace, Options]:
-    """Read a command line with a MODEL, and with NAME:=VALUE words anywhere in it.
+    """Read a command line, as a rule with a MODEL and with NAME:=VALUE words in it.
 
     What is odd about a value, but accepted, is written to standard error.
 
     Args:
-        parser: a parser that takes a MODEL.
+        parser: of the command.
         words: the command line.
         fixed: options that the command sets itself.
 
@@ -154,9 +165,12 @@ def parse(
     ]
     # A flag comes later than the word of the same option, and so it wins.
     given = parser.parse_args([*by_word, *rest])
-    models = [
-        m for m in (given.model, given.model_option, launch_model) if m is not None
-    ]
+    named = (given.model, given.model_option) if parser.takes_model else ()
+    models = [m for m in (*named, launch_model) if m is not None]
+    if not parser.takes_model and (arguments or models):
+        raise UsageError(
+            f"{parser.prog} takes no NAME:=VALUE; see {parser.prog} --help"
+        )
     takes_source = any(option.name == "source" for option in parser.options)
     # A model beside a recording; `Options` sees by itself that a model alone is one.
     both = takes_source and len(models) > 1

@@ -1,0 +1,104 @@
+"""``sambot-viz goal``: send a robot on the network somewhere, as 2D Goal Pose does."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import closing
+
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.errors import UsageError
+from sambot_viz.listened import CONNECTED_WITHIN
+from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
+from sambot_viz.outlet import write_lines
+from sambot_viz.publishing.goal import Goal
+from sambot_viz.publishing.goal_sender import GLOBAL_FRAME, TOPIC, GoalSender
+from sambot_viz.text import text
+
+WAIT = 120.0
+"""A goal is followed so long [s]."""
+FARTHEST = 1e6
+"""No robot is sent so far [m]."""
+
+
+def run(words: list[str]) -> int:
+    """Send a goal; 0 when the robot has reached it, or is on its way."""
+    given, options = parse(parser(), words)
+    refuse_time_of_live(options)
+    refuse_mixture(options)
+    if not options.live_sources:
+        raise UsageError(
+            "name the robot: --source foxglove://HOST:8765 or rosbridge://HOST:9090"
+        )
+    robot = open_moved_by(options)
+    assert robot is not None
+    goal = Goal(given.frame, given.x, given.y, given.yaw)
+    with closing(robot):
+        sender = GoalSender(robot, given.topic)
+        sender.connect(CONNECTED_WITHIN)
+        who = sender.send(goal)
+        write_lines(f"{goal.words}\nsent to {who}\n")
+        return 0 if given.no_wait else _follow(sender, given.listen)
+
+
+def _follow(sender: GoalSender, seconds: float) -> int:
+    """Say what becomes of a goal, and return the exit status."""
+    if not sender.can_follow:
+        topic = text(sender.status_topic, 80)
+        write_lines(
+            f"what becomes of it is not seen: the robot does not show {topic}, a "
+            "hidden topic; start foxglove_bridge with include_hidden:=true\n"
+        )
+        return 0
+    outcome = sender.follow(seconds, lambda said: write_lines(f"{said}\n"))
+    if outcome is None:
+        write_lines(f"nothing was said of it within {seconds:g} s\n")
+        return 1
+    if not outcome.is_over:
+        write_lines(f"still {outcome.words} after {seconds:g} s\n")
+    return 0 if outcome.is_good else 1
+
+
+def parser() -> Parser:
+    """Return the flags of the command."""
+    made = Parser(
+        prog="sambot-viz goal",
+        groups=("source",),
+        takes_model=False,
+        description="Send a robot on the network to X Y, where it looks towards YAW, "
+        "as RViz's 2D Goal Pose does, and say what becomes of it. That the command is "
+        "given is the permission. Exit status: 0 reached, or on its way when the time "
+        "is over, 1 not sent, refused, cancelled or given up, 2 usage.",
+    )
+    for name, unit in (("x", "m"), ("y", "m"), ("yaw", "rad")):
+        made.add_argument(name, metavar=name.upper(), type=_number, help=f"[{unit}]")
+    made.add_argument(
+        "-f",
+        "--frame",
+        default=GLOBAL_FRAME,
+        metavar="FRAME",
+        help="the frame of X, Y and YAW (default: %(default)s)",
+    )
+    made.add_argument(
+        "--topic",
+        default=TOPIC,
+        metavar="TOPIC",
+        help="where the robot takes goals (default: %(default)s)",
+    )
+    made.add_argument(
+        "--no-wait", action="store_true", help="do not wait for what becomes of it"
+    )
+    made.add_listen(WAIT, "how long to wait for what becomes of it")
+    return made
+
+
+def _number(word: str) -> float:
+    try:
+        number = float(word)
+    except ValueError:
+        number = float("nan")
+    # False for NaN too.
+    if not abs(number) <= FARTHEST:
+        raise argparse.ArgumentTypeError(
+            f"{word} is not a number from -{FARTHEST:g} to {FARTHEST:g}"
+        )
+    return number

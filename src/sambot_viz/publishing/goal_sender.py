@@ -1,0 +1,224 @@
+"""Sends one goal to a robot on the network, and says what becomes of it."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from functools import partial
+from threading import Event
+from typing import Any
+
+from sambot_viz.errors import DecodeError, PublishError, SourceError
+from sambot_viz.frames import LookupRefused
+from sambot_viz.frames.history import FrameHistory
+from sambot_viz.publishing.goal import POSE_STAMPED, Goal
+from sambot_viz.publishing.outcome import GoalFollower, Outcome
+from sambot_viz.publishing.written import stamp_for, written
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import Outgoing
+from sambot_viz.text import text
+from sambot_viz.topics.source_robot import SourceRobot
+
+TOPIC = "/goal_pose"
+"""Where Nav2 takes goals, and RViz sends them."""
+STATUS = "navigate_to_pose/_action/status"
+"""Where Nav2 says what becomes of them, beside that topic; it is hidden in ROS."""
+GLOBAL_FRAME = "map"
+"""The frame in which Nav2 plans, as it comes."""
+FOUND_WITHIN = 2.0
+"""What a robot says without being asked has come by then [s]."""
+DISCOVERY = 0.5
+"""ROS finds a new publisher within this time, as a rule [s]."""
+_LOOKS = 0.1
+"""Who gets a topic is looked at so often [s]."""
+
+
+class GoalSender:
+    """Sends a goal to a live robot, after a look at whether it can come to something.
+
+    What the robot says is taken in the thread that calls.
+
+    Args:
+        robot: not connected yet; whoever made it closes it.
+        topic: where it takes goals.
+    """
+
+    def __init__(self, robot: SourceRobot, topic: str = TOPIC) -> None:
+        self._robot, self._source = robot, robot.source
+        self._topic = topic
+        self._status = f"{topic.rpartition('/')[0]}/{STATUS}"
+        self._transforms = robot.transforms(FrameHistory())
+        self._follower = GoalFollower()
+        self._outgoing: Outgoing | None = None
+        self._outcomes: list[Outcome] = []
+        self._came: deque[tuple[Callable[[Recorded], None], Recorded]] = deque()
+        self._changed = Event()
+        robot.on_topics.append(self._changed.set)
+        robot.on_status.append(self._changed.set)
+
+    def connect(self, seconds: float) -> None:
+        """Connect, and listen to the robot's frames and to what becomes of goals.
+
+        Raises:
+            SourceError: there is no robot within so many seconds [s].
+        """
+        self._source.open()
+        self._listen(self._status, self._take_status)
+        if not self._wait(lambda: bool(self._source.topics()), seconds):
+            none = "; it has no topic" if self._source.status.is_connected else ""
+            raise SourceError(f"{self._source.status.sentence}{none}")
+
+    def send(self, goal: Goal) -> str:
+        """Send a goal, and return who gets it, in words.
+
+        Raises:
+            PublishError: nothing would become of it, and why.
+            SourceError: the robot takes no messages, or has left.
+        """
+        self._require_frame(goal.frame)
+        outgoing = self._source.advertise(self._topic, POSE_STAMPED)
+        self._outgoing = outgoing
+        self._wait(lambda: bool(outgoing.receivers.names), FOUND_WITHIN)
+        who = self._receivers(outgoing)
+        self._wait(lambda: bool(outgoing.refused), DISCOVERY)
+        self._require_taken()
+        self._follower.begin()
+        fields = goal.fields(stamp_for(outgoing, self._now_ns()))
+        outgoing.send(written(outgoing, fields, self._robot.decoding.types))
+        return who
+
+    def follow(self, seconds: float, say: Callable[[str], None]) -> Outcome | None:
+        """Follow a goal that was sent to its end, and return how far it has come.
+
+        Args:
+            seconds: how long, at most [s].
+            say: takes each word that the robot says of it.
+
+        Returns:
+            What was said last; None when nothing was.
+
+        Raises:
+            PublishError: the robot has refused it.
+            SourceError: the robot has left.
+        """
+        said = 0
+
+        def is_over() -> bool:
+            nonlocal said
+            self._require_taken()
+            for outcome in self._outcomes[said:]:
+                say(outcome.words)
+            said = len(self._outcomes)
+            return any(outcome.is_over for outcome in self._outcomes)
+
+        self._wait(is_over, seconds)
+        return self._outcomes[-1] if self._outcomes else None
+
+    @property
+    def can_follow(self) -> bool:
+        """Whether the robot says what becomes of goals."""
+        return self._status in self._source.topics()
+
+    @property
+    def status_topic(self) -> str:
+        """Where it would say that."""
+        return self._status
+
+    # What the robot says
+
+    def _listen(self, topic: str, take: Callable[[Recorded], None]) -> None:
+        self._source.subscribe(topic, partial(self._queue, take))
+
+    def _queue(self, take: Callable[[Recorded], None], message: Recorded) -> None:
+        self._came.append((take, message))
+        self._changed.set()
+
+    def _wait(self, is_there: Callable[[], bool], seconds: float) -> bool:
+        """Take what comes until something is there, at most so long [s]."""
+        until = time.monotonic() + seconds
+        while True:
+            while self._came:
+                take, message = self._came.popleft()
+                take(message)
+            if is_there():
+                return True
+            left = until - time.monotonic()
+            if left <= 0.0:
+                return False
+            self._changed.wait(min(left, _LOOKS))
+            self._changed.clear()
+
+    def _take_status(self, message: Recorded) -> None:
+        try:
+            statuses: Any = self._robot.decode(message).status_list
+        except (DecodeError, AttributeError):
+            return
+        outcome = self._follower.take(statuses)
+        if outcome is not None:
+            self._outcomes.append(outcome)
+
+    # Whether it can come to something
+
+    def _require_frame(self, frame: str) -> None:
+        """Refuse a goal in a frame without a way to that of the planner."""
+        robot, frames = self._robot, self._transforms.history
+        listened = set[str]()
+
+        def is_fine() -> bool:
+            moving, static = robot.topics.moving, robot.topics.static
+            for topic in {*moving, *static} - listened:
+                self._transforms.set_topics(moving, static, self._source.topics())
+                self._listen(topic, self._transforms.take)
+                listened.add(topic)
+            return self._refusal_of(frame) is None
+
+        self._wait(is_fine, FOUND_WITHIN)
+        refused = self._refusal_of(frame)
+        if refused is not None and frames.frames:
+            raise PublishError(f"the robot takes no goal in that frame: {refused}")
+
+    def _refusal_of(self, frame: str) -> LookupRefused | None:
+        frames = self._transforms.history
+        known = frames.frames
+        place = GLOBAL_FRAME if GLOBAL_FRAME in known else next(iter(known), "")
+        try:
+            frames.lookup(place, frame)
+        except LookupRefused as refused:
+            return refused
+        return None
+
+    def _receivers(self, outgoing: Outgoing) -> str:
+        """Return who gets the topic, in words.
+
+        Raises:
+            PublishError: nobody does, or its messages are of another type.
+        """
+        receivers, topic = outgoing.receivers, text(self._topic, 80)
+        if receivers.type_name not in ("", POSE_STAMPED):
+            other = text(receivers.type_name, 80)
+            raise PublishError(
+                f"{topic} of this robot has messages of {other}, and a goal is a "
+                f"{POSE_STAMPED}: name the topic of its goals with --topic"
+            )
+        if receivers.names is None:
+            return f"{topic}; the bridge does not say who gets it"
+        if not receivers.names:
+            raise PublishError(
+                f"nobody takes goals on {topic}: start Nav2 (its bt_navigator takes "
+                "them), or name the topic of this robot with --topic"
+            )
+        names = ", ".join(text(name, 80) for name in receivers.names[:3])
+        return f"{topic}, which {names} takes"
+
+    def _require_taken(self) -> None:
+        if not self._source.status.is_connected:
+            raise SourceError(f"the robot has left: {self._source.status.sentence}")
+        if self._outgoing is not None and self._outgoing.refused:
+            why = text(self._outgoing.refused, 400)
+            raise PublishError(f"the robot refuses it: {why}")
+
+    def _now_ns(self) -> int:
+        """The time of the robot [ns]: that which it tells, or the newest stamp."""
+        told = self._source.clock_ns()
+        return told if self._source.has_clock else self._transforms.newest_ns or told
