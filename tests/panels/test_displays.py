@@ -491,3 +491,15 @@ def test_rows_that_are_kept_show_what_has_moved_since(
     displays.change("Ground", "Floor", "Cell Size", to=2.5)
     rows = displays.all()
     assert {row_id: rows[row_id].value for row_id in moved} == moved
+
+
+def test_a_display_without_a_name_is_called_after_its_class(tmp_path: Path) -> None:
+    config = tmp_path / "a.rviz"
+    config.write_text(
+        "Visualization Manager:\n  Displays:\n"
+        "    - {Class: rviz_default_plugins/Grid, Enabled: true}\n"
+    )
+    with Visualizer(config=config, port=0) as viz:
+        panel = panel_of(DisplaysPanel, session_of(viz))
+        rows = rows_of(panel).values()
+        assert [row.name for row in rows if row.kind == "display"] == ["Grid"]

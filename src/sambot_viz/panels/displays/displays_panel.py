@@ -266,7 +266,7 @@ class DisplaysPanel(Panel):
             row_id,
             parent,
             "display",
-            config.name,
+            config.name or config.kind.rpartition("/")[2],
             value=config.enabled,
             level=level,
             icon=config.kind.rpartition("/")[2],
