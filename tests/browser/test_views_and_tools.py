@@ -113,15 +113,6 @@ def value(session: Session, path: str) -> Any:
     return view_of(session).values[path]
 
 
-def place(viewer: ViewerPage, point: tuple[float, float, float]) -> tuple[float, float]:
-    """Where a point of the fixed frame is on the page."""
-    column, row = viewer.project("", point)
-    left, top = viewer.page.evaluate(
-        "(r => [r.x, r.y])(__viserMutable.canvas.getBoundingClientRect())"
-    )
-    return left + column, top + row
-
-
 def test_a_key_looks_from_a_side_and_the_mouse_goes_on_without_perspective(
     desk: Desk,
 ) -> None:
@@ -133,7 +124,7 @@ def test_a_key_looks_from_a_side_and_the_mouse_goes_on_without_perspective(
     desk.settle()
     # The same height of the picture above two points, one of them nearer by a metre.
     rows = [
-        place(viewer, (0.0, -y, 0.1))[1] - place(viewer, (0.0, -y, 0.0))[1]
+        viewer.on_page((0.0, -y, 0.1))[1] - viewer.on_page((0.0, -y, 0.0))[1]
         for y in (0.0, 1.0)
     ]
     assert rows[0] == pytest.approx(rows[1], rel=0.02)
@@ -155,7 +146,7 @@ def test_a_tool_that_was_just_chosen_has_the_mouse_at_once(desk: Desk) -> None:
     session, viewer = desk.session, desk.viewer
     keyboard, mouse, tools = viewer.page.keyboard, viewer.page.mouse, tools_of(session)
     yaw = value(session, "Yaw")
-    x, y = place(viewer, (0.0, 0.0, 0.0))
+    x, y = viewer.on_page((0.0, 0.0, 0.0))
     with session.lock:
         keyboard.press("s")
         mouse.move(x - 200, y - 150)
@@ -176,7 +167,7 @@ def test_a_tool_that_was_just_chosen_has_the_mouse_at_once(desk: Desk) -> None:
     mouse.release()
     chosen(desk.viz, viewer, "Move Camera")
     assert tools.selection == selected
-    point = place(viewer, (0.6, 0.0, 0.0))
+    point = viewer.on_page((0.6, 0.0, 0.0))
     keyboard.press("n")
     mouse.click(*point)
     until(viewer, lambda: "second point" in tools.status)
@@ -217,7 +208,7 @@ def test_a_rectangle_selects_from_the_first_pixel_of_a_link_on(
     rows = np.flatnonzero(robot.any(axis=1))
     top, bottom = float(rows[0]), float(rows[-1])
     # Where the picture begins on the page.
-    x = place(viewer, (0.0, 0.0, 0.0))[0] - viewer.project("", (0.0, 0.0, 0.0))[0]
+    x = viewer.on_page((0.0, 0.0, 0.0))[0] - viewer.project("", (0.0, 0.0, 0.0))[0]
     for outside, edge, inwards in ((left - 40, left, 1), (right + 40, right, -1)):
         mouse.drag((x + outside, top), (x + edge + 2 * inwards, bottom))
         until(viewer, lambda: len(tools.selection) > 0)
@@ -234,9 +225,9 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     tools_bar = ("toolbar", "Tools")
     viewer.user.click("button", "Select", tools_bar)
     chosen(own, viewer, "Select")
-    touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
+    touch.tap(*viewer.on_page((0.0, 0.0, 0.09)))
     until(viewer, lambda: [item.name for item in tools.selection] == ["base_link"])
-    corners = [place(viewer, (x, y, 0.0)) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    corners = [viewer.on_page((x, y, 0.0)) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
     across, down = zip(*corners, strict=True)
     before = view_of(session).shown.camera
     touch.start((min(across), min(down)))
@@ -249,9 +240,9 @@ def test_tools_work_with_a_finger(own: Visualizer, open_viewer: Open) -> None:
     viewer.settle(own)
     viewer.user.click("button", "Measure", tools_bar)
     chosen(own, viewer, "Measure")
-    touch.tap(*place(viewer, (0.0, 0.0, 0.09)))
+    touch.tap(*viewer.on_page((0.0, 0.0, 0.09)))
     until(viewer, lambda: tools.status == "Click the second point.")
-    touch.tap(*place(viewer, (0.1, 0.0, 0.09)))
+    touch.tap(*viewer.on_page((0.1, 0.0, 0.09)))
     until(viewer, lambda: " m. " in tools.status)
 
 

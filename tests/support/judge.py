@@ -36,11 +36,7 @@ def on_page(desk: Desk, *point: float, frame: str = "") -> tuple[float, float]:
         found = desk.viz.frames.lookup(desk.fixed_frame, frame)
         x, y, z = point or (0.0, 0.0, 0.0)
         point = tuple(float(v) for v in found.matrix[:3] @ (x, y, z, 1.0))
-    column, row = desk.viewer.project("", point)
-    left, top = desk.page.evaluate(
-        "(r => [r.x, r.y])(__viserMutable.canvas.getBoundingClientRect())"
-    )
-    return left + column, top + row
+    return desk.viewer.on_page(point)
 
 
 def drawn(desk: Desk) -> float:

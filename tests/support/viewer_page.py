@@ -269,6 +269,14 @@ class ViewerPage(WindowPage):
         x, y = cast(tuple[float, float], self._ask(script))
         return round(x), round(y)
 
+    def on_page(self, point: Sequence[float]) -> tuple[float, float]:
+        """Where a point of the fixed frame is on the page [CSS pixels]."""
+        column, row = self.project("", point)
+        left, top = self._ask(
+            "(r => [r.x, r.y])(__viserMutable.canvas.getBoundingClientRect())"
+        )
+        return left + column, top + row
+
     def is_covered(self, column: int, row: int) -> bool:
         """Whether something of the page lies over this pixel of the 3D view."""
         seen = (
