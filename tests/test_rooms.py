@@ -129,10 +129,10 @@ ROOMS: Mapping[str, Row] = {
         "PIL numpy viser",
     ),
     "views": Row("rviz", "numpy"),
-    "tools": Row("displays frames meshes robot rviz views", "numpy viser"),
+    "tools": Row("displays frames meshes publishing robot rviz views", "numpy viser"),
     "session": Row(
         "bundled checks displays drive frames joints meanings meshes options problems "
-        "robot rviz sources tools topics views viser_private",
+        "publishing robot rviz sources tools topics views viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
     ),
@@ -188,7 +188,7 @@ ROOMS: Mapping[str, Row] = {
     "matrices": Row("", "numpy"),
     "listened": Row("sources topics", "", "threading"),
     "moved_by": Row("messages options rviz sources topics"),
-    "options": Row("flags frames joints robot rviz sources", "yourdfpy"),
+    "options": Row("flags frames joints publishing robot rviz sources", "yourdfpy"),
     "outlet": Row("", "segno"),
     "problems": Row(),
     "text": Row(),

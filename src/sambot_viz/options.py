@@ -168,6 +168,20 @@ class Options:
         "--record-dir",
         metavar="DIR",
     )
+    publish: str | None = option(
+        None,
+        "what may be sent to a live robot by those in control: goal, pose (an estimate "
+        "of where it is), point, or several with commas; without a value all of them",
+        "--publish",
+        metavar="KINDS",
+        optional_value="word",
+    )
+    publish_log: PathLike | None = option(
+        None,
+        "append a line of JSON to this file for each message that is sent to the robot",
+        "--publish-log",
+        metavar="FILE",
+    )
     fixed_frame: str | None = option(
         None,
         "the fixed frame, instead of the config's",
@@ -358,6 +372,7 @@ class Options:
                 token = check_token(secret, f"--{name}") if secret else new_token()
                 object.__setattr__(self, name, token)
         self._check_presenter()
+        self._check_publish()
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
@@ -395,6 +410,24 @@ class Options:
                     f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
                     "rosbridge://HOST:9090"
                 )
+
+    def _check_publish(self) -> None:
+        """Refuse to send what cannot be sent, or without a robot."""
+        from sambot_viz.publishing.outbound import kinds_of
+
+        for flag, given in (
+            ("--publish", self.publish),
+            ("--publish-log", self.publish_log),
+        ):
+            if given is not None and not self.live_sources:
+                raise UsageError(
+                    f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
+                    "rosbridge://HOST:9090"
+                )
+        if self.publish_log is not None and self.publish is None:
+            raise UsageError("--publish-log needs --publish: nothing is sent without")
+        if self.publish is not None:
+            kinds_of(self.publish)
 
     def _check_presenter(self) -> None:
         if self.presenter is None:

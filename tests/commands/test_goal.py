@@ -98,7 +98,7 @@ def test_one_that_is_on_its_way_when_the_time_is_over_is_fine(
             [],
             "the robot refuses it: /goal_po",
         ),
-        ({"node": ""}, [], "nobody takes goals on /goal_pose: start Nav2"),
+        ({"node": ""}, [], "nobody has subscribed to /goal_pose: start Nav2"),
         ({}, ["-f", "mpa"], "did you mean 'map'"),
         ({"frames": {"base_link": "odom"}}, [], "'map'"),
         (

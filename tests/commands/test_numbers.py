@@ -31,7 +31,7 @@ FORMS = {
 OTHERS = {
     "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI",
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
-    "JOINT", "SOURCE", "TARGET", "HOST", "TOPIC",
+    "JOINT", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
 }  # fmt: skip
 """Placeholders of what is no number."""

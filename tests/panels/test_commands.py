@@ -75,7 +75,9 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("topics/show", "topics/find", "topics/choose"),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         "drive/find",
-        *("tools/press", "tools/right_click", "tools/zero"),
+        *("tools/press", "tools/right_click", "tools/zero", "tools/drag"),
+        # What is sent to a robot asks for control itself.
+        "tools/drop",
         *("views/first", "views/restore", "views/use"),
         *("views/side", "views/press_side"),
     }

@@ -60,7 +60,7 @@ def test_tools_of_a_config_that_do_not_exist_here_are_listed(tmp_path: Path) -> 
     config = tmp_path / "own.rviz"
     text = bundled.config_path().read_text()
     tool = "rviz_default_plugins/"
-    config.write_text(text.replace(f"{tool}Measure", f"{tool}SetGoal"))
+    config.write_text(text.replace(f"{tool}Measure", "lab_tools/Paint"))
     with Visualizer(config=config) as viz:
         session = viz.server.sessions.all()[0]
         assert "config-tools" in codes(session)

@@ -10,8 +10,8 @@ from sambot_viz.errors import UsageError
 from sambot_viz.listened import CONNECTED_WITHIN
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.outlet import write_lines
-from sambot_viz.publishing.goal import Goal
-from sambot_viz.publishing.goal_sender import GLOBAL_FRAME, TOPIC, GoalSender
+from sambot_viz.publishing.goal_sender import TOPIC, GoalSender
+from sambot_viz.publishing.outbound import MAP, Goal
 from sambot_viz.text import text
 
 WAIT = 120.0
@@ -74,7 +74,7 @@ def parser() -> Parser:
     made.add_argument(
         "-f",
         "--frame",
-        default=GLOBAL_FRAME,
+        default=MAP,
         metavar="FRAME",
         help="the frame of X, Y and YAW (default: %(default)s)",
     )

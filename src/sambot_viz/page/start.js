@@ -2,6 +2,7 @@
 /* Starts the window and all that it follows. The view is there or not: nothing here asks for it. */
 
 import { actAtOnce } from "./view/new_tool.js";
+import { stopDrawing } from "./view/drag_tool.js";
 import { html, render } from "./vendor/preact.js";
 import { act, connect, HOVER, newGesture, rows, send } from "./wire/channel.js";
 import { followConnection } from "./wire/connection.js";
@@ -33,7 +34,10 @@ const start = () => {
     mouse: mousePlace,
     act: actAtOnce,
     hide: togglePanels,
-    cancelPress,
+    cancelPress: () => {
+      stopDrawing();
+      cancelPress();
+    },
     plays,
     play,
     seek,

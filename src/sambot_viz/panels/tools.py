@@ -53,7 +53,7 @@ class ToolsPanel(Panel):
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
         return [
-            Data("tools/list", [self._tool(tool) for tool in tools.tools]),
+            Data("tools/list", [self._tool(tool) for tool in tools.offered]),
             Data("tools/controls", tools.shows_controls),
             Data("tools/hint", {"text": hint, "touch": touch}),
             Data("tools/selected", [*labels(tools.selection)]),
@@ -83,6 +83,7 @@ class ToolsPanel(Panel):
             "hover": current and tool.wants_hover,
             "clicks": tool.clicks,
             "rectangles": tool.rectangles,
+            "drags": tool.drags,
         }
 
     def _kind(self, label: str) -> str:
@@ -120,6 +121,14 @@ class ToolsPanel(Panel):
     @command("tools/hover", NUMBER, NUMBER, client_local=True)
     def _hover(self, x: float, y: float) -> None:
         self._client.tools.hover((x, y))
+
+    @command("tools/drag", NUMBER, NUMBER, client_local=True)
+    def _drag(self, x: float, y: float) -> None:
+        self._client.tools.drag((x, y))
+
+    @command("tools/drop", NUMBER, NUMBER, client_local=True)
+    def _drop(self, x: float, y: float) -> None:
+        self._client.tools.drag((x, y), ends=True)
 
     @command("tools/double_click", NUMBER, NUMBER, client_local=True)
     def _double_click(self, x: float, y: float) -> None:

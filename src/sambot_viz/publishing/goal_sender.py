@@ -10,10 +10,10 @@ from threading import Event
 from typing import Any
 
 from sambot_viz.errors import DecodeError, PublishError, SourceError
-from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.history import FrameHistory
-from sambot_viz.publishing.goal import POSE_STAMPED, Goal
-from sambot_viz.publishing.outcome import GoalFollower, Outcome
+from sambot_viz.publishing.outbound import Goal
+from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
+from sambot_viz.publishing.takers import frame_fault, who_takes
 from sambot_viz.publishing.written import stamp_for, written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Outgoing
@@ -22,10 +22,6 @@ from sambot_viz.topics.source_robot import SourceRobot
 
 TOPIC = "/goal_pose"
 """Where Nav2 takes goals, and RViz sends them."""
-STATUS = "navigate_to_pose/_action/status"
-"""Where Nav2 says what becomes of them, beside that topic; it is hidden in ROS."""
-GLOBAL_FRAME = "map"
-"""The frame in which Nav2 plans, as it comes."""
 FOUND_WITHIN = 2.0
 """What a robot says without being asked has come by then [s]."""
 DISCOVERY = 0.5
@@ -47,7 +43,7 @@ class GoalSender:
     def __init__(self, robot: SourceRobot, topic: str = TOPIC) -> None:
         self._robot, self._source = robot, robot.source
         self._topic = topic
-        self._status = f"{topic.rpartition('/')[0]}/{STATUS}"
+        self._status = status_of(topic)
         self._transforms = robot.transforms(FrameHistory())
         self._follower = GoalFollower()
         self._outgoing: Outgoing | None = None
@@ -77,10 +73,10 @@ class GoalSender:
             SourceError: the robot takes no messages, or has left.
         """
         self._require_frame(goal.frame)
-        outgoing = self._source.advertise(self._topic, POSE_STAMPED)
+        outgoing = self._source.advertise(self._topic, Goal.type_name)
         self._outgoing = outgoing
         self._wait(lambda: bool(outgoing.receivers.names), FOUND_WITHIN)
-        who = self._receivers(outgoing)
+        who = who_takes(outgoing, "goal")
         self._wait(lambda: bool(outgoing.refused), DISCOVERY)
         self._require_taken()
         self._follower.begin()
@@ -171,45 +167,11 @@ class GoalSender:
                 self._transforms.set_topics(moving, static, self._source.topics())
                 self._listen(topic, self._transforms.take)
                 listened.add(topic)
-            return self._refusal_of(frame) is None
+            return bool(frames.frames) and not frame_fault(frames, frame, "goal")
 
         self._wait(is_fine, FOUND_WITHIN)
-        refused = self._refusal_of(frame)
-        if refused is not None and frames.frames:
-            raise PublishError(f"the robot takes no goal in that frame: {refused}")
-
-    def _refusal_of(self, frame: str) -> LookupRefused | None:
-        frames = self._transforms.history
-        known = frames.frames
-        place = GLOBAL_FRAME if GLOBAL_FRAME in known else next(iter(known), "")
-        try:
-            frames.lookup(place, frame)
-        except LookupRefused as refused:
-            return refused
-        return None
-
-    def _receivers(self, outgoing: Outgoing) -> str:
-        """Return who gets the topic, in words.
-
-        Raises:
-            PublishError: nobody does, or its messages are of another type.
-        """
-        receivers, topic = outgoing.receivers, text(self._topic, 80)
-        if receivers.type_name not in ("", POSE_STAMPED):
-            other = text(receivers.type_name, 80)
-            raise PublishError(
-                f"{topic} of this robot has messages of {other}, and a goal is a "
-                f"{POSE_STAMPED}: name the topic of its goals with --topic"
-            )
-        if receivers.names is None:
-            return f"{topic}; the bridge does not say who gets it"
-        if not receivers.names:
-            raise PublishError(
-                f"nobody takes goals on {topic}: start Nav2 (its bt_navigator takes "
-                "them), or name the topic of this robot with --topic"
-            )
-        names = ", ".join(text(name, 80) for name in receivers.names[:3])
-        return f"{topic}, which {names} takes"
+        if why := frame_fault(frames, frame, "goal"):
+            raise PublishError(f"the robot takes no goal in that frame: {why}")
 
     def _require_taken(self) -> None:
         if not self._source.status.is_connected:

@@ -32,27 +32,32 @@ class GoalFollower:
     """
 
     def __init__(self) -> None:
-        self._before: set[bytes] = set()
-        self._has_begun = False
+        self._known = frozenset[bytes]()
         self._goal: bytes | None = None
+        self._waits = False
         self._last = 0
 
     def begin(self) -> None:
-        """Know all goals that were told of until now as others."""
-        self._has_begun = True
+        """Follow the next new goal: all that were told of until now are others."""
+        self._goal, self._last, self._waits = None, 0, True
 
     def take(self, statuses: Iterable[Any]) -> Outcome | None:
         """Take the goals of a GoalStatusArray; return what is new of the goal."""
-        for status in statuses:
-            goal = _id_of(status)
-            if not self._has_begun:
-                self._before.add(goal)
-            elif self._goal is None and goal not in self._before:
-                self._goal = goal
-            if goal == self._goal and int(status.status) != self._last:
-                self._last = int(status.status)
-                return _outcome(self._last)
-        return None
+        told = {_id_of(one): int(one.status) for one in statuses}
+        new = next((goal for goal in told if goal not in self._known), None)
+        self._known = frozenset(told)
+        if self._waits and new is not None:
+            self._goal, self._waits = new, False
+        status = told.get(self._goal or b"", self._last)
+        if status == self._last:
+            return None
+        self._last = status
+        return _outcome(status)
+
+
+def status_of(topic: str) -> str:
+    """Return where Nav2 says what becomes of the goals of a topic; hidden in ROS."""
+    return f"{topic.rpartition('/')[0]}/navigate_to_pose/_action/status"
 
 
 def _outcome(status: int) -> Outcome | None:

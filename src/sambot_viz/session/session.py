@@ -23,6 +23,7 @@ from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
+from sambot_viz.publishing.publisher import publisher_of
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
@@ -74,6 +75,7 @@ class Session:
         private: whether only one client sees it.
         own_model: whether its robot is its own: that of the server is not shown in it.
         sources: what messages come from, and what they move.
+        publisher: the way back to a live robot.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -133,8 +135,20 @@ class Session:
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)
+        self.publisher = publisher_of(
+            options.publish, options.publish_log, tree, is_private=private
+        )
+        self._take_robot()
         self.clients = Clients(
-            document, scene, robot, picker, history, self.roles, change, worker
+            document,
+            scene,
+            robot,
+            picker,
+            history,
+            self.roles,
+            self.publisher,
+            change,
+            worker,
         )
         self.follow_view = FollowView(
             self.drive, document, scene, self.clients, picker, history, worker
@@ -254,6 +268,7 @@ class Session:
             self.scene.clear()
             self.robot.forget()
             self.sources.take(moved_by)
+            self._take_robot()
             self.own_model, self._has_others = False, True
             if document is None:
                 self.document.show()
@@ -332,8 +347,17 @@ class Session:
         self.robot.close()
         with self.lock:
             self._closed = True
+            self.publisher.close()
             self.sources.close()
         self.worker.close()
+
+    def _take_robot(self) -> None:
+        """Let what is sent go to the live robot among the sources, if there is one."""
+        data = self.data
+        if data is None or not data.moved_by.can("clock"):
+            self.publisher.take(None, lambda: 0)
+        else:
+            self.publisher.take(data.moved_by, data.stamp_ns)
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

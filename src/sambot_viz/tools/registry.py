@@ -5,6 +5,12 @@ from __future__ import annotations
 from sambot_viz.tools.focus_camera import FocusCameraTool
 from sambot_viz.tools.measure import MeasureTool
 from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
+from sambot_viz.tools.publish import (
+    NavGoalTool,
+    PublishPointTool,
+    SetGoalTool,
+    SetInitialPoseTool,
+)
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Tool
 
@@ -16,5 +22,9 @@ TOOLS: dict[str, type[Tool]] = {
         SelectTool,
         FocusCameraTool,
         MeasureTool,
+        SetInitialPoseTool,
+        SetGoalTool,
+        NavGoalTool,
+        PublishPointTool,
     )
 }

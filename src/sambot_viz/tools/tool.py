@@ -10,9 +10,10 @@ import viser
 
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Hit, Selection
+from sambot_viz.publishing.outbound import Kind, Outbound
 from sambot_viz.rviz import Property, ToolConfig
 
-Key = Literal["I", "M", "S", "C", "N"]
+Key = Literal["I", "M", "S", "C", "N", "P", "G", "U"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +63,29 @@ class ToolContext(Protocol):
         """Show a sentence below the toolbar; an empty one shows the tool's help."""
         ...
 
+    @property
+    def fixed_frame(self) -> str:
+        """The fixed frame, in which clicks are."""
+        ...
+
+    def publish_refusal(self, kind: Kind) -> str:
+        """Return why this user may send nothing of a kind; empty when he may."""
+        ...
+
+    def prepare(self, kind: Kind, topic: str, type_name: str) -> None:
+        """Let the robot know of a topic before something is sent on it."""
+        ...
+
+    def publish(self, message: Outbound, topic: str, *, leave: bool = True) -> None:
+        """Send a message to the robot once, and show what becomes of it.
+
+        Args:
+            message: what is sent.
+            topic: where.
+            leave: whether the default tool is chosen once it was sent.
+        """
+        ...
+
 
 class Tool:
     """Base of all tools. Its methods are called with the session locked.
@@ -75,6 +99,9 @@ class Tool:
         clicks: whether it uses clicks. Only then does the page send them: with any
             other tool a press of the mouse moves the camera.
         rectangles: whether dragging with the left button draws a rectangle.
+        drags: whether it follows a drag with the left button itself.
+        only_listed: whether it has a button only where the config lists it.
+        sends: what it sends to a robot; None for nothing.
         properties: its settings.
     """
 
@@ -85,6 +112,9 @@ class Tool:
     touch: ClassVar[str]
     clicks: ClassVar[bool] = False
     rectangles: ClassVar[bool] = False
+    drags: ClassVar[bool] = False
+    only_listed: ClassVar[bool] = False
+    sends: ClassVar[Kind | None] = None
     properties: ClassVar[tuple[Property, ...]] = ()
 
     def __init__(self, context: ToolContext, config: ToolConfig | None) -> None:
@@ -101,6 +131,14 @@ class Tool:
         """A user clicked into the 3D view."""
         del click, hit
 
+    def aim(self, click: Click) -> None:
+        """A user pressed the left button, or drags; only with `drags`."""
+        del click
+
+    def drop(self, click: Click) -> None:
+        """A user released the left button there; only with `drags`."""
+        del click
+
     def rectangle(self, items: Selection, modifier: str | None) -> None:
         """A user drew a rectangle; `items` are the things visible in it."""
         del items, modifier
@@ -113,6 +151,9 @@ class Tool:
     def hover(self, click: Click, hit: Hit) -> None:
         """The mouse has moved over the 3D view; only called while `wants_hover`."""
         del click, hit
+
+    def chosen(self) -> None:
+        """A user chose it."""
 
     def left(self) -> None:
         """A user chose another tool."""

@@ -32,6 +32,13 @@ function placeOf(event) {
   return x >= 0 && x <= 1 && y >= 0 && y <= 1 ? [x, y] : OUTSIDE;
 }
 
+/** Where an event is in the view; null outside.
+ * @param {MouseEvent} event @returns {[number, number] | null} */
+export function placeIn(event) {
+  const [x, y] = placeOf(event);
+  return x === null || y === null ? null : [x, y];
+}
+
 /** The pointer that was pressed in the view last. */
 let pressed = -1;
 
@@ -108,7 +115,7 @@ export function followMouse({ wantsHover, hover, rightClick, twice, enter }) {
 }
 
 /** After a click the view has the focus, and no text field any more. */
-function focusView() {
+export function focusView() {
   const view = canvas();
   if (!view) return;
   if (view.tabIndex < 0) {

@@ -67,7 +67,7 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
   if (key === "f") return { act: "tools/focus", with: mouse };
   if (key === "z") return { act: "tools/zero" };
   if (key === "r") return { act: "tools/reset" };
-  if (key === "p") return { act: "tools/point" };
+  if (key === "o") return { act: "tools/point" };
   // As in Blender; while a number pad drives, its other keys are only pressed by mistake.
   if (!drives && SIDES[key]) return { act: "views/press_side", with: [SIDES[key]] };
   // A number pad drives the robot: 8 and 2 forwards and back, 4 and 6 turn, 5 stops. A digit

@@ -30,9 +30,12 @@ export const NOT_DONE = "not done";
 export const WATCHING = "watching";
 /** The command that reports where the mouse is. */
 export const HOVER = "tools/hover";
+/** The command that reports where it drags. */
+export const DRAG = "tools/drag";
 /** What a page sends without a user who means it. @param {string} id */
 const byItself = (id) =>
   id === HOVER ||
+  id === DRAG ||
   ["/unfold", "/show", "/restore", "/keep", "/find"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;

@@ -6,7 +6,7 @@ of the mouse moves the camera. What tools draw is drawn for their own client alo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from typing import Any
 
 import viser
@@ -19,15 +19,20 @@ from sambot_viz.displays.picking.selectable import (
     merged,
 )
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import PublishError, SourceError, UsageError
+from sambot_viz.publishing.outbound import Kind, Outbound
+from sambot_viz.publishing.outcome import Outcome
+from sambot_viz.publishing.publisher import Publisher
 from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.session.clients.pointer_events import listen, pointed_at
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.people.roles import VIEW_ONLY, Roles
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Worker
+from sambot_viz.text import capitalized
 from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
 from sambot_viz.tools.picking.pixel_rays import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
@@ -51,6 +56,8 @@ class ClientTools:
         picker: finds what is clicked on.
         worker: acts on clicks.
         selected: called with the number of the client and what it has selected.
+        publisher: sends what they send to a robot.
+        roles: who of the clients may do that.
 
     Attributes:
         changed: the tools, the selection or the status.
@@ -72,6 +79,8 @@ class ClientTools:
         picker: Picker,
         worker: Worker,
         selected: Callable[[int, Selection], None],
+        publisher: Publisher,
+        roles: Roles,
     ) -> None:
         self.changed = Signal(change, None)
         self.status = ""
@@ -85,6 +94,7 @@ class ClientTools:
         self._picker = picker
         self._worker = worker
         self._selected = selected
+        self._publisher, self._roles = publisher, roles
         self._boxes = SelectionBoxes(client.scene)
         self._config: object = None
         self._settings: dict[str, dict[str, Any]] = {}
@@ -125,6 +135,13 @@ class ClientTools:
             if tool.kind == kind:
                 return tool
         raise UsageError(f"there is no tool '{kind}'; there are {', '.join(TOOLS)}")
+
+    @property
+    def offered(self) -> Sequence[Tool]:
+        """Those for which there are buttons: to send something takes a live robot."""
+        is_live = self._publisher.robot is not None
+        there = (t for t in self.tools if t.config is not None or not t.only_listed)
+        return [tool for tool in there if is_live or tool.sends is None]
 
     @property
     def shows_controls(self) -> bool:
@@ -172,6 +189,24 @@ class ClientTools:
         self._mouse = at
         if not self._hovering and self.current.wants_hover:
             self._follow_mouse(self.current)
+
+    def drag(self, at: ScreenPoint, *, ends: bool = False) -> None:
+        """The left button is held in the 3D view, by a tool that drags.
+
+        Args:
+            at: from 0 (left, top) to 1 (right, bottom) of the picture.
+            ends: whether it is released there.
+        """
+        click, tool = pointed_at(self._client, at), self.current
+        if not tool.drags:
+            return
+        with self._change(self.changed):
+            if click is None:
+                tool.cancel()
+            elif ends:
+                tool.drop(click)
+            else:
+                tool.aim(click)
 
     def double_click(self, at: ScreenPoint) -> None:
         """Note what is under the mouse; a tool with clicks of its own has them alone.
@@ -268,7 +303,47 @@ class ClientTools:
         with self._change(self.changed):
             self.status = status
 
+    @property
+    def fixed_frame(self) -> str:
+        """The fixed frame, in which clicks are."""
+        return self._scene.context.fixed_frame
+
+    def publish_refusal(self, kind: Kind) -> str:
+        """Return why this user may send nothing of a kind; empty when he may."""
+        if not self._roles.may_edit(self._client.client_id):
+            return VIEW_ONLY
+        return self._publisher.refusal(kind)
+
+    def prepare(self, kind: Kind, topic: str, type_name: str) -> None:
+        """Let the robot know of a topic before something is sent on it."""
+        if not self.publish_refusal(kind):
+            self._publisher.prepare(kind, topic, type_name)
+
+    def publish(self, message: Outbound, topic: str, *, leave: bool = True) -> None:
+        """Send a message to the robot once, and show what becomes of it."""
+        person = self._roles.people.get(self._client.client_id)
+        who = "" if person is None else person.name
+        with self._change(self.changed):
+            try:
+                if why := self.publish_refusal(message.kind):
+                    raise PublishError(why)
+                told = self._publisher.send(message, topic, who, self._tell)
+            except (PublishError, SourceError) as error:
+                self.status = f"{capitalized(str(error))}."
+                return
+            if leave:
+                self._switch(self.default)
+            self.status = f"Sent to {told}."
+
     # Inside
+
+    def _tell(self, outcome: Outcome) -> None:
+        """Show what has become of a goal; in the thread of the source."""
+
+        def show() -> None:
+            self.show_status(f"{capitalized(outcome.words)}.")
+
+        self._worker.post(show, client=self._client.client_id)
 
     def _follow(self, what: str, click: Click, then: Callable[[Hit], None]) -> None:
         ray = click.origin, click.direction, click.pixel, click.up
@@ -321,6 +396,7 @@ class ClientTools:
             self.current = tool
             self.status = ""
             self._listen()
+            tool.chosen()
 
     def _listen(self) -> None:
         """Get what the current tool uses of the mouse, and nothing else."""

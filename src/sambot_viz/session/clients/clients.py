@@ -8,6 +8,7 @@ from types import MappingProxyType
 import viser
 
 from sambot_viz.displays.picking.selectable import Selection
+from sambot_viz.publishing.publisher import Publisher
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.client_tools import ClientTools
 from sambot_viz.session.clients.client_view import ClientView, ViewOwner
@@ -33,6 +34,7 @@ class Clients:
         picker: finds what is clicked on.
         history: records views.
         roles: whose view the others may follow.
+        publisher: sends what tools send to a robot.
         worker: acts on what clients send.
 
     Attributes:
@@ -54,6 +56,7 @@ class Clients:
         picker: Picker,
         history: History,
         roles: Roles,
+        publisher: Publisher,
         change: Change,
         worker: Worker,
     ) -> None:
@@ -69,6 +72,7 @@ class Clients:
         self._picker = picker
         self._history = history
         self._roles = roles
+        self._publisher = publisher
         self._saved_views = SavedViews(document, history, change)
         self._worker = worker
         self._clients: dict[int, Client] = {}
@@ -113,6 +117,8 @@ class Clients:
             self._picker,
             self._worker,
             self._point,
+            self._publisher,
+            self._roles,
         )
         client = self._clients[handle.client_id] = Client(handle, change, view, tools)
         for listener in tuple(self.listeners):

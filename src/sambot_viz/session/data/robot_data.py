@@ -232,6 +232,14 @@ class RobotData:
         """Return the time of the messages [s since 1970]."""
         return self.source.clock_ns() * 1e-9
 
+    def stamp_ns(self) -> int:
+        """Return the time of what is sent to the robot now [ns].
+
+        Its own: that which it tells, else the newest of its transforms.
+        """
+        now = self.source.clock_ns()
+        return now if self.source.has_clock else self.transforms.newest_ns or now
+
     def is_paced(self, frame: str) -> bool:
         """Return whether a frame has the time of a recording beside a live robot."""
         if self.player is None or self.source.live is None:

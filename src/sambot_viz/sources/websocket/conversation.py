@@ -15,7 +15,7 @@ from sambot_viz.sources.source import Capability
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
-from sambot_viz.sources.websocket.outgoing_topic import Publisher
+from sambot_viz.sources.websocket.outgoing_topic import TopicSender
 from sambot_viz.text import text
 
 _LATE = 1.0
@@ -56,7 +56,7 @@ class Ends:
     session_id: str | None = None
 
 
-class Conversation(Publisher):
+class Conversation(TopicSender):
     """One connection's state; all methods are called in one thread.
 
     Attributes:

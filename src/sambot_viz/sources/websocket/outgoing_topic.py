@@ -12,7 +12,7 @@ from sambot_viz.sources.source import Receivers
 from sambot_viz.text import text
 
 
-class Publisher(ABC):
+class TopicSender(ABC):
     """What tells a peer of topics, in the thread of the connection.
 
     Attributes:
@@ -59,7 +59,7 @@ class OutgoingTopic:
         self,
         topic: str,
         type_name: str,
-        publisher: Publisher,
+        publisher: TopicSender,
         post: Callable[[Callable[[], object]], object],
     ) -> None:
         self.topic = topic

@@ -1,0 +1,248 @@
+"""The one way out of a session to its robot: what is allowed, to whom, and a log."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Collection
+from pathlib import Path
+from typing import Any
+
+from sambot_viz.errors import DecodeError, PublishError, SourceError
+from sambot_viz.outlet import write_err
+from sambot_viz.publishing.outbound import Kind, Outbound, kinds_of
+from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
+from sambot_viz.publishing.takers import KnownFrames, frame_fault, who_takes
+from sambot_viz.publishing.written import stamp_for, written
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import OnMessage, Outgoing
+from sambot_viz.text import text
+from sambot_viz.topics.source_robot import SourceRobot
+
+FASTEST = 0.05
+"""Messages go at least so long after one another [s]; a hand is slower."""
+
+
+class PublishLog:
+    """A file with a line of JSON for each message that was sent.
+
+    Args:
+        path: it is appended to.
+
+    Raises:
+        PublishError: it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._append("")
+
+    def add(self, message: Outbound, topic: str, who: str) -> None:
+        """Write what was sent.
+
+        Raises:
+            PublishError: it cannot be written.
+        """
+        told = {
+            "time": round(time.time(), 3),
+            "who": who,
+            "topic": topic,
+            "type": message.type_name,
+            "frame": message.frame,
+            "values": message.numbers,
+        }
+        self._append(f"{json.dumps(told, allow_nan=False)}\n")
+
+    def _append(self, line: str) -> None:
+        try:
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(line)
+        except OSError as error:
+            why = error.strerror or str(error)
+            raise PublishError(f"{self._path} cannot be written: {why}") from error
+
+
+class Publisher:
+    """Sends messages to the robot of a session, if that was allowed.
+
+    Not thread-safe: the session's lock is held.
+
+    Args:
+        allowed: which kinds may be sent.
+        frames: of the session.
+        log: where what was sent is written; None for nowhere.
+        is_private: it is a copy of one user, who sends nothing.
+
+    Attributes:
+        robot: the live robot; None without one.
+    """
+
+    def __init__(
+        self,
+        allowed: Collection[Kind],
+        frames: KnownFrames,
+        log: PublishLog | None = None,
+        *,
+        is_private: bool = False,
+    ) -> None:
+        self.robot: SourceRobot | None = None
+        self._allowed, self._frames, self._log = frozenset(allowed), frames, log
+        self._is_private = is_private
+        self._outgoing: dict[tuple[str, str], Outgoing] = {}
+        self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
+        self._tell: Callable[[Outcome], object] = lambda outcome: None
+        self._now_ns: Callable[[], int] = lambda: 0
+        self._last = 0.0
+
+    def take(self, robot: SourceRobot | None, now_ns: Callable[[], int]) -> None:
+        """Send to another robot from now on, or to none.
+
+        Args:
+            robot: a live one, or None.
+            now_ns: returns its time [ns].
+        """
+        self.close()
+        self.robot, self._now_ns = robot, now_ns
+
+    def close(self) -> None:
+        """Publish no topic any more; a second call does nothing."""
+        for outgoing in self._outgoing.values():
+            outgoing.close()
+        self._outgoing.clear()
+        for topic, (_, take) in self._followed.items():
+            if self.robot is not None:
+                self.robot.source.unsubscribe(status_of(topic), take)
+        self._followed.clear()
+
+    def refusal(self, kind: Kind) -> str:
+        """Return why a kind of messages may not be sent at all; empty when it may."""
+        if self.robot is None:
+            return (
+                "there is no live robot to send to: start with --source "
+                "foxglove://HOST:8765 or rosbridge://HOST:9090"
+            )
+        if self._is_private:
+            return "a private copy sends nothing to the robot"
+        if kind not in self._allowed:
+            return (
+                f"nothing is sent to the robot: start with --publish {kind} to allow it"
+            )
+        return ""
+
+    def prepare(self, kind: Kind, topic: str, type_name: str) -> None:
+        """Let the robot know of a topic before something is sent on it."""
+        robot = self.robot
+        if robot is None or self.refusal(kind):
+            return
+        if kind == "goal":
+            self._follow(robot, topic)
+        try:
+            self._topic(robot, topic, type_name)
+        except SourceError:
+            # It is said when something is sent.
+            return
+
+    def send(
+        self,
+        message: Outbound,
+        topic: str,
+        who: str,
+        tell: Callable[[Outcome], object] = lambda outcome: None,
+    ) -> str:
+        """Send a message once, and return who takes it, in words.
+
+        Args:
+            message: what is sent.
+            topic: where.
+            who: sends it, for the log.
+            tell: called with what becomes of a goal, in any thread.
+
+        Raises:
+            PublishError: it is not allowed, or nobody would take it.
+            SourceError: the robot takes nothing, or has left.
+        """
+        if why := self.refusal(message.kind):
+            raise PublishError(why)
+        robot = self.robot
+        assert robot is not None
+        if why := frame_fault(self._frames, message.frame, message.kind):
+            raise PublishError(f"nothing was sent: {why}")
+        now = time.monotonic()
+        if now - self._last < FASTEST:
+            raise PublishError("nothing was sent: messages come too fast")
+        self._last = now
+        outgoing = self._topic(robot, topic, message.type_name)
+        if outgoing.refused:
+            why = text(outgoing.refused, 400)
+            # It is tried again the next time.
+            self._forget(outgoing)
+            raise PublishError(f"the robot refuses it: {why}")
+        told = who_takes(outgoing, message.kind)
+        fields = message.fields(stamp_for(outgoing, self._now_ns()))
+        content = written(outgoing, fields, robot.decoding.types)
+        if message.kind == "goal":
+            self._follow(robot, topic)
+            self._tell = tell
+            self._followed[topic][0].begin()
+        try:
+            outgoing.send(content)
+        except SourceError:
+            # That connection has ended; there may be another one by now.
+            self._forget(outgoing)
+            self._topic(robot, topic, message.type_name).send(content)
+        write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
+        if self._log is not None:
+            self._log.add(message, topic, who)
+        return told
+
+    def _follow(self, robot: SourceRobot, topic: str) -> None:
+        """Listen to what becomes of the goals of a topic, before there is one."""
+        if topic in self._followed:
+            return
+        decode, follower = robot.new_decoding().decode, GoalFollower()
+
+        def take(message: Recorded) -> None:
+            try:
+                statuses: Any = decode(message).status_list
+            except (DecodeError, AttributeError):
+                return
+            outcome = follower.take(statuses)
+            if outcome is not None:
+                self._tell(outcome)
+
+        self._followed[topic] = follower, take
+        robot.source.subscribe(status_of(topic), take)
+
+    def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
+        key = topic, type_name
+        if key not in self._outgoing:
+            self._outgoing[key] = robot.source.advertise(topic, type_name)
+        return self._outgoing[key]
+
+    def _forget(self, outgoing: Outgoing) -> None:
+        outgoing.close()
+        self._outgoing.pop((outgoing.topic, outgoing.type_name), None)
+
+
+def publisher_of(
+    publish: str | None,
+    log: str | os.PathLike[str] | None,
+    frames: KnownFrames,
+    *,
+    is_private: bool,
+) -> Publisher:
+    """Return the way out of a session.
+
+    Args:
+        publish: the kinds of what may be sent, with commas; "" for all, None for none.
+        log: a file for what was sent; None for none.
+        frames: of the session.
+        is_private: it is a copy of one user, who sends nothing.
+
+    Raises:
+        PublishError: the log cannot be written.
+    """
+    allowed = () if publish is None or is_private else kinds_of(publish)
+    kept = None if log is None or not allowed else PublishLog(Path(log))
+    return Publisher(allowed, frames, kept, is_private=is_private)

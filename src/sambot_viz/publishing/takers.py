@@ -1,0 +1,87 @@
+"""Who takes what is sent on a topic, and why nobody does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from sambot_viz.errors import PublishError
+from sambot_viz.frames import LookupRefused
+from sambot_viz.frames.hierarchy import plain_name
+from sambot_viz.publishing.outbound import MAP, Kind
+from sambot_viz.sources.source import Outgoing
+from sambot_viz.text import text
+
+
+class KnownFrames(Protocol):
+    """Frames that can be looked up: a tree, or its history."""
+
+    @property
+    def frames(self) -> Sequence[str]:
+        """Return their names."""
+        ...
+
+    def lookup(self, target: str, source: str) -> object:
+        """Return the pose of a frame in another one.
+
+        Raises:
+            LookupRefused: there is none.
+        """
+        ...
+
+
+_NAMES = 3
+_TAKERS = {
+    "goal": "start Nav2 (its bt_navigator takes goals)",
+    "pose": "start AMCL or slam_toolbox (they take poses)",
+    "point": "start the program that takes points",
+}
+"""What is sent → who would take it."""
+
+
+def who_takes(outgoing: Outgoing, kind: Kind) -> str:
+    """Return who gets a topic, in words.
+
+    Args:
+        outgoing: the topic.
+        kind: what is sent on it.
+
+    Raises:
+        PublishError: nobody does, or its messages are of another type.
+    """
+    receivers, topic = outgoing.receivers, text(outgoing.topic, 80)
+    if receivers.type_name not in ("", outgoing.type_name):
+        raise PublishError(
+            f"{topic} of this robot has messages of {text(receivers.type_name, 80)}, "
+            f"and what is sent is a {outgoing.type_name}: name another topic"
+        )
+    if receivers.names is None:
+        return f"{topic}; the bridge does not say who gets it"
+    if not receivers.names:
+        raise PublishError(
+            f"nobody has subscribed to {topic}: {_TAKERS[kind]}, or name another topic"
+        )
+    names = ", ".join(text(name, 80) for name in receivers.names[:_NAMES])
+    more = len(receivers.names) - _NAMES
+    return f"{topic}, which {names}{f' and {more} more' if more > 0 else ''} takes"
+
+
+def frame_fault(frames: KnownFrames, frame: str, kind: Kind) -> str:
+    """Return why a robot cannot take what is in a frame; empty when it can.
+
+    Args:
+        frames: of the robot; without any nothing is known.
+        frame: in which the place is given.
+        kind: what is sent.
+    """
+    known = frames.frames
+    if not known or kind == "point":
+        return ""
+    place = MAP if MAP in known else known[0]
+    if kind == "pose" and MAP in known and plain_name(frame) != MAP:
+        return f"AMCL takes poses in {MAP} only: the frame is {text(frame, 80)}"
+    try:
+        frames.lookup(place, frame)
+    except LookupRefused as refused:
+        return str(refused)
+    return ""

@@ -1,0 +1,110 @@
+"""2D Goal Pose in a real page: by mouse and by finger, and what stops it."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from live_peers import eventually
+from navigator_peer import NavigatorPeer
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = [pytest.mark.browser, pytest.mark.view]
+CONFIG = """
+Visualization Manager:
+  Global Options: {Fixed Frame: map}
+  Displays:
+    - {Class: rviz_default_plugins/Grid, Enabled: true}
+    - {Class: rviz_default_plugins/TF, Enabled: true}
+  Tools:
+    - {Class: rviz_default_plugins/MoveCamera}
+    - {Class: rviz_default_plugins/SetGoal, Topic: {Value: /goal_pose}}
+  Views:
+    Current:
+      Class: rviz_default_plugins/Orbit
+      Distance: 8
+      Pitch: 1
+      Yaw: 1.5707963
+      Focal Point: {X: 0, Y: 0, Z: 0}
+"""
+BAR = ("toolbar", "Tools")
+
+
+@pytest.fixture
+def peer() -> Iterator[NavigatorPeer]:
+    made = NavigatorPeer()
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def viz(peer: NavigatorPeer, tmp_path: Path) -> Iterator[Visualizer]:
+    config = tmp_path / "a.rviz"
+    config.write_text(CONFIG)
+    with Visualizer(source=peer.uri, config=config, port=0, publish="goal") as viz:
+        eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        yield viz
+
+
+def yaws(peer: NavigatorPeer) -> list[float]:
+    """The headings of the goals that have come [rad]."""
+    found = [struct.unpack_from("<2d", bytes(c.content)[-16:]) for c in peer.came()]
+    return [2.0 * math.atan2(z, w) for z, w in found]
+
+
+def test_a_goal_by_mouse_and_what_becomes_of_it(
+    peer: NavigatorPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.settle(viz)
+    user, mouse = viewer.user, viewer.page.mouse
+    camera = viewer.page.evaluate("__viserMutable.camera.position.toArray()")
+    x, y = viewer.on_page((0.0, 0.0, 0.0))
+    tip = viewer.on_page((0.0, 2.0, 0.0))
+    viewer.page.keyboard.press("g")
+    user.reads("Drag from the place towards the heading")
+    # The press comes at once.
+    mouse.move(x, y)
+    mouse.press()
+    mouse.move((x + tip[0]) / 2, (y + tip[1]) / 2)
+    mouse.move(*tip)
+    viewer.wait_for("'/~pose' in __viserMutable.nodeRefFromName")
+    mouse.release()
+    user.reads("Reached.")
+    assert yaws(peer) == pytest.approx([math.pi / 2], abs=0.02)
+    viewer.settle(viz)
+    assert viewer.page.evaluate(
+        "__viserMutable.camera.position.toArray()"
+    ) == pytest.approx(camera, abs=1e-6)
+    # Escape, in the middle of a drag, sends nothing.
+    user.click("button", "2D Goal Pose", BAR)
+    mouse.move(x, y)
+    mouse.press()
+    mouse.move(*tip)
+    viewer.page.keyboard.press("Escape")
+    mouse.release()
+    viewer.settle(viz)
+    assert len(peer.came()) == 1
+
+
+def test_a_goal_by_finger(
+    peer: NavigatorPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url, width=1024, height=768, touch=True)
+    viewer.settle(viz)
+    touch = viewer.page.touch
+    start, tip = viewer.on_page((0.0, 0.0, 0.0)), viewer.on_page((-2.0, 0.0, 0.0))
+    viewer.user.click("button", "2D Goal Pose", BAR)
+    viewer.user.reads("a second finger stops")
+    touch.start(start)
+    touch.move(tip)
+    touch.end()
+    viewer.user.reads("Reached.")
+    (yaw,) = yaws(peer)
+    assert abs(yaw) == pytest.approx(math.pi, abs=0.02)

@@ -1,0 +1,310 @@
+"""The tools that send something to a robot: when, what, to whom, and what is said."""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of, viser_server
+from live_peers import eventually
+from navigator_peer import GOAL, NavigatorPeer
+from protocol_client import ProtocolClient, wait_for_workers
+
+from sambot_viz import Visualizer
+from sambot_viz.errors import UsageError
+
+CONFIG = """
+Visualization Manager:
+  Global Options: {{Fixed Frame: {frame}}}
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Enabled: true
+      Description Topic: {{Value: /robot_description}}
+  Tools:
+    - {{Class: rviz_default_plugins/MoveCamera}}
+    - Class: rviz_default_plugins/SetInitialPose
+      Covariance x: 0.5
+      Topic: {{Value: initialpose}}
+    - Class: rviz_default_plugins/SetGoal
+      Topic: {{Depth: 5, Value: /goal_pose}}
+    - {{Class: nav2_rviz_plugins/GoalTool}}
+    - Class: rviz_default_plugins/PublishPoint
+      Single click: true
+      Topic: {{Value: /clicked_point}}
+"""
+ALL = "goal,pose,point"
+
+
+class Hand:
+    """A browser whose camera looks down from 5 m, 4.1 m high and 5.5 m wide."""
+
+    def __init__(self, viz: Visualizer, client: ProtocolClient) -> None:
+        self.viz, self.client = viz, client
+        client.settle(viser_server(viz))
+        client.send(
+            "ViewerCameraMessage",
+            wxyz=(0.0, 1.0, 0.0, 0.0),
+            position=(0.0, 0.0, 5.0),
+            fov=0.785,
+            near=0.01,
+            far=1000.0,
+            image_height=480,
+            image_width=640,
+            look_at=(0.0, 0.0, 0.0),
+            up_direction=(0.0, 1.0, 0.0),
+        )
+        client.settle(viser_server(viz))
+
+    def act(self, name: str, *values: object) -> None:
+        self.client.act(name, *values)
+        self.client.settle(viser_server(self.viz))
+
+    def choose(self, label: str) -> None:
+        self.act("tools/choose", label)
+
+    def drag(self, *places: tuple[float, float], ends: bool = True) -> None:
+        for x, y in places:
+            self.client.edit("tools/drag", [x, y])
+        if ends:
+            self.act("tools/drop", *places[-1])
+        self.client.settle(viser_server(self.viz))
+
+    @property
+    def said(self) -> str:
+        return str(self.client.row("tools/hint")["value"]["text"])
+
+    @property
+    def labels(self) -> list[str]:
+        return [tool["name"] for tool in self.client.row("tools/list")["value"]]
+
+    @property
+    def current(self) -> str:
+        listed = self.client.row("tools/list")["value"]
+        return next(tool["name"] for tool in listed if tool["current"])
+
+    def draws(self) -> bool:
+        """Whether there is an arrow."""
+        names = [m.fields.get("name", "") for m in self.client.messages]
+        last = [m for m in self.client.messages if m.fields.get("name") == "/~pose"]
+        assert names
+        return bool(last) and last[-1].type != "RemoveSceneNodeMessage"
+
+
+@pytest.fixture
+def navigator() -> Iterator[Callable[..., NavigatorPeer]]:
+    made: list[NavigatorPeer] = []
+
+    def make(*statuses: int, **options: Any) -> NavigatorPeer:
+        made.append(NavigatorPeer(statuses or (1, 2, 4), **options))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.stop()
+
+
+@pytest.fixture
+def hand(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> Iterator[Callable[..., Hand]]:
+    made: list[Visualizer] = []
+
+    def make(peer: NavigatorPeer, frame: str = "map", **options: Any) -> Hand:
+        config = tmp_path / "a.rviz"
+        config.write_text(CONFIG.format(frame=frame))
+        viz = Visualizer(source=peer.uri, config=config, port=0, **options)
+        made.append(viz)
+        data = session_of(viz).data
+        assert data is not None
+        found = Hand(viz, protocol(viz.viser.get_port()))
+        eventually(lambda: data.source.status.is_connected)
+        eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        wait_for_workers()
+        return found
+
+    yield make
+    for viz in made:
+        viz.stop()
+
+
+def pose_of(payload: bytes, behind: int = 0) -> tuple[float, ...]:
+    """The place and the quaternion at the end of CDR, before so many bytes."""
+    return struct.unpack_from("<7d", payload, len(payload) - behind - 56)
+
+
+def test_a_drag_sends_the_place_and_the_heading_and_leaves_the_tool(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="")
+    page.choose("2D Goal Pose")
+    eventually(lambda: peer.advertised() == [(GOAL, "geometry_msgs/msg/PoseStamped")])
+    # From the middle to the right, which is x, and upwards, which is y.
+    page.drag((0.5, 0.5), (0.6, 0.5), (0.6, 0.6), ends=False)
+    assert page.draws() and peer.came() == []
+    page.drag((0.6, 0.5 - 0.1 * 640 / 480))
+    eventually(lambda: len(peer.came()) == 1)
+    (came,) = peer.came()
+    x, y, z, *_, qz, qw = pose_of(came.content)
+    assert (x, y, z) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
+    assert 2.0 * math.atan2(qz, qw) == pytest.approx(math.pi / 4)
+    assert page.current == "Move Camera" and not page.draws()
+    eventually(lambda: page.said == "Reached.")
+
+
+def test_an_estimate_has_the_covariance_of_the_properties(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    peer.listen_as("/initialpose", "/amcl")
+    page = hand(peer, publish=ALL)
+    page.choose("2D Pose Estimate")
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    eventually(lambda: len(peer.came()) == 1)
+    (came,) = peer.came()
+    assert came.topic == "/initialpose"
+    assert len(came.content) == 364
+    matrix = struct.unpack_from("<36d", came.content, len(came.content) - 288)
+    told = {n: value for n, value in enumerate(matrix) if value}
+    assert told == {0: 0.5, 7: 0.25, 35: pytest.approx((math.pi / 12) ** 2)}
+    assert page.said == "Sent to /initialpose, which /amcl takes."
+
+
+def test_what_is_clicked_on_is_sent_as_a_point(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    peer.listen_as("/clicked_point", "/waypoints")
+    page = hand(peer, publish="point", model="assets/sam_bot.urdf.xacro")
+    page.choose("Publish Point")
+    ray = {"ray_direction": (0.0, 0.0, -1.0), "screen_pos": ((0.5, 0.5),)}
+    for origin in ((50.0, 0.0, 5.0), (0.0, 0.0, 5.0)):
+        page.client.send(
+            "ScenePointerMessage",
+            event_type="click",
+            ray_origin=origin,
+            modifier=None,
+            **ray,
+        )
+        page.client.settle(viser_server(page.viz))
+        if origin[0]:
+            assert page.said.startswith("Nothing is there to click on")
+    eventually(lambda: len(peer.came()) == 1)
+    (came,) = peer.came()
+    assert (came.topic, len(came.content)) == ("/clicked_point", 44)
+    x, y, z = struct.unpack_from("<3d", came.content, 20)
+    assert (x, y) == pytest.approx((0.0, 0.0)) and z > 0.05
+
+
+@pytest.mark.parametrize(
+    ("options", "frame", "why"),
+    [
+        ({}, "map", "start with --publish goal to allow it"),
+        ({"publish": "pose,point"}, "map", "start with --publish goal to allow it"),
+        ({"publish": ALL}, "island", "no frame 'island'"),
+        ({"publish": ALL, "presenter": "a-long-word"}, "map", "View only"),
+    ],
+)
+def test_what_may_not_be_sent_is_not_sent_and_says_why(
+    navigator: Callable[..., NavigatorPeer],
+    hand: Callable[..., Hand],
+    options: dict[str, Any],
+    frame: str,
+    why: str,
+) -> None:
+    peer = navigator()
+    page = hand(peer, frame, **options)
+    page.choose("2D Goal Pose")
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    assert why in page.said
+    assert page.current == "2D Goal Pose"
+    wait_for_workers()
+    assert peer.came() == []
+    assert bool(peer.advertised()) == (frame == "island")
+
+
+def test_a_private_copy_sends_nothing(
+    navigator: Callable[..., NavigatorPeer],
+    tmp_path: Path,
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    peer = navigator()
+    with Visualizer(source=peer.uri, port=0, session="private", publish="") as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viser_server(viz))
+        client.act("tools/choose", "2D Goal Pose")
+        client.settle(viser_server(viz))
+        said = str(client.row("tools/hint")["value"]["text"])
+        assert said == "a private copy sends nothing to the robot"
+    assert peer.advertised() == []
+
+
+def test_without_a_heading_with_esc_and_beside_the_ground_nothing_is_sent(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="")
+    page.choose("2D Goal Pose")
+    page.drag((0.5, 0.5))
+    assert page.said.startswith("Nothing was sent without a heading")
+    page.drag((0.5, 0.5), (0.7, 0.5), ends=False)
+    page.act("tools/escape")
+    assert not page.draws()
+    page.act("tools/drop", 0.7, 0.5)
+    page.choose("2D Goal Pose")
+    # What is left of the last gesture is not taken for this one.
+    page.drag((0.2, 0.2))
+    page.client.edit("tools/drag", [7.0, float("1e300")])
+    page.client.settle(viser_server(page.viz))
+    assert peer.came() == []
+
+
+def test_what_was_sent_is_in_the_log(
+    navigator: Callable[..., NavigatorPeer],
+    hand: Callable[..., Hand],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    peer, log = navigator(), tmp_path / "sent.jsonl"
+    page = hand(peer, publish="goal", publish_log=log)
+    for _ in range(2):
+        page.choose("2D Goal Pose")
+        page.drag((0.5, 0.5), (0.6, 0.5))
+        eventually(lambda: page.said == "Reached.")
+    lines = [json.loads(line) for line in log.read_text().splitlines()]
+    assert [one["topic"] for one in lines] == [GOAL, GOAL]
+    assert {one["who"] for one in lines} == {"Viewer 1"}
+    assert lines[0]["frame"] == "map"
+    assert "Viewer 1: Setting goal pose: Frame:map" in capsys.readouterr().err
+
+
+def test_the_buttons_are_there_with_a_live_robot_alone(
+    navigator: Callable[..., NavigatorPeer],
+    hand: Callable[..., Hand],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    sending = {"2D Pose Estimate", "2D Goal Pose", "Nav2 Goal", "Publish Point"}
+    assert sending <= set(hand(navigator()).labels)
+    with Visualizer(source="bag:assets/square.mcap", port=0) as viz:
+        client = protocol(viz.viser.get_port())
+        client.settle(viser_server(viz))
+        listed = client.row("tools/list")["value"]
+        assert not sending & {tool["name"] for tool in listed}
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        ({"publish": ""}, "--publish needs a live robot"),
+        ({"publish": "fly", "source": "foxglove://h"}, "'fly' cannot be sent; there a"),
+        ({"publish_log": "a", "source": "foxglove://h"}, "--publish-log needs --publi"),
+    ],
+)
+def test_options_that_make_no_sense(options: dict[str, Any], why: str) -> None:
+    with pytest.raises(UsageError, match=why):
+        Visualizer(port=0, **options)
