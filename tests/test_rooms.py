@@ -157,7 +157,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     # What programs and people start it with.
     "scripting": Row(
-        "displays export frames joints options robot rviz server session topics views",
+        "displays export frames joints options publishing robot rviz server session "
+        "topics views",
         "numpy viser",
     ),
     "commands": Row(

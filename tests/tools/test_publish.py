@@ -16,7 +16,7 @@ from navigator_peer import GOAL, NavigatorPeer
 from protocol_client import ProtocolClient, wait_for_workers
 
 from sambot_viz import Visualizer
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import PublishError, UsageError
 
 CONFIG = """
 Visualization Manager:
@@ -281,6 +281,24 @@ def test_what_was_sent_is_in_the_log(
     assert {one["who"] for one in lines} == {"Viewer 1"}
     assert lines[0]["frame"] == "map"
     assert "Viewer 1: Setting goal pose: Frame:map" in capsys.readouterr().err
+
+
+def test_a_program_sends_a_goal_where_it_may(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    viz = hand(peer, publish="goal").viz
+    assert viz.publish_goal(1.0, 2.0, 0.0) == "/goal_pose, which /bt_navigator takes"
+    eventually(lambda: len(peer.came()) == 1)
+    assert pose_of(peer.came()[0].content)[:3] == (1.0, 2.0, 0.0)
+    for place, frame, why in (
+        ((math.nan, 0.0, 0.0), "map", "a goal needs finite numbers"),
+        ((0.0, 0.0, 0.0), "mpa", "did you mean 'map'"),
+    ):
+        with pytest.raises(PublishError, match=why):
+            viz.publish_goal(*place, frame)
+    with pytest.raises(PublishError, match="start with --publish goal"):
+        hand(navigator()).viz.publish_goal(0.0, 0.0, 0.0)
 
 
 def test_the_buttons_are_there_with_a_live_robot_alone(

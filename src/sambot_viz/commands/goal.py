@@ -10,8 +10,8 @@ from sambot_viz.errors import UsageError
 from sambot_viz.listened import CONNECTED_WITHIN
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.outlet import write_lines
-from sambot_viz.publishing.goal_sender import TOPIC, GoalSender
-from sambot_viz.publishing.outbound import MAP, Goal
+from sambot_viz.publishing.goal_sender import GoalSender
+from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal
 from sambot_viz.text import text
 
 WAIT = 120.0
@@ -80,7 +80,7 @@ def parser() -> Parser:
     )
     made.add_argument(
         "--topic",
-        default=TOPIC,
+        default=GOAL_TOPIC,
         metavar="TOPIC",
         help="where the robot takes goals (default: %(default)s)",
     )

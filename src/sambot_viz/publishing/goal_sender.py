@@ -11,19 +11,15 @@ from typing import Any
 
 from sambot_viz.errors import DecodeError, PublishError, SourceError
 from sambot_viz.frames.history import FrameHistory
-from sambot_viz.publishing.outbound import Goal
+from sambot_viz.publishing.outbound import GOAL_TOPIC, Goal
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
-from sambot_viz.publishing.takers import frame_fault, who_takes
+from sambot_viz.publishing.takers import FOUND_WITHIN, frame_fault, who_takes
 from sambot_viz.publishing.written import stamp_for, written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
-TOPIC = "/goal_pose"
-"""Where Nav2 takes goals, and RViz sends them."""
-FOUND_WITHIN = 2.0
-"""What a robot says without being asked has come by then [s]."""
 DISCOVERY = 0.5
 """ROS finds a new publisher within this time, as a rule [s]."""
 _LOOKS = 0.1
@@ -40,7 +36,7 @@ class GoalSender:
         topic: where it takes goals.
     """
 
-    def __init__(self, robot: SourceRobot, topic: str = TOPIC) -> None:
+    def __init__(self, robot: SourceRobot, topic: str = GOAL_TOPIC) -> None:
         self._robot, self._source = robot, robot.source
         self._topic = topic
         self._status = status_of(topic)

@@ -13,6 +13,8 @@ KINDS: tuple[Kind, ...] = ("goal", "pose", "point")
 """What may be allowed: goals, estimates of the robot's pose, points."""
 MAP = "map"
 """The frame in which Nav2 plans and AMCL localizes, as they come."""
+GOAL_TOPIC = "/goal_pose"
+"""Where Nav2 takes goals, and RViz sends them."""
 COVARIANCE = (0.25, 0.25, (math.pi / 12.0) ** 2)
 """Of x and y [m²] and of the heading [rad²] of an estimate, as RViz has them."""
 

@@ -13,13 +13,19 @@ from sambot_viz.errors import DecodeError, PublishError, SourceError
 from sambot_viz.outlet import write_err
 from sambot_viz.publishing.outbound import Kind, Outbound, kinds_of
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
-from sambot_viz.publishing.takers import KnownFrames, frame_fault, who_takes
+from sambot_viz.publishing.takers import (
+    FOUND_WITHIN,
+    KnownFrames,
+    frame_fault,
+    who_takes,
+)
 from sambot_viz.publishing.written import stamp_for, written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
+_LOOKS = 0.05
 FASTEST = 0.05
 """Messages go at least so long after one another [s]; a hand is slower."""
 
@@ -142,6 +148,23 @@ class Publisher:
         except SourceError:
             # It is said when something is sent.
             return
+
+    def wait(self, kind: Kind, topic: str, type_name: str) -> None:
+        """Wait until somebody is known to take a topic, or might be by now.
+
+        The session's lock is not held: it is held while `prepare` is called.
+
+        Args:
+            kind: of what is sent.
+            topic: where.
+            type_name: of the messages.
+        """
+        outgoing = self._outgoing.get((topic, type_name))
+        until = time.monotonic() + FOUND_WITHIN
+        while outgoing is not None and time.monotonic() < until:
+            if outgoing.receivers.names or outgoing.refused or self.refusal(kind):
+                return
+            time.sleep(_LOOKS)
 
     def send(
         self,

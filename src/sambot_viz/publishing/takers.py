@@ -30,6 +30,8 @@ class KnownFrames(Protocol):
         ...
 
 
+FOUND_WITHIN = 2.0
+"""What a robot says unasked, and who takes a topic, is known by then [s]."""
 _NAMES = 3
 _TAKERS = {
     "goal": "start Nav2 (its bt_navigator takes goals)",

@@ -12,6 +12,7 @@ from sambot_viz.errors import JointError
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
+from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal
 from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.scripting.camera_control import CameraControl
 from sambot_viz.scripting.displays import Displays, first
@@ -83,6 +84,41 @@ class RobotControl:
     def displays(self) -> Displays:
         """The displays: ``viz.displays["TF"].set("Show Names", False)``."""
         return self._displays
+
+    def publish_goal(
+        self,
+        x: float,
+        y: float,
+        yaw: float,
+        frame: str = MAP,
+        *,
+        topic: str = GOAL_TOPIC,
+    ) -> str:
+        """Send a live robot somewhere, as 2D Goal Pose does; `publish` must allow it.
+
+        With private sessions nothing can be sent.
+
+        Args:
+            x: where [m].
+            y: the same.
+            yaw: the heading there [rad].
+            frame: in which these are given.
+            topic: where the robot takes goals.
+
+        Returns:
+            Who takes it, in words.
+
+        Raises:
+            PublishError: it is not allowed, or nothing would become of it, and why.
+            SourceError: the robot takes no messages, or has left.
+        """
+        goal, session = Goal(frame, x, y, yaw), first(self._server.sessions)
+        publisher = session.publisher
+        with session.lock:
+            publisher.prepare("goal", topic, goal.type_name)
+        publisher.wait("goal", topic, goal.type_name)
+        with session.lock:
+            return publisher.send(goal, topic, "Python")
 
     @property
     def topics(self) -> Mapping[str, Account]:

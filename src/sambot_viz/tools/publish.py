@@ -14,6 +14,7 @@ from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode
 from sambot_viz.publishing.outbound import (
     COVARIANCE,
+    GOAL_TOPIC,
     ClickedPoint,
     Goal,
     Kind,
@@ -163,7 +164,7 @@ class NavGoalTool(SetGoalTool):
     @property
     def topic(self) -> str:
         """Where Nav2 takes goals."""
-        return "/goal_pose"
+        return GOAL_TOPIC
 
 
 class SetInitialPoseTool(PoseTool):
