@@ -166,7 +166,7 @@ ROOMS: Mapping[str, Row] = {
         "moved_by options problems publishing robot rviz server session sources "
         "topics visualizer",
         "PIL",
-        "signal webbrowser",
+        "signal threading webbrowser",
     ),
     "jupyter": Row("bundled cli flags options", "", "http signal socket ssl threading"),
     # The hall.

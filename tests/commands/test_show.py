@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from program import Serving, address, serving
 from protocol_client import ProtocolClient
+
+from sambot_viz.cli import main
+from sambot_viz.commands import show
 
 ARM = """<robot name="arm">
 <link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
@@ -172,3 +178,27 @@ def test_behind_a_proxy_the_links_that_browsers_can_open_are_printed_too(
         f"sambot-viz: from other machines, viewers: {page}?view=for-the-class",
         f"sambot-viz: from other machines, presenter: {page}?present=for-the-teacher",
     ]
+
+
+class Interrupted(threading.Event):
+    """An event whose lock is held when Ctrl-C comes, as within `wait`."""
+
+    def wait(self, timeout: float | None = None) -> bool:
+        with self._cond:  # type: ignore[attr-defined]
+            signal.raise_signal(signal.SIGINT)
+        return super().wait(timeout)
+
+
+def test_ctrl_c_ends_the_program_whatever_it_does_at_that_moment(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    model = tmp_path / "arm.urdf"
+    model.write_text(ARM)
+    names = {**vars(threading), "Event": Interrupted}
+    monkeypatch.setattr(show, "threading", SimpleNamespace(**names))
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        assert main([str(model), "--port", "0"]) == 0
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -14,6 +14,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
+from queue import SimpleQueue
 from unittest import mock
 
 from patience import patience
@@ -101,13 +102,14 @@ class Serving:
             out.close()
             err.close()
 
-    def _stop_with(self, stop: threading.Event, inputs: Inputs) -> None:
+    def _stop_with(self, stop: threading.Event, inputs: Inputs) -> SimpleQueue[int]:
         """Take the place of what ends the program at a signal."""
         # Only the first thread of a process may say what a signal does.
         del inputs
         self._stop, before = stop, self._stop
         if before.is_set():
             stop.set()
+        return SimpleQueue()
 
 
 @contextmanager

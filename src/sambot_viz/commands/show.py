@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Sequence
 from contextlib import suppress
+from queue import SimpleQueue
 
 from sambot_viz._version import __version__
 from sambot_viz.commands.command_line import Parser, parse
@@ -33,6 +34,8 @@ commands:
                                write a picture of the 3D view
   sambot-viz export MODEL -o FILE.html
                                write the 3D view and a motion as one HTML file
+  sambot-viz goal X Y YAW --source URI
+                               send a robot on the network somewhere
   sambot-viz topics RECORDING  list the topics, and why nothing of one is seen
   sambot-viz config FILE.rviz  report what of an RViz config is shown
   sambot-viz completion SHELL  print what completes all this with the Tab key
@@ -92,7 +95,7 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
     from sambot_viz.server.protection.access import only_this_machine
 
     stop = threading.Event()
-    _stop_on_signals(stop, inputs)
+    signals = _stop_on_signals(stop, inputs)
     listener = listen(options)
     try:
         _refuse_early(inputs)
@@ -126,6 +129,8 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
         listener.close()
+        # Whoever waits for a signal waits no more.
+        signals.put(0)
 
 
 def parser() -> Parser:
@@ -241,22 +246,30 @@ def _invite(url: str, presenter_url: str | None) -> None:
     write_code(url)
 
 
-def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> None:
+def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> SimpleQueue[int]:
     """End the program quietly on Ctrl-C and a service manager's stop.
 
     Args:
         stop: is set then.
         inputs: its robot may take long to load; the wait for it ends too.
-    """
 
-    def finish(number: int, frame: object) -> None:
-        del number, frame
+    Returns:
+        The signals that have come.
+    """
+    # A handler runs in the middle of whatever this thread does, such as of waiting for
+    # `stop`, whose lock is held just then: only a SimpleQueue may be used in it.
+    signals: SimpleQueue[int] = SimpleQueue()
+
+    def finish() -> None:
+        signals.get()
         stop.set()
         inputs.give_up()
 
+    threading.Thread(target=finish, name="sambot-viz-signals", daemon=True).start()
     if threading.current_thread() is threading.main_thread():
         for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, finish)
+            signal.signal(number, lambda number, _: signals.put(number))
+    return signals
 
 
 def _return_large_blocks() -> None:
