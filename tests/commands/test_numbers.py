@@ -82,10 +82,11 @@ def test_a_number_is_taken_or_refused_in_words(
     monkeypatch: pytest.MonkeyPatch,
     capsys: Capture,
 ) -> None:
-    def missing() -> None:
+    def missing(*_: object, **__: object) -> None:
         raise ServerError("no browser here")
 
-    monkeypatch.setattr(chromium, "Chromium", missing)
+    # Not the name: who imports it meanwhile would have it for good.
+    monkeypatch.setattr(chromium.Chromium, "__init__", missing)
     monkeypatch.chdir(bag.parent)
     for number in NUMBERS:
         value = form.format(*2 * [number])
