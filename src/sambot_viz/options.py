@@ -413,8 +413,6 @@ class Options:
 
     def _check_publish(self) -> None:
         """Refuse to send what cannot be sent, or without a robot."""
-        from sambot_viz.publishing.outbound import kinds_of
-
         for flag, given in (
             ("--publish", self.publish),
             ("--publish-log", self.publish_log),
@@ -427,6 +425,8 @@ class Options:
         if self.publish_log is not None and self.publish is None:
             raise UsageError("--publish-log needs --publish: nothing is sent without")
         if self.publish is not None:
+            from sambot_viz.publishing.outbound import kinds_of
+
             kinds_of(self.publish)
 
     def _check_presenter(self) -> None:

@@ -68,7 +68,9 @@ def test_the_server_says_who_it_is() -> None:
         '{"op":"serverInfo","name":"robot","capabilities":["time","assets"],'
         '"supportedEncodings":["cdr"],"metadata":{},"sessionId":"17"}'
     )
-    assert parsed.content == wire.ServerInfo("robot", ("time", "assets"), "17")
+    assert parsed.content == wire.ServerInfo(
+        "robot", ("time", "assets"), ("cdr",), "17"
+    )
 
 
 def advertised(entry: str) -> wire.ServerChannel:
@@ -140,7 +142,8 @@ def test_the_other_frames_of_a_server() -> None:
         '"advertisedServices":[],"removedTopics":["/b"],"removedServices":[]}'
     )
     published = wire.TopicPublishers("/a", ("/n",))
-    assert content(graph) == wire.GraphUpdate((published,), ("/b",))
+    subscribed = wire.TopicSubscribers("/a")
+    assert content(graph) == wire.GraphUpdate((published,), (subscribed,), ("/b",))
     values = (
         '{"op":"parameterValues","parameters":[{"name":"/n.p","value":1.5,'
         '"type":"float64"},{"name":"/n.q"},7],"id":"1"}'
