@@ -326,3 +326,49 @@ def test_the_buttons_are_there_with_a_live_robot_alone(
 def test_options_that_make_no_sense(options: dict[str, Any], why: str) -> None:
     with pytest.raises(UsageError, match=why):
         Visualizer(port=0, **options)
+
+
+def test_a_topic_that_is_changed_again_and_again_is_let_go(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="goal")
+    page.choose("2D Goal Pose")
+    topic = "tool_properties/2D Goal Pose/Topic"
+    for number in range(30):
+        page.client.edit(topic, f"/goal{number}")
+    page.client.edit(topic, GOAL)
+    page.client.settle(viser_server(page.viz))
+    eventually(lambda: (GOAL, "geometry_msgs/msg/PoseStamped") in peer.advertised())
+    eventually(lambda: len(peer.advertised()) <= 8)
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    eventually(lambda: page.said == "Reached.")
+
+
+def test_after_the_connection_was_lost_a_goal_goes_over_the_new_one(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="goal")
+    data = session_of(page.viz).data
+    assert data is not None
+    page.choose("2D Goal Pose")
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    eventually(lambda: page.said == "Reached.")
+    peer.stop()
+    eventually(lambda: not data.source.status.is_connected)
+    page.choose("2D Goal Pose")
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    assert "othing" in page.said and "sent" in page.said
+    peer.start()
+    eventually(lambda: data.source.status.is_connected)
+    # What was not sent then is not sent now.
+    assert len(peer.came()) == 1
+    peer.listen_as(GOAL, "/bt_navigator")
+
+    def is_sent() -> bool:
+        page.choose("2D Goal Pose")
+        page.drag((0.5, 0.5), (0.6, 0.5))
+        return len(peer.came()) >= 2
+
+    eventually(is_sent)

@@ -26,6 +26,8 @@ from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
 _LOOKS = 0.05
+_TOPICS = 8
+"""So many topics are published at a time: more than there are tools."""
 FASTEST = 0.05
 """Messages go at least so long after one another [s]; a hand is slower."""
 
@@ -116,10 +118,8 @@ class Publisher:
         for outgoing in self._outgoing.values():
             outgoing.close()
         self._outgoing.clear()
-        for topic, (_, take) in self._followed.items():
-            if self.robot is not None:
-                self.robot.source.unsubscribe(status_of(topic), take)
-        self._followed.clear()
+        for topic in tuple(self._followed):
+            self._follow_no_more(topic)
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -199,7 +199,7 @@ class Publisher:
         if outgoing.refused:
             why = text(outgoing.refused, 400)
             # It is tried again the next time.
-            self._forget(outgoing)
+            self._forget(topic, message.type_name)
             raise PublishError(f"the robot refuses it: {why}")
         told = who_takes(outgoing, message.kind)
         fields = message.fields(stamp_for(outgoing, self._now_ns()))
@@ -212,7 +212,7 @@ class Publisher:
             outgoing.send(content)
         except SourceError:
             # That connection has ended; there may be another one by now.
-            self._forget(outgoing)
+            self._forget(topic, message.type_name)
             self._topic(robot, topic, message.type_name).send(content)
         write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
         if self._log is not None:
@@ -234,18 +234,28 @@ class Publisher:
             if outcome is not None:
                 self._tell(outcome)
 
+        if len(self._followed) >= _TOPICS:
+            self._follow_no_more(next(iter(self._followed)))
         self._followed[topic] = follower, take
         robot.source.subscribe(status_of(topic), take)
+
+    def _follow_no_more(self, topic: str) -> None:
+        _, take = self._followed.pop(topic)
+        if self.robot is not None:
+            self.robot.source.unsubscribe(status_of(topic), take)
 
     def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
         key = topic, type_name
         if key not in self._outgoing:
-            self._outgoing[key] = robot.source.advertise(topic, type_name)
+            made = robot.source.advertise(topic, type_name)
+            if len(self._outgoing) >= _TOPICS:
+                # Of a property that was changed again and again.
+                self._forget(*next(iter(self._outgoing)))
+            self._outgoing[key] = made
         return self._outgoing[key]
 
-    def _forget(self, outgoing: Outgoing) -> None:
-        outgoing.close()
-        self._outgoing.pop((outgoing.topic, outgoing.type_name), None)
+    def _forget(self, topic: str, type_name: str) -> None:
+        self._outgoing.pop((topic, type_name)).close()
 
 
 def publisher_of(
