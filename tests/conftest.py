@@ -14,6 +14,7 @@ import pytest
 
 if TYPE_CHECKING:
     from hand_clock import HandClock
+    from navigator_peer import NavigatorPeer
     from protocol_client import ProtocolClient
 
     from sambot_viz import Robot, Visualizer
@@ -134,6 +135,22 @@ def hand_clock(monkeypatch: pytest.MonkeyPatch) -> HandClock:
     clock = HandClock()
     monkeypatch.setattr(worker, "WallClock", lambda: clock)
     return clock
+
+
+@pytest.fixture
+def navigator() -> Iterator[Callable[..., NavigatorPeer]]:
+    """Start robots that take goals: ``navigator(1, 2, 4)`` says these of each."""
+    from navigator_peer import NavigatorPeer
+
+    made: list[NavigatorPeer] = []
+
+    def make(*statuses: int, **options: Any) -> NavigatorPeer:
+        made.append(NavigatorPeer(statuses or (1, 2, 4), **options))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.stop()
 
 
 @pytest.fixture

@@ -404,16 +404,6 @@ class Options:
         for flag, given in (
             ("--record", self.record),
             ("--record-dir", self.record_dir),
-        ):
-            if given is not None and not self.live_sources:
-                raise UsageError(
-                    f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
-                    "rosbridge://HOST:9090"
-                )
-
-    def _check_publish(self) -> None:
-        """Refuse to send what cannot be sent, or without a robot."""
-        for flag, given in (
             ("--publish", self.publish),
             ("--publish-log", self.publish_log),
         ):
@@ -422,6 +412,9 @@ class Options:
                     f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
                     "rosbridge://HOST:9090"
                 )
+
+    def _check_publish(self) -> None:
+        """Refuse to send what cannot be sent."""
         if self.publish_log is not None and self.publish is None:
             raise UsageError("--publish-log needs --publish: nothing is sent without")
         if self.publish is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -16,19 +16,6 @@ from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
-
-
-@pytest.fixture
-def navigator() -> Iterator[Callable[..., NavigatorPeer]]:
-    made: list[NavigatorPeer] = []
-
-    def make(*statuses: int, **options: Any) -> NavigatorPeer:
-        made.append(NavigatorPeer(statuses or (1, 2, 4), **options))
-        return made[-1]
-
-    yield make
-    for one in made:
-        one.stop()
 
 
 def numbers_of(payload: bytes) -> tuple[str, tuple[float, ...]]:

@@ -96,19 +96,6 @@ class Hand:
 
 
 @pytest.fixture
-def navigator() -> Iterator[Callable[..., NavigatorPeer]]:
-    made: list[NavigatorPeer] = []
-
-    def make(*statuses: int, **options: Any) -> NavigatorPeer:
-        made.append(NavigatorPeer(statuses or (1, 2, 4), **options))
-        return made[-1]
-
-    yield make
-    for one in made:
-        one.stop()
-
-
-@pytest.fixture
 def hand(
     tmp_path: Path, protocol: Callable[..., ProtocolClient]
 ) -> Iterator[Callable[..., Hand]]:

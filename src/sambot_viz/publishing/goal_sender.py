@@ -7,14 +7,13 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 from threading import Event
-from typing import Any
 
-from sambot_viz.errors import DecodeError, PublishError, SourceError
+from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.publishing.outbound import GOAL_TOPIC, Goal
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
 from sambot_viz.publishing.takers import FOUND_WITHIN, frame_fault, who_takes
-from sambot_viz.publishing.written import stamp_for, written
+from sambot_viz.publishing.written import time_of, written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
@@ -76,8 +75,8 @@ class GoalSender:
         self._wait(lambda: bool(outgoing.refused), DISCOVERY)
         self._require_taken()
         self._follower.begin()
-        fields = goal.fields(stamp_for(outgoing, self._now_ns()))
-        outgoing.send(written(outgoing, fields, self._robot.decoding.types))
+        now_ns = time_of(self._source, self._transforms.newest_ns)
+        outgoing.send(written(outgoing, goal, now_ns, self._robot.decoding.types))
         return who
 
     def follow(self, seconds: float, say: Callable[[str], None]) -> Outcome | None:
@@ -142,11 +141,7 @@ class GoalSender:
             self._changed.clear()
 
     def _take_status(self, message: Recorded) -> None:
-        try:
-            statuses: Any = self._robot.decode(message).status_list
-        except (DecodeError, AttributeError):
-            return
-        outcome = self._follower.take(statuses)
+        outcome = self._follower.take(message, self._robot.decode)
         if outcome is not None:
             self._outcomes.append(outcome)
 
@@ -175,8 +170,3 @@ class GoalSender:
         if self._outgoing is not None and self._outgoing.refused:
             why = text(self._outgoing.refused, 400)
             raise PublishError(f"the robot refuses it: {why}")
-
-    def _now_ns(self) -> int:
-        """The time of the robot [ns]: that which it tells, or the newest stamp."""
-        told = self._source.clock_ns()
-        return told if self._source.has_clock else self._transforms.newest_ns or told

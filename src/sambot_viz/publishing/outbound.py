@@ -54,7 +54,7 @@ class Outbound:
         """Return the fields of the message.
 
         Args:
-            stamp: its time, as the transport wants it (see `written.stamp_for`).
+            stamp: its time, as the transport wants it (see `written.written`).
         """
         return {"header": {"stamp": stamp, "frame_id": self.frame}, **self.content()}
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+from sambot_viz.errors import DecodeError
+from sambot_viz.sources.message import Recorded
 
 _ENDS = {4: "reached", 5: "cancelled", 6: "not reached: the robot has given it up"}
 _ON_THE_WAY = {1: "accepted", 2: "on the way", 3: "being cancelled"}
@@ -41,8 +44,19 @@ class GoalFollower:
         """Follow the next new goal: all that were told of until now are others."""
         self._goal, self._last, self._waits = None, 0, True
 
-    def take(self, statuses: Iterable[Any]) -> Outcome | None:
-        """Take the goals of a GoalStatusArray; return what is new of the goal."""
+    def take(
+        self, message: Recorded, decode: Callable[[Recorded], Any]
+    ) -> Outcome | None:
+        """Take a GoalStatusArray; return what is new of the goal.
+
+        Args:
+            message: its bytes; what is no such array says nothing.
+            decode: reads them; raises DecodeError.
+        """
+        try:
+            statuses = decode(message).status_list
+        except (DecodeError, AttributeError):
+            return None
         told = {_id_of(one): int(one.status) for one in statuses}
         new = next((goal for goal in told if goal not in self._known), None)
         self._known = frozenset(told)

@@ -7,9 +7,8 @@ import os
 import time
 from collections.abc import Callable, Collection
 from pathlib import Path
-from typing import Any
 
-from sambot_viz.errors import DecodeError, PublishError, SourceError
+from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.outlet import write_err
 from sambot_viz.publishing.outbound import Kind, Outbound, kinds_of
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
@@ -19,7 +18,7 @@ from sambot_viz.publishing.takers import (
     frame_fault,
     who_takes,
 )
-from sambot_viz.publishing.written import stamp_for, written
+from sambot_viz.publishing.written import written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, Outgoing
 from sambot_viz.text import text
@@ -202,8 +201,7 @@ class Publisher:
             self._forget(topic, message.type_name)
             raise PublishError(f"the robot refuses it: {why}")
         told = who_takes(outgoing, message.kind)
-        fields = message.fields(stamp_for(outgoing, self._now_ns()))
-        content = written(outgoing, fields, robot.decoding.types)
+        content = written(outgoing, message, self._now_ns(), robot.decoding.types)
         if message.kind == "goal":
             self._follow(robot, topic)
             self._tell = tell
@@ -226,11 +224,7 @@ class Publisher:
         decode, follower = robot.new_decoding().decode, GoalFollower()
 
         def take(message: Recorded) -> None:
-            try:
-                statuses: Any = decode(message).status_list
-            except (DecodeError, AttributeError):
-                return
-            outcome = follower.take(statuses)
+            outcome = follower.take(message, decode)
             if outcome is not None:
                 self._tell(outcome)
 

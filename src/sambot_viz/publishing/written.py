@@ -3,41 +3,46 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from typing import Any
 
 from sambot_viz.errors import DecodeError, PublishError
 from sambot_viz.messages import MessageTypes
-from sambot_viz.sources.source import Outgoing
+from sambot_viz.publishing.outbound import Outbound
+from sambot_viz.sources.source import Outgoing, Source
 
 
-def stamp_for(outgoing: Outgoing, now_ns: int) -> object:
-    """Return the time of a message that is sent now.
-
-    A server that takes JSON puts in its own, simulated or not; others get the time of
-    the source.
+def time_of(source: Source, newest_ns: int) -> int:
+    """Return the time of a robot [ns]: that which it tells, else its newest stamp.
 
     Args:
-        outgoing: the topic.
-        now_ns: the time of its source [ns].
+        source: the robot.
+        newest_ns: the newest stamp of its transforms [ns]; 0 without any.
     """
-    if outgoing.encoding == "json":
-        return "now"
-    sec, nanosec = divmod(now_ns, 10**9)
-    return {"sec": sec, "nanosec": nanosec}
+    told = source.clock_ns()
+    return told if source.has_clock else newest_ns or told
 
 
 def written(
-    outgoing: Outgoing, fields: Mapping[str, Any], types: MessageTypes
+    outgoing: Outgoing, message: Outbound, now_ns: int, types: MessageTypes
 ) -> bytes:
-    """Return a message as a topic wants it.
+    """Return a message that is sent now as a topic wants it.
+
+    A server that takes JSON puts in its own time, simulated or not; others get that of
+    the robot.
+
+    Args:
+        outgoing: the topic.
+        message: what is sent.
+        now_ns: the time of the robot [ns].
+        types: has the definition of the message.
 
     Raises:
         PublishError: a field is not what the type says.
     """
+    sec, nanosec = divmod(now_ns, 10**9)
     try:
         if outgoing.encoding == "json":
-            return json.dumps(fields, allow_nan=False).encode()
+            return json.dumps(message.fields("now"), allow_nan=False).encode()
+        fields = message.fields({"sec": sec, "nanosec": nanosec})
         return types.shape(outgoing.type_name).as_cdr(fields)
     except (DecodeError, TypeError, ValueError) as error:
         raise PublishError(f"{outgoing.type_name}: {error}") from error

@@ -17,7 +17,6 @@ from sambot_viz.publishing.outbound import (
     GOAL_TOPIC,
     ClickedPoint,
     Goal,
-    Kind,
     Outbound,
     PoseEstimate,
 )
@@ -47,7 +46,7 @@ def _topic(default: str) -> TopicProperty:
 class PublishTool(Tool):
     """A tool that sends messages of one kind on the topic of its properties."""
 
-    sends: ClassVar[Kind | None]
+    sends = True
     message: ClassVar[type[Outbound]]
 
     @property
@@ -144,7 +143,6 @@ class SetGoalTool(PoseTool):
     label = "2D Goal Pose"
     key = "G"
     help = _DRAG
-    sends = "goal"
     message = Goal
     properties: ClassVar[tuple[Property, ...]] = (_topic("goal_pose"),)
 
@@ -174,7 +172,6 @@ class SetInitialPoseTool(PoseTool):
     label = "2D Pose Estimate"
     key = "P"
     help = _DRAG
-    sends = "pose"
     message = PoseEstimate
     properties = (
         _topic("initialpose"),
@@ -210,7 +207,6 @@ class PublishPointTool(PublishTool):
     key = "U"
     help = "Click a point of what is shown; Esc stops."
     touch = "Tap a point of what is shown."
-    sends = "point"
     message = ClickedPoint
     clicks = True
     properties = (

@@ -101,7 +101,7 @@ class Tool:
         rectangles: whether dragging with the left button draws a rectangle.
         drags: whether it follows a drag with the left button itself.
         only_listed: whether it has a button only where the config lists it.
-        sends: what it sends to a robot; None for nothing.
+        sends: whether it sends something to a robot.
         properties: its settings.
     """
 
@@ -114,7 +114,7 @@ class Tool:
     rectangles: ClassVar[bool] = False
     drags: ClassVar[bool] = False
     only_listed: ClassVar[bool] = False
-    sends: ClassVar[Kind | None] = None
+    sends: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]] = ()
 
     def __init__(self, context: ToolContext, config: ToolConfig | None) -> None:

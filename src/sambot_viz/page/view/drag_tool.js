@@ -35,9 +35,6 @@ function end(event) {
   else act("tools/right_click");
 }
 
-/** Whether a drag is drawn now. */
-export const isDrawing = () => drawn !== null;
-
 /** Stop what is drawn, without its effect. */
 export function stopDrawing() {
   if (drawn) end(null);

@@ -141,7 +141,7 @@ class ClientTools:
         """Those for which there are buttons: to send something takes a live robot."""
         is_live = self._publisher.robot is not None
         there = (t for t in self.tools if t.config is not None or not t.only_listed)
-        return [tool for tool in there if is_live or tool.sends is None]
+        return [tool for tool in there if is_live or not tool.sends]
 
     @property
     def shows_controls(self) -> bool:

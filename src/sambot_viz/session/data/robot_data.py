@@ -11,6 +11,7 @@ from sambot_viz.frames.data_frames import DataFrames
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import Sample
+from sambot_viz.publishing.written import time_of
 from sambot_viz.session.data.display_topics import DisplayTopics
 from sambot_viz.session.data.feed import Feed
 from sambot_viz.session.data.inbox import Inbox
@@ -233,12 +234,8 @@ class RobotData:
         return self.source.clock_ns() * 1e-9
 
     def stamp_ns(self) -> int:
-        """Return the time of what is sent to the robot now [ns].
-
-        Its own: that which it tells, else the newest of its transforms.
-        """
-        now = self.source.clock_ns()
-        return now if self.source.has_clock else self.transforms.newest_ns or now
+        """Return the time of what is sent to the robot now [ns]."""
+        return time_of(self.source, self.transforms.newest_ns)
 
     def is_paced(self, frame: str) -> bool:
         """Return whether a frame has the time of a recording beside a live robot."""
