@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -19,27 +19,14 @@ from sambot_viz.sources.prefixed_source import PrefixedSource
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Outgoing, Receivers, Source
 
-PEERS: dict[str, Callable[[], LivePeer]] = {
-    "foxglove": FoxglovePeer,
-    "rosbridge": RosbridgePeer,
-}
 GOAL, WORDS = "/goal", "std_msgs/msg/String"
 
 
-@pytest.fixture(params=PEERS)
-def peer(request: pytest.FixtureRequest) -> Iterator[LivePeer]:
-    made = PEERS[request.param]()
-    yield made
-    made.stop()
-
-
 @pytest.fixture
-def source(peer: LivePeer) -> Iterator[Source]:
-    made = open_source(peer.uri)
-    made.open()
+def source(peer: LivePeer, opened: Callable[[str], Source]) -> Source:
+    made = opened(peer.uri)
     eventually(lambda: made.status.is_connected)
-    yield made
-    made.close()
+    return made
 
 
 def written(outgoing: Outgoing, word: str) -> bytes:
