@@ -68,10 +68,11 @@ class Hand:
         self.act("tools/choose", label)
 
     def drag(self, *places: tuple[float, float], ends: bool = True) -> None:
-        for x, y in places:
-            self.client.edit("tools/drag", [x, y])
+        begin, *_, last = places[0], *places
+        for place in places:
+            self.client.edit("tools/drag", [*begin, *place])
         if ends:
-            self.act("tools/drop", *places[-1])
+            self.act("tools/drop", *begin, *last)
         self.client.settle(viser_server(self.viz))
 
     @property
@@ -134,7 +135,7 @@ def test_a_drag_sends_the_place_and_the_heading_and_leaves_the_tool(
     # From the middle to the right, which is x, and upwards, which is y.
     page.drag((0.5, 0.5), (0.6, 0.5), (0.6, 0.6), ends=False)
     assert page.draws() and peer.came() == []
-    page.drag((0.6, 0.5 - 0.1 * 640 / 480))
+    page.drag((0.5, 0.5), (0.6, 0.5 - 0.1 * 640 / 480))
     eventually(lambda: len(peer.came()) == 1)
     (came,) = peer.came()
     x, y, z, *_, qz, qw = pose_of(came.content)
@@ -142,6 +143,18 @@ def test_a_drag_sends_the_place_and_the_heading_and_leaves_the_tool(
     assert 2.0 * math.atan2(qz, qw) == pytest.approx(math.pi / 4)
     assert page.current == "Move Camera" and not page.draws()
     eventually(lambda: page.said == "Reached.")
+
+
+def test_a_drag_of_which_only_the_end_is_left_sends_the_same(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="")
+    page.choose("2D Goal Pose")
+    # A server that has much to do takes the last move of a drag only.
+    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5)
+    eventually(lambda: len(peer.came()) == 1)
+    assert pose_of(peer.came()[0].content)[:2] == pytest.approx((0.0, 0.0), abs=1e-6)
 
 
 def test_an_estimate_has_the_covariance_of_the_properties(
@@ -242,11 +255,11 @@ def test_without_a_heading_with_esc_and_beside_the_ground_nothing_is_sent(
     page.drag((0.5, 0.5), (0.7, 0.5), ends=False)
     page.act("tools/escape")
     assert not page.draws()
-    page.act("tools/drop", 0.7, 0.5)
+    page.act("tools/drop", 0.5, 0.5, 0.7, 0.5)
     page.choose("2D Goal Pose")
     # What is left of the last gesture is not taken for this one.
     page.drag((0.2, 0.2))
-    page.client.edit("tools/drag", [7.0, float("1e300")])
+    page.client.edit("tools/drag", [7.0, float("1e300"), 0.5, 0.5])
     page.client.settle(viser_server(page.viz))
     assert peer.came() == []
 

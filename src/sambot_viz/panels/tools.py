@@ -122,13 +122,14 @@ class ToolsPanel(Panel):
     def _hover(self, x: float, y: float) -> None:
         self._client.tools.hover((x, y))
 
-    @command("tools/drag", NUMBER, NUMBER, client_local=True)
-    def _drag(self, x: float, y: float) -> None:
-        self._client.tools.drag((x, y))
+    # Of the moves of a drag that wait only the last one counts: each has its begin.
+    @command("tools/drag", *[NUMBER] * 4, client_local=True)
+    def _drag(self, from_x: float, from_y: float, x: float, y: float) -> None:
+        self._client.tools.drag((from_x, from_y), (x, y))
 
-    @command("tools/drop", NUMBER, NUMBER, client_local=True)
-    def _drop(self, x: float, y: float) -> None:
-        self._client.tools.drag((x, y), ends=True)
+    @command("tools/drop", *[NUMBER] * 4, client_local=True)
+    def _drop(self, from_x: float, from_y: float, x: float, y: float) -> None:
+        self._client.tools.drag((from_x, from_y), (x, y), ends=True)
 
     @command("tools/double_click", NUMBER, NUMBER, client_local=True)
     def _double_click(self, x: float, y: float) -> None:

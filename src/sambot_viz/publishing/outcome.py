@@ -35,7 +35,7 @@ class GoalFollower:
     """
 
     def __init__(self) -> None:
-        self._known = frozenset[bytes]()
+        self._known: frozenset[bytes] | None = None
         self._goal: bytes | None = None
         self._waits = False
         self._last = 0
@@ -58,7 +58,11 @@ class GoalFollower:
         except (DecodeError, AttributeError):
             return None
         told = {_id_of(one): int(one.status) for one in statuses}
-        new = next((goal for goal in told if goal not in self._known), None)
+        if self._known is None:
+            # What is latched may come after `begin`: what has ended in it is older.
+            self._known = frozenset(goal for goal in told if told[goal] in _ENDS)
+        known = self._known
+        new = next((goal for goal in told if goal not in known), None)
         self._known = frozenset(told)
         if self._waits and new is not None:
             self._goal, self._waits = new, False

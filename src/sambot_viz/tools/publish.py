@@ -84,21 +84,21 @@ class PoseTool(PublishTool):
         self._yaw: float | None = None
         self._arrow: ArrowsNode | None = None
 
-    def aim(self, click: Click) -> None:
-        """Begin at what is pressed, or turn to where the pointer is now."""
-        point = _on_ground(click)
-        if point is None:
-            return
+    def aim(self, begin: Click, click: Click) -> None:
+        """Begin at what was pressed, and turn to where the pointer is now."""
         if self._start is None:
-            self._start = point
+            self._start = _on_ground(begin)
+        point = _on_ground(click)
+        if point is None or self._start is None:
+            return
         x, y = (point - self._start)[:2].tolist()
         far = abs(float(click.origin[2])) + math.hypot(*(point - click.origin)[:2])
         self._yaw = math.atan2(y, x) if math.hypot(x, y) > SHORTEST * far else None
         self._draw()
 
-    def drop(self, click: Click) -> None:
+    def drop(self, begin: Click, click: Click) -> None:
         """Send the pose, if it has a heading; then the tool is left, as in RViz."""
-        self.aim(click)
+        self.aim(begin, click)
         start, yaw = self._start, self._yaw
         self.cancel()
         if start is None:

@@ -131,13 +131,18 @@ class Tool:
         """A user clicked into the 3D view."""
         del click, hit
 
-    def aim(self, click: Click) -> None:
-        """A user pressed the left button, or drags; only with `drags`."""
-        del click
+    def aim(self, begin: Click, click: Click) -> None:
+        """A user pressed the left button, or drags; only with `drags`.
 
-    def drop(self, click: Click) -> None:
+        Args:
+            begin: where the button was pressed; of a drag, any move may be left out.
+            click: where the pointer is.
+        """
+        del begin, click
+
+    def drop(self, begin: Click, click: Click) -> None:
         """A user released the left button there; only with `drags`."""
-        del click
+        del begin, click
 
     def rectangle(self, items: Selection, modifier: str | None) -> None:
         """A user drew a rectangle; `items` are the things visible in it."""

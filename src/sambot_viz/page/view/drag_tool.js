@@ -8,7 +8,8 @@ import { focusView, placeIn } from "./pointer.js";
 /** At most so many places are sent in a second. */
 const PLACES = 20;
 
-/** The pointer that draws, and its gesture. @type {{id: number, gesture: any} | null} */
+/** The pointer that draws, its gesture, and where that began.
+ * @type {{id: number, gesture: any, begin: [number, number]} | null} */
 let drawn = null;
 /** The place that waits to be sent. @type {[number, number] | null} */
 let waiting = null;
@@ -20,7 +21,7 @@ const isWanted = () =>
 function tell() {
   timer = 0;
   if (!drawn || !waiting) return;
-  send(DRAG, waiting, drawn.gesture);
+  send(DRAG, [...drawn.begin, ...waiting], drawn.gesture);
   waiting = null;
   timer = window.setTimeout(tell, 1000 / PLACES);
 }
@@ -30,8 +31,9 @@ function end(event) {
   clearTimeout(timer);
   timer = 0;
   const place = event && placeIn(event);
+  const begin = drawn?.begin ?? [];
   drawn = waiting = null;
-  if (place) act("tools/drop", place);
+  if (place) act("tools/drop", [...begin, ...place]);
   else act("tools/right_click");
 }
 
@@ -48,7 +50,7 @@ function press(event) {
   if (!place) return;
   event.stopImmediatePropagation();
   focusView();
-  drawn = { id: event.pointerId, gesture: newGesture() };
+  drawn = { id: event.pointerId, gesture: newGesture(), begin: place };
   waiting = place;
   tell();
 }

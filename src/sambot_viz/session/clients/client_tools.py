@@ -190,23 +190,26 @@ class ClientTools:
         if not self._hovering and self.current.wants_hover:
             self._follow_mouse(self.current)
 
-    def drag(self, at: ScreenPoint, *, ends: bool = False) -> None:
+    def drag(self, begin: ScreenPoint, at: ScreenPoint, *, ends: bool = False) -> None:
         """The left button is held in the 3D view, by a tool that drags.
 
         Args:
-            at: from 0 (left, top) to 1 (right, bottom) of the picture.
+            begin: where it was pressed, from 0 (left, top) to 1 (right, bottom) of the
+                picture.
+            at: where the pointer is.
             ends: whether it is released there.
         """
-        click, tool = pointed_at(self._client, at), self.current
+        pressed, click = (pointed_at(self._client, one) for one in (begin, at))
+        tool = self.current
         if not tool.drags:
             return
         with self._change(self.changed):
-            if click is None:
+            if pressed is None or click is None:
                 tool.cancel()
             elif ends:
-                tool.drop(click)
+                tool.drop(pressed, click)
             else:
-                tool.aim(click)
+                tool.aim(pressed, click)
 
     def double_click(self, at: ScreenPoint) -> None:
         """Note what is under the mouse; a tool with clicks of its own has them alone.
