@@ -120,15 +120,17 @@ def test_ctrl_k_finds_what_is_called_otherwise_than_it_is(user: User) -> None:
 @pytest.mark.usefixtures("closed")
 def test_ctrl_k_finds_each_button_whatever_tab_is_in_front(user: User) -> None:
     tabs = ["Joints", "Frames", "Selection", "Drive"]
-    shown: set[str] = set()
+    shown: dict[str, set[str]] = {}
     for tab in tabs:
         user.tab(tab)
-        shown |= set(user.page.evaluate(SHOWN))
-    assert {"Randomize", "Degrees", "Back to start"} <= shown
+        shown[tab] = set(user.page.evaluate(SHOWN))
+    known = set().union(*shown.values())
+    assert {"Randomize", "Degrees", "Back to start"} <= known
     for tab in tabs:
         user.tab(tab)
         options(user, "")
-        for name in sorted(shown):
+        # What every tab leaves in sight is looked for once.
+        for name in sorted(known - shown[tab] if tab in tabs[1:] else known):
             user.keys("Control+a")
             user.type(name)
             user.until(

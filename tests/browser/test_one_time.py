@@ -58,7 +58,8 @@ def messages(points: int) -> Iterator[Message]:
     """Two seconds in which a frame goes along x; all else says where it is.
 
     Args:
-        points: of each cloud; they are all at the origin of the fixed frame.
+        points: of each cloud; the first is at the origin of the fixed frame, and the
+            rest out of sight: drawing them is not the point.
     """
     store = store_of_all()
     types, numbers = store.types, ("x", "y", "z")
@@ -70,9 +71,11 @@ def messages(points: int) -> Iterator[Message]:
         time = START * 10**9 + round(x * 1e9)
         moved = transforms_message(store, x, {"base": "odom"})
         yield "/tf", "tf2_msgs/msg/TFMessage", time, moved
-        at_origin = np.tile(np.array([-x, 0.0, 0.0], np.float32), points)
+        places = np.full((points, 3), 1e5, np.float32)
+        places[0] = -x, 0.0, 0.0
         fields = [field(name, 4 * n, 7, 1) for n, name in enumerate(numbers)]
-        shape = (1, points, fields, False, 12, 12 * points, at_origin.view(np.uint8))
+        content = places.reshape(-1).view(np.uint8)
+        shape = (1, points, fields, False, 12, 12 * points, content)
         kind = "sensor_msgs/msg/PointCloud2"
         yield "/cloud", kind, time, types[kind](header(store, x, "base"), *shape, True)
         outline = types["geometry_msgs/msg/Polygon"](

@@ -190,13 +190,16 @@ class User:
     def new_row(self, panel: str, before: Sequence[str]) -> str:
         """Wait for a row that was not in a panel before; return its label.
 
-        A row whose cells are not known yet is called after all that is in it.
+        A row whose cells are not known yet is called after all that is in it; they may
+        come between the two questions.
         """
 
         def found() -> str:
             for path, row in rows_of(self.see().one("treegrid", panel)):
-                is_known = row.all("gridcell") or self._ask(row, _IS_LINE)
-                if path[-1] not in before and is_known:
+                if path[-1] in before:
+                    continue
+                cells = row.all("gridcell")
+                if cells[0].name == path[-1] if cells else self._ask(row, _IS_LINE):
                     return path[-1]
             raise AssertionError(f"no row in {panel} but {before}")
 
