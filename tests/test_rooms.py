@@ -139,7 +139,7 @@ ROOMS: Mapping[str, Row] = {
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "_version displays drive frames joints options page problems "
+        "_version displays drive frames joints options page problems publishing "
         "robot rviz session tools topics views viser_private",
         "msgspec numpy viser",
     ),
@@ -202,6 +202,8 @@ ROOMS: Mapping[str, Row] = {
 EXCEPTIONS: Mapping[str, str] = {
     # A live source has a thread for its connection and one that calls back.
     "sources/source.py": "concurrent",
+    # Neither a session that hangs nor a page that floods may delay what stops a robot.
+    "publishing/dead_mans_switch.py": "threading",
     # A recording has a thread that writes it.
     "sources/recording_thread.py": "threading",
     "sources/websocket/assets.py": "concurrent",

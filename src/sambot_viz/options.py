@@ -9,6 +9,7 @@ is used.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import KW_ONLY, dataclass, field
@@ -171,7 +172,8 @@ class Options:
     publish: str | None = option(
         None,
         "what may be sent to a live robot by those in control: goal, pose (an estimate "
-        "of where it is), point, or several with commas; without a value all of them",
+        "of where it is), point, drive, or several with commas; without a value all of "
+        "them",
         "--publish",
         metavar="KINDS",
         optional_value="word",
@@ -181,6 +183,26 @@ class Options:
         "append a line of JSON to this file for each message that is sent to the robot",
         "--publish-log",
         metavar="FILE",
+    )
+    cmd_vel: str = option(
+        "/cmd_vel",
+        "the topic on which velocities are sent to a live robot",
+        "--cmd-vel",
+        metavar="TOPIC",
+    )
+    max_linear: float = option(
+        0.2,
+        "the highest speed at which a live robot is driven by hand [m/s]",
+        "--max-linear",
+        type=float,
+        metavar="SPEED",
+    )
+    max_angular: float = option(
+        0.5,
+        "the highest speed at which it is turned by hand [rad/s]",
+        "--max-angular",
+        type=float,
+        metavar="SPEED",
     )
     fixed_frame: str | None = option(
         None,
@@ -421,6 +443,12 @@ class Options:
             from sambot_viz.publishing.outbound import kinds_of
 
             kinds_of(self.publish)
+        for flag, speed in (
+            ("--max-linear", self.max_linear),
+            ("--max-angular", self.max_angular),
+        ):
+            if not 0.0 < speed < math.inf:
+                raise UsageError(f"{flag} needs a speed above 0, not {speed:g}")
 
     def _check_presenter(self) -> None:
         if self.presenter is None:

@@ -39,6 +39,9 @@ DECLARED = [found for kind in panels() for found in declared_commands(kind)]
 @pytest.mark.parametrize("declared", DECLARED, ids=lambda found: found.id)
 def test_a_method_takes_what_its_declaration_says(declared: Command) -> None:
     _, *parameters = inspect.signature(declared.run).parameters.values()
+    if declared.at_once:
+        # The number of the client comes first.
+        del parameters[0]
     taken = [str(parameter.annotation) for parameter in parameters]
     assert len(taken) == len(declared.arguments)
     for annotation, argument in zip(taken, declared.arguments, strict=True):
@@ -75,6 +78,8 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("topics/show", "topics/find", "topics/choose"),
         *("tools/choose", "tools/escape", "tools/focus", "tools/hover"),
         "drive/find",
+        # Letting go, and STOP, are for everyone.
+        *("live/release", "live/stop"),
         *("tools/press", "tools/right_click", "tools/zero", "tools/drag"),
         # What is sent to a robot asks for control itself.
         "tools/drop",

@@ -12,6 +12,7 @@ import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { followDriving } from "./panels/drive.js";
+import { drivesRobot, followLiveDriving } from "./panels/live_drive.js";
 import { followGhost } from "./panels/poses.js";
 import { play, seek } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
@@ -33,6 +34,7 @@ const start = () => {
     tools: toolKeys,
     mouse: mousePlace,
     act: actAtOnce,
+    drivesRobot,
     hide: togglePanels,
     cancelPress: () => {
       stopDrawing();
@@ -57,6 +59,7 @@ const start = () => {
   followClickedLink();
   followGhost();
   followDriving();
+  followLiveDriving();
   followFile();
   followConnection();
   followRole();

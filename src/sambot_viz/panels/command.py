@@ -57,6 +57,8 @@ class Command:
         name: what refusals call it.
         client_local: whether it changes only what this client shows, so that viewers
             may call it too.
+        at_once: it is run as soon as it comes, on viser's event loop and without the
+            session's lock, and gets the number of the client first: it must not wait.
     """
 
     id: str
@@ -64,6 +66,7 @@ class Command:
     run: Callable[..., object] = field(default=lambda: None, compare=False)
     name: str = ""
     client_local: bool = False
+    at_once: bool = False
 
     def json(self) -> dict[str, Json]:
         """Return what the page gets."""
@@ -72,7 +75,11 @@ class Command:
 
 
 def command(
-    command_id: str, *arguments: Argument, name: str = "", client_local: bool = False
+    command_id: str,
+    *arguments: Argument,
+    name: str = "",
+    client_local: bool = False,
+    at_once: bool = False,
 ) -> Callable[
     [Callable[Concatenate[Owner, P], Result]], Callable[Concatenate[Owner, P], Result]
 ]:
@@ -83,12 +90,13 @@ def command(
         arguments: of the method, without `self`.
         name: what refusals call it.
         client_local: whether it changes only what this client shows.
+        at_once: as of `Command`.
     """
 
     def declare(
         method: Callable[Concatenate[Owner, P], Result],
     ) -> Callable[Concatenate[Owner, P], Result]:
-        made = Command(command_id, arguments, method, name, client_local)
+        made = Command(command_id, arguments, method, name, client_local, at_once)
         setattr(method, _DECLARED, made)
         return method
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import validation
 from sambot_viz.panels.browser import BrowserPanels
+from sambot_viz.panels.command import Command
 from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.drive_panel import DrivePanel
 from sambot_viz.panels.files_panel import Files
 from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.joints.poses import PosesPanel
+from sambot_viz.panels.live_drive_panel import LiveDrivePanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
 from sambot_viz.panels.problems.problems_panel import ProblemsPanel
@@ -95,6 +98,14 @@ class Window:
         ]
         if session.data is not None:
             panels.append(SourcePanel(session.sources, not session.private))
+            panels.append(
+                LiveDrivePanel(
+                    session.publisher,
+                    session.roles,
+                    session.driven,
+                    session.worker.post,
+                )
+            )
         if joints:
             arrow = JointArrow(scene, session.worker)
             panels += [
@@ -159,6 +170,10 @@ class Window:
         sent = read(message)
         if sent is None:
             return
+        found = self._shared.item(sent.id)
+        if isinstance(found, Command) and found.at_once:
+            self._take_at_once(client_id, found, sent)
+            return
         # Of the values of one drag that wait, only the last one counts; and of numbers
         # that come faster than they are handled. A command may add to the one before.
         latest_of = None
@@ -166,6 +181,22 @@ class Window:
             latest_of = (sent.id, sent.gesture)
         take = partial(self._take, client_id, sent)
         self._session.worker.post(take, latest_of=latest_of, client=client_id)
+
+    def _take_at_once(self, client_id: int, found: Command, sent: Sent) -> None:
+        """Run a command that waits for nothing; a refusal is answered in its turn."""
+        may_edit = self._session.roles.may_edit(client_id)
+        found = replace(found, run=partial(found.run, client_id))
+        try:
+            validation.accept(found, sent.value, may_edit=may_edit)()
+        except SambotVizError as error:
+            refuse = partial(self._refuse, client_id, sent.id, str(error))
+            # One that is refused again and again is told it once.
+            self._session.worker.post(refuse, latest_of=sent.id, client=client_id)
+
+    def _refuse(self, client_id: int, item_id: str, sentence: str) -> None:
+        browser = self._browsers.get(client_id)
+        if browser is not None:
+            browser.answer(item_id, sentence)
 
     def _is_number(self, client_id: int, row_id: str) -> bool:
         """Tell whether a row is a number, in any thread."""

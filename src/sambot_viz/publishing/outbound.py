@@ -8,9 +8,9 @@ from typing import Any, ClassVar, Literal
 
 from sambot_viz.errors import PublishError, UsageError
 
-Kind = Literal["goal", "pose", "point"]
-KINDS: tuple[Kind, ...] = ("goal", "pose", "point")
-"""What may be allowed: goals, estimates of the robot's pose, points."""
+Kind = Literal["goal", "pose", "point", "drive"]
+KINDS: tuple[Kind, ...] = ("goal", "pose", "point", "drive")
+"""What may be allowed: goals, estimates of the pose, points, and velocities."""
 MAP = "map"
 """The frame in which Nav2 plans and AMCL localizes, as they come."""
 GOAL_TOPIC = "/goal_pose"

@@ -6,11 +6,13 @@ import json
 import os
 import time
 from collections.abc import Callable, Collection
+from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.outlet import write_err
-from sambot_viz.publishing.outbound import Kind, Outbound, kinds_of
+from sambot_viz.publishing.driver import Driver
+from sambot_viz.publishing.outbound import KINDS, Kind, Outbound, kinds_of
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
@@ -18,6 +20,7 @@ from sambot_viz.publishing.takers import (
     frame_fault,
     who_takes,
 )
+from sambot_viz.publishing.velocity import CMD_VEL, MOST_ANGULAR, MOST_LINEAR, Velocity
 from sambot_viz.publishing.written import written
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage, Outgoing
@@ -45,7 +48,7 @@ class PublishLog:
         self._path = path
         self._append("")
 
-    def add(self, message: Outbound, topic: str, who: str) -> None:
+    def add(self, message: Outbound | Velocity, topic: str, who: str) -> None:
         """Write what was sent.
 
         Raises:
@@ -70,6 +73,24 @@ class PublishLog:
             raise PublishError(f"{self._path} cannot be written: {why}") from error
 
 
+@dataclass(frozen=True, slots=True)
+class DriveSettings:
+    """How a robot is driven by hand.
+
+    Attributes:
+        topic: where velocities go.
+        most: the highest linear [m/s] and angular speed [rad/s].
+        told: called when something is new about who drives; in any thread, must only
+            post.
+        post: has something done in the session's thread.
+    """
+
+    topic: str = CMD_VEL
+    most: tuple[float, float] = (MOST_LINEAR, MOST_ANGULAR)
+    told: Callable[[], object] = lambda: None
+    post: Callable[[Callable[[], object]], object] = lambda action: action()
+
+
 class Publisher:
     """Sends messages to the robot of a session, if that was allowed.
 
@@ -80,9 +101,12 @@ class Publisher:
         frames: of the session.
         log: where what was sent is written; None for nowhere.
         is_private: it is a copy of one user, who sends nothing.
+        drive: how the robot is driven by hand.
 
     Attributes:
         robot: the live robot; None without one.
+        driver: drives it; None where that is not allowed.
+        name_of: the user of a page, for the log.
     """
 
     def __init__(
@@ -92,8 +116,12 @@ class Publisher:
         log: PublishLog | None = None,
         *,
         is_private: bool = False,
+        drive: DriveSettings | None = None,
     ) -> None:
         self.robot: SourceRobot | None = None
+        self.driver: Driver | None = None
+        self.name_of: Callable[[int], str] = lambda client: ""
+        self._drive = drive or DriveSettings()
         self._allowed, self._frames, self._log = frozenset(allowed), frames, log
         self._is_private = is_private
         self._outgoing: dict[tuple[str, str], Outgoing] = {}
@@ -111,14 +139,37 @@ class Publisher:
         """
         self.close()
         self.robot, self._now_ns = robot, now_ns
+        if robot is not None and not self.refusal("drive"):
+            how = self._drive
+            self.driver = Driver(
+                robot, now_ns, how.topic, how.most, how.told, self._note_velocity
+            )
 
     def close(self) -> None:
-        """Publish no topic any more; a second call does nothing."""
+        """Stop the robot, and publish no topic any more; a second call does nothing."""
+        if self.driver is not None:
+            self.driver.close()
+            self.driver = None
         for outgoing in self._outgoing.values():
             outgoing.close()
         self._outgoing.clear()
         for topic in tuple(self._followed):
             self._follow_no_more(topic)
+
+    @property
+    def sends_anything(self) -> bool:
+        """Whether something may be sent to a robot at all."""
+        return any(not self.refusal(kind) for kind in KINDS)
+
+    def stop(self, who: str) -> None:
+        """Stop the robot, whoever drives; takes no lock of the session.
+
+        Args:
+            who: has pressed STOP.
+        """
+        write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
+        if self.driver is not None:
+            self.driver.stop(f"{who or 'somebody'} pressed STOP", at_rest=True)
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -217,6 +268,12 @@ class Publisher:
             self._log.add(message, topic, who)
         return told
 
+    def _note_velocity(self, velocity: Velocity, client: int) -> None:
+        """Have a new velocity written down; what sends it does not wait for that."""
+        if (log := self._log) is not None:
+            topic = self._drive.topic
+            self._drive.post(lambda: log.add(velocity, topic, self.name_of(client)))
+
     def _follow(self, robot: SourceRobot, topic: str) -> None:
         """Listen to what becomes of the goals of a topic, before there is one."""
         if topic in self._followed:
@@ -256,6 +313,7 @@ def publisher_of(
     publish: str | None,
     log: str | os.PathLike[str] | None,
     frames: KnownFrames,
+    drive: DriveSettings,
     *,
     is_private: bool,
 ) -> Publisher:
@@ -265,6 +323,7 @@ def publisher_of(
         publish: the kinds of what may be sent, with commas; "" for all, None for none.
         log: a file for what was sent; None for none.
         frames: of the session.
+        drive: how the robot is driven by hand.
         is_private: it is a copy of one user, who sends nothing.
 
     Raises:
@@ -272,4 +331,4 @@ def publisher_of(
     """
     allowed = () if publish is None or is_private else kinds_of(publish)
     kept = None if log is None or not allowed else PublishLog(Path(log))
-    return Publisher(allowed, frames, kept, is_private=is_private)
+    return Publisher(allowed, frames, kept, is_private=is_private, drive=drive)

@@ -37,6 +37,7 @@ _TAKERS = {
     "goal": "start Nav2 (its bt_navigator takes goals)",
     "pose": "start AMCL or slam_toolbox (they take poses)",
     "point": "start the program that takes points",
+    "drive": "start the robot's base (its controller takes velocities)",
 }
 """What is sent → who would take it."""
 

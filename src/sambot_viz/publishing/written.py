@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import json
+from typing import Any, Protocol
 
 from sambot_viz.errors import DecodeError, PublishError
 from sambot_viz.messages import MessageTypes
-from sambot_viz.publishing.outbound import Outbound
 from sambot_viz.sources.source import Outgoing, Source
+
+
+class HasFields(Protocol):
+    """What has the fields of a message."""
+
+    def fields(self, stamp: object) -> dict[str, Any]:
+        """Return them, with a time as the transport wants it."""
+        ...
 
 
 def time_of(source: Source, newest_ns: int) -> int:
@@ -22,7 +30,7 @@ def time_of(source: Source, newest_ns: int) -> int:
 
 
 def written(
-    outgoing: Outgoing, message: Outbound, now_ns: int, types: MessageTypes
+    outgoing: Outgoing, message: HasFields, now_ns: int, types: MessageTypes
 ) -> bytes:
     """Return a message that is sent now as a topic wants it.
 

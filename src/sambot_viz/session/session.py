@@ -23,7 +23,7 @@ from sambot_viz.frames.robot_frames import floating_problems
 from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
-from sambot_viz.publishing.publisher import publisher_of
+from sambot_viz.publishing.publisher import DriveSettings, publisher_of
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
@@ -46,7 +46,7 @@ from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.shown_problems import Checks, Problems
-from sambot_viz.session.signals import Audience, Change, connect
+from sambot_viz.session.signals import Audience, Change, Signal, connect
 from sambot_viz.session.undo import History
 from sambot_viz.session.worker import Worker
 from sambot_viz.topics.source_robot import SourceRobot
@@ -76,6 +76,7 @@ class Session:
         own_model: whether its robot is its own: that of the server is not shown in it.
         sources: what messages come from, and what they move.
         publisher: the way back to a live robot.
+        driven: who drives that robot.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -135,9 +136,17 @@ class Session:
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
         self.checks = Checks(robot, document, scene, self.problems, change)
-        self.publisher = publisher_of(
-            options.publish, options.publish_log, tree, is_private=private
+        self.driven = Signal(change, None)
+        drive = DriveSettings(
+            f"/{options.cmd_vel.strip().lstrip('/')}",
+            (options.max_linear, options.max_angular),
+            lambda: worker.post(self._tell_driven),
+            worker.post,
         )
+        self.publisher = publisher_of(
+            options.publish, options.publish_log, tree, drive, is_private=private
+        )
+        self.publisher.name_of = self._name_of
         self._take_robot()
         self.clients = Clients(
             document,
@@ -358,6 +367,14 @@ class Session:
             self.publisher.take(None, lambda: 0)
         else:
             self.publisher.take(data.moved_by, data.stamp_ns)
+
+    def _tell_driven(self) -> None:
+        with self.change(self.driven):
+            pass
+
+    def _name_of(self, client_id: int) -> str:
+        person = self.roles.people.get(client_id)
+        return "" if person is None else person.name
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

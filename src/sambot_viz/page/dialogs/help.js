@@ -21,7 +21,7 @@ const KEYS = [
       ["O", "show everyone what you have selected"],
       ["P G U", "with a live robot: 2D Pose Estimate, 2D Goal Pose, Publish Point"],
       ["H", "hide or show all panels"],
-      ["Esc", "back to the first tool"],
+      ["Esc", "back to the first tool; twice: STOP, for a live robot"],
       ["8 2 4 6 in Drive", "add speed"],
       ["5", "stop driving"],
     ],

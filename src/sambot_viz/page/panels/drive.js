@@ -102,7 +102,10 @@ export function DrivePanel() {
   // A click beside its buttons gives it the keys too.
   return html`<div class="drive" tabindex="-1">
     <div class="pad" role="group" aria-label="Drive">
-      ${Object.keys(WAYS).map((name) => html`<${HoldButton} key=${name} name=${name} />`)}
+      ${Object.entries(WAYS).map(
+        ([name, [label]]) => html`<${HoldButton} key=${name} name=${name} label=${label}
+          hold=${hold} letGo=${letGo} />`,
+      )}
       <${Stop} />
       <button class="home needs-control"
         title="Move the robot back to the start, and reset wheels, path, fixed frame and view"
@@ -118,9 +121,10 @@ function Stop() {
     onClick=${() => act("drive/stop")}><${Icon} name="stop" /> Stop</button>`;
 }
 
-/** Drives while it is held, by a mouse, a finger, Space or Enter. @param {{name: string}} props */
-function HoldButton({ name }) {
-  const [label] = WAYS[name];
+/** Drives while it is held, by a mouse, a finger, Space or Enter.
+ * @param {{name: string, label: string, hold: (name: string) => void,
+ *   letGo: (name: string) => void}} props */
+export function HoldButton({ name, label, hold, letGo }) {
   const start = () => hold(name);
   const end = () => letGo(name);
   useEffect(() => {

@@ -76,6 +76,9 @@ export function meaning(event, tools, mouse = [null, null], drives = false) {
   return key === "h" ? "hide" : undefined;
 }
 
+/** A second press within that time stops the robot [ms]. */
+const TWICE = 600;
+
 /** Where digits drive the robot. */
 const DRIVE = ".drive, [data-tab=drive]";
 
@@ -109,11 +112,34 @@ function letGo(plays) {
 /**
  * Follow the keyboard.
  * @param {{tools: () => {name: string, key: string}[], mouse: () => [number | null, number | null],
- *   act: (id: string, args?: any[]) => void, hide: () => void, cancelPress: () => void,
+ *   act: (id: string, args?: any[]) => void, drivesRobot: () => boolean, hide: () => void,
+ *   cancelPress: () => void,
  *   plays: () => boolean, play: () => void, seek: (key: string) => void}} window
  */
-export function listenToKeys({ tools, mouse, act, hide, cancelPress, plays, play, seek }) {
+export function listenToKeys({
+  tools,
+  mouse,
+  act,
+  drivesRobot,
+  hide,
+  cancelPress,
+  plays,
+  play,
+  seek,
+}) {
   letGo(plays);
+  let escaped = -Infinity;
+  // Whatever else the keys mean, and wherever the focus is.
+  addEventListener(
+    "keydown",
+    (event) => {
+      const isTwice = event.key === "Escape" && event.timeStamp - escaped < TWICE;
+      if (event.key === "Escape" && !event.repeat) escaped = event.timeStamp;
+      if (!isTwice && !(event.key === " " && drivesRobot())) return;
+      if (!event.repeat) act("live/stop");
+    },
+    true,
+  );
   addEventListener("keydown", (event) => {
     if (event.defaultPrevented || isTyping(event.target) || document.querySelector(OPEN)) return;
     // The text of the whole page is never meant.

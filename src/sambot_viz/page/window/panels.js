@@ -6,6 +6,7 @@ import { DisplaysPanel } from "../panels/displays.js";
 import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
 import { ImagesPanel } from "../panels/images.js";
+import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
 import { TopicsPanel } from "../panels/topics.js";
@@ -34,6 +35,7 @@ export const TABS = {
     content: () => html`<${Tree} panel="selection" label="Selection" />`,
   },
   drive: { title: "Drive", content: DrivePanel },
+  live: { title: "Drive robot", short: "Drive", content: LiveDrivePanel },
   tool_properties: {
     title: "Tool Properties",
     short: "Tool",

@@ -16,6 +16,7 @@ import {
 } from "./splitters.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { Driving } from "../panels/drive.js";
+import { LiveDriving, StopRobot } from "../panels/live_drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
 import {
@@ -58,7 +59,7 @@ export function Window() {
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
     ${
       away.all &&
-      html`<${Driving} /><${ProblemCorner} show=${() => {
+      html`<${Driving} /><${LiveDriving} /><${ProblemCorner} show=${() => {
         togglePanels();
         showProblems(true);
       }} />`
@@ -71,6 +72,7 @@ export function Window() {
       html`<${StatusBar}
       problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} />`
     }
+    <${StopRobot} />
     <div class="over-view"><${Asking} /><${Connection} /></div>
     <${Dialogs} />
   </div>`;

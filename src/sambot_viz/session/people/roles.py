@@ -270,6 +270,12 @@ class Roles:
             UsageError: only presenters may.
         """
         self._check_presenter(presenter_id)
+        self.return_control()
+
+    def return_control(self) -> None:
+        """Give control back to the presenter, as STOP does; without one all keep it."""
+        if not self.presented:
+            return
         self._key_of_control = ""
         for person in self._people.values():
             person.has_control = person.presenter

@@ -1,0 +1,195 @@
+"""Drives the live robot of a session by hand: where, in which type, and who does."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sambot_viz.errors import PublishError, SourceError
+from sambot_viz.publishing.dead_mans_switch import DeadMansSwitch, Hand
+from sambot_viz.publishing.takers import who_takes
+from sambot_viz.publishing.velocity import VELOCITY_TYPES, Velocity
+from sambot_viz.publishing.written import written
+from sambot_viz.sources.source import Outgoing
+from sambot_viz.text import text
+from sambot_viz.topics.source_robot import SourceRobot
+
+_STOPPERS = ("velocity_smoother", "collision_monitor")
+"""Nodes of Nav2 that stop a robot that is not told its velocity any more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Driving:
+    """Who drives, and why the last one was stopped.
+
+    Attributes:
+        hand: None when nobody drives.
+        why: "" where the last hand has let go.
+    """
+
+    hand: Hand | None = None
+    why: str = ""
+
+
+class Driver:
+    """Sends velocities to one robot; all but `choose` may be called in any thread.
+
+    Args:
+        robot: a live one.
+        now_ns: returns its time [ns]; takes no lock.
+        topic: where velocities go.
+        most: the highest linear [m/s] and angular speed [rad/s].
+        told: called when somebody begins or ends to drive, and when there is something
+            new about it; in any thread, must only post.
+        sent: called with each new velocity that was sent, and the page; the same.
+    """
+
+    def __init__(
+        self,
+        robot: SourceRobot,
+        now_ns: Callable[[], int],
+        topic: str,
+        most: tuple[float, float],
+        told: Callable[[], object],
+        sent: Callable[[Velocity, int], object],
+    ) -> None:
+        self.topic, self.most = topic, most
+        self.driving = Driving()
+        self._robot, self._now_ns = robot, now_ns
+        self._told, self._sent = told, sent
+        self._chosen = ""
+        self._lock = threading.Lock()
+        self._outgoing: Outgoing | None = None
+        self._last: tuple[Velocity, int] | None = None
+        self._client = -1
+        self._switch = DeadMansSwitch(self._send, most, self._change)
+
+    @property
+    def type_name(self) -> str:
+        """The type of the velocities: the robot's own, else the chosen one, else ""."""
+        known = self._robot.source.topics().get(self.topic)
+        name = "" if known is None else known.schema.name
+        return name if name in VELOCITY_TYPES else self._chosen
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether a user has to say which type the robot takes."""
+        known = self._robot.source.topics().get(self.topic)
+        return known is None or known.schema.name not in VELOCITY_TYPES
+
+    def choose(self, type_name: str) -> None:
+        """Take another type, for a robot that does not say which it takes."""
+        self._switch.stop("the type of the velocities was changed")
+        self._chosen = type_name
+        self._told()
+
+    @property
+    def protection(self) -> str:
+        """What stops the robot when the connection to it is lost, in words."""
+        topics = self._robot.source.topics().values()
+        named = [one.publishers for one in topics]
+        nodes = {n for names in named if isinstance(names, tuple) for n in names}
+        with self._lock:
+            receivers = None if self._outgoing is None else self._outgoing.receivers
+        if receivers is not None and receivers.names:
+            nodes.update(receivers.names)
+        found = sorted(n for n in nodes if any(one in n for one in _STOPPERS))
+        if found:
+            names = " and ".join(text(name, 60) for name in found[:2])
+            return f"{names} of the robot can stop it when it hears nothing"
+        known = any(one is not None for one in named)
+        seen = "nothing seen that stops it" if known else "its nodes are not known"
+        return f"the robot may keep its last speed: {seen}"
+
+    def hold(self, hand: Hand, forwards: float, left: float) -> None:
+        """Drive on; said again and again while a key or the stick is held.
+
+        Args:
+            hand: who says so.
+            forwards: part of the highest speed, -1 to 1.
+            left: the same of the angular speed.
+
+        Raises:
+            PublishError: nobody would take it, or its type is not known.
+            SourceError: the robot takes nothing, or has left.
+        """
+        if self._switch.hand != hand:
+            self._prepare()
+            self._client = hand.client
+        self._switch.hold(hand, forwards, left)
+
+    def release(self, client: int, press: int) -> None:
+        """Let go of a press: the robot is stopped."""
+        self._switch.release(client, press)
+
+    def leave(self, client: int) -> None:
+        """A page has gone."""
+        self._switch.leave(client)
+
+    def stop(self, why: str, *, at_rest: bool = False) -> None:
+        """Stop the robot, whoever drives.
+
+        Args:
+            why: what is said to everyone.
+            at_rest: also when nobody drives from here, if its velocities are known.
+        """
+        if at_rest and self.driving.hand is None:
+            try:
+                self._prepare()
+            except (PublishError, SourceError):
+                return
+        self._switch.stop(why, at_rest=at_rest)
+
+    def close(self) -> None:
+        """Stop the robot, and send nothing after that."""
+        self._switch.close()
+        with self._lock:
+            if self._outgoing is not None:
+                self._outgoing.close()
+                self._outgoing = None
+
+    def _prepare(self) -> None:
+        """See to it that there is a topic that somebody takes."""
+        type_name = self.type_name
+        if not type_name:
+            raise PublishError(
+                f"choose the type that the robot takes on {text(self.topic, 80)} first"
+            )
+        with self._lock:
+            one = self._outgoing
+            if one is not None and (one.type_name != type_name or one.refused):
+                # What was refused is tried again.
+                one.close()
+                one = None
+            if one is not None:
+                who_takes(one, "drive")
+            else:
+                # Who takes it is known soon, and asked with each velocity.
+                one = self._robot.source.advertise(self.topic, type_name)
+            self._outgoing = one
+
+    def _send(self, linear: float, angular: float) -> None:
+        """Send a velocity; in the thread of the switch, without a session's lock."""
+        with self._lock:
+            outgoing = self._outgoing
+        if outgoing is None:
+            raise SourceError("the robot has left")
+        velocity = Velocity(outgoing.type_name, linear, angular)
+        if outgoing.refused:
+            raise PublishError(f"the robot refuses it: {text(outgoing.refused, 400)}")
+        who_takes(outgoing, "drive")
+        types = self._robot.decoding.types
+        try:
+            outgoing.send(written(outgoing, velocity, self._now_ns(), types))
+        except SourceError:
+            with self._lock:
+                self._outgoing = None
+            raise
+        if (velocity, self._client) != self._last:
+            self._last = velocity, self._client
+            self._sent(velocity, self._client)
+
+    def _change(self, hand: Hand | None, why: str) -> None:
+        self.driving = Driving(hand, why)
+        self._told()

@@ -1,0 +1,105 @@
+"""A live robot driven in a real page: by stick, buttons and keys, and what stops it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from base_peer import CMD_VEL, BasePeer
+from inside import session_of
+from live_peers import eventually
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.publishing import dead_mans_switch
+
+pytestmark = pytest.mark.browser
+Open = Callable[..., ViewerPage]
+
+
+@pytest.fixture
+def peer() -> Iterator[BasePeer]:
+    made = BasePeer()
+    yield made
+    made.stop()
+
+
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A page of a busy machine is too slow for the robot; that has tests of its own."""
+    monkeypatch.setattr(dead_mans_switch, "SILENCE", 600.0)
+
+
+@pytest.fixture
+def viz(peer: BasePeer) -> Iterator[Visualizer]:
+    with Visualizer(source=peer.uri, port=0, publish="drive") as viz:
+        data = session_of(viz).data
+        assert data is not None
+        eventually(lambda: CMD_VEL in data.source.topics())
+        yield viz
+
+
+def moves(peer: BasePeer, linear: float, angular: float) -> Callable[[], bool]:
+    wanted = pytest.approx((linear, angular), abs=1e-3)
+    return lambda: bool(peer.speeds()) and peer.speeds()[-1] == wanted
+
+
+def test_stick_button_and_key_drive_while_they_are_held(
+    peer: BasePeer, viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    user, mouse, keyboard = viewer.user, viewer.page.mouse, viewer.page.keyboard
+    user.click("tab", "Drive robot")
+    button = user.find("button", "Forwards")
+    mouse.move(*user.go_to(button))
+    mouse.press()
+    eventually(moves(peer, 0.2, 0.0))
+    user.reads("drives the robot")
+    mouse.release()
+    eventually(peer.rests)
+    # The stick is as wide as it says.
+    left, top, width, height = viewer.page.evaluate(
+        "(({x, y, width, height}) => [x, y, width, height])"
+        "(document.querySelector('.stick').getBoundingClientRect())"
+    )
+    x, y = left + width / 2, top + height / 2
+    mouse.move(x, y)
+    mouse.press()
+    mouse.move(x - width / 4, y - height / 4)
+    eventually(moves(peer, 0.1, 0.25))
+    mouse.release()
+    eventually(peer.rests)
+    keyboard.hold("8")
+    eventually(moves(peer, 0.2, 0.0))
+    keyboard.hold("4")
+    eventually(moves(peer, 0.2, 0.5))
+    keyboard.release("4")
+    eventually(moves(peer, 0.2, 0.0))
+    keyboard.release("8")
+    eventually(peer.rests)
+
+
+@pytest.mark.parametrize("by", ["space", "button of another page", "escape", "hidden"])
+def test_what_stops_a_robot_that_is_driven(
+    peer: BasePeer, viz: Visualizer, open_viewer: Open, by: str
+) -> None:
+    viewer, other = open_viewer(viz.url), open_viewer(viz.url)
+    viewer.user.click("tab", "Drive robot")
+    viewer.page.keyboard.hold("8")
+    eventually(moves(peer, 0.2, 0.0))
+    if by == "space":
+        viewer.page.keyboard.press(" ")
+    elif by == "escape":
+        other.user.keys("Escape", "Escape")
+    elif by == "hidden":
+        viewer.minimize()
+    else:
+        other.user.click("button", "STOP")
+    eventually(peer.rests)
+    if by != "hidden":
+        other.user.reads("pressed STOP")
+    # The key that is still held drives no longer.
+    came = len(peer.came())
+    viewer.page.keyboard.release("8")
+    viewer.user.until(lambda: session_of(viz).publisher.driver is not None)
+    assert len(peer.came()) == came
