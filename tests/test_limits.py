@@ -61,6 +61,7 @@ NO_LIMITS = {
         session/worker.py LONGEST_STOP
         sources/recording_thread.py LONGEST_PERIOD LONGEST_STOP
         sources/rosapi.py LONGEST_ANSWER
+        sources/websocket/service_calls.py LONGEST_ANSWER
         sources/websocket/assets.py LONGEST_FETCH
         sources/websocket/delivery.py LONGEST_STOP
         sources/websocket/runner.py LONGEST_SILENCE

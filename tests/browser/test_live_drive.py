@@ -32,7 +32,7 @@ def patient(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def viz(peer: BasePeer) -> Iterator[Visualizer]:
-    with Visualizer(source=peer.uri, port=0, publish="drive") as viz:
+    with Visualizer(source=peer.uri, port=0, publish="") as viz:
         data = session_of(viz).data
         assert data is not None
         eventually(lambda: CMD_VEL in data.source.topics())
@@ -103,3 +103,20 @@ def test_what_stops_a_robot_that_is_driven(
     viewer.page.keyboard.release("8")
     viewer.user.until(lambda: session_of(viz).publisher.driver is not None)
     assert len(peer.came()) == came
+
+
+def test_a_goal_is_cancelled_with_a_button(
+    peer: BasePeer, viz: Visualizer, open_viewer: Open
+) -> None:
+    peer.statuses = (1, 2)
+    peer.listen_as("/goal_pose", "/bt_navigator")
+    cancel = "/navigate_to_pose/_action/cancel_goal"
+    peer.serve(cancel, reply=b"\0\1\0\0" + bytes(8))
+    viewer = open_viewer(viz.url)
+    eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+    viz.publish_goal(1.0, 0.0, 0.0)
+    viewer.user.reads("Goal: on the way")
+    viewer.user.click("button", "Cancel")
+    eventually(lambda: cancel in peer.calls())
+    peer.tell(5)
+    viewer.user.gone("button", "Cancel")

@@ -41,7 +41,7 @@ def test_an_asset_is_a_file_or_the_text_of_a_refusal() -> None:
     assert bad == wire.AssetFrame(2, "n\N{REPLACEMENT CHARACTER}", b"")
 
 
-@pytest.mark.parametrize("opcode", [0, 3, 5, 99, 255])
+@pytest.mark.parametrize("opcode", [0, 5, 6, 99, 255])
 def test_frames_of_other_kinds_are_passed_over(opcode: int) -> None:
     assert wire.parse_binary(bytes([opcode])) is None
 
@@ -53,6 +53,8 @@ def test_frames_of_other_kinds_are_passed_over(opcode: int) -> None:
         "01",
         "01 07000000 00000000000000",
         "02 00000000000000",
+        "03 01000000 01000000",
+        "03 01000000 01000000 04000000 6364",
         "04 01000000 01",
         "04 01000000 01 03000000 6162",
         "04 01000000 00 ffffffff 616263",
@@ -156,7 +158,7 @@ def test_the_other_frames_of_a_server() -> None:
 
 
 def test_frames_that_are_not_needed_are_passed_over() -> None:
-    assert wire.parse_text('{"op":"advertiseServices","services":[]}').content is None
+    assert wire.parse_text('{"op":"playbackState","status":0}').content is None
 
 
 @pytest.mark.parametrize(

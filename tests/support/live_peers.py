@@ -22,6 +22,9 @@ from foxglove.websocket import (
     ClientChannel,
     ConnectionGraph,
     ServerListener,
+    Service,
+    ServiceRequest,
+    ServiceSchema,
     StatusLevel,
 )
 from patience import until
@@ -128,6 +131,20 @@ class LivePeer(ABC):
     def complain(self, words: str) -> None:
         """Tell all clients of an error."""
 
+    @abstractmethod
+    def serve(self, service: str, failure: str = "", reply: bytes | Any = None) -> None:
+        """Offer a service, or let it do otherwise.
+
+        Args:
+            service: its name.
+            failure: what it fails with; "" for success.
+            reply: what it answers, CDR or the fields; None for what it was asked.
+        """
+
+    @abstractmethod
+    def calls(self) -> list[str]:
+        """The services that were called, in their order."""
+
 
 class FoxglovePeer(LivePeer, ServerListener):
     """The server of Foxglove's SDK, which keeps latched messages as the bridge does."""
@@ -143,6 +160,8 @@ class FoxglovePeer(LivePeer, ServerListener):
         self._subscribed: list[tuple[int, str]] = []
         self._advertised: dict[tuple[int, int], tuple[str, str]] = {}
         self._came: list[Came] = []
+        self._services: dict[str, tuple[str, bytes | None]] = {}
+        self._calls: list[str] = []
         self.start()
 
     def start(self) -> None:
@@ -152,6 +171,7 @@ class FoxglovePeer(LivePeer, ServerListener):
                 Capability.Time,
                 Capability.ConnectionGraph,
                 Capability.ClientPublish,
+                Capability.Services,
             ],
             "supported_encodings": ["cdr", "json"],
             # Else the oldest of what is published at once goes missing.
@@ -170,6 +190,8 @@ class FoxglovePeer(LivePeer, ServerListener):
             # Another peer of these tests may have the port for as long as it was free.
             not_yet=RuntimeError,
         )
+        if self._services:
+            self.server.add_services([*map(self._service, self._services)])
 
     def stop(self) -> None:
         if self.server is not None:
@@ -225,6 +247,25 @@ class FoxglovePeer(LivePeer, ServerListener):
         graph.set_subscribed_topic(topic, list(nodes))
         assert self.server is not None
         self.server.publish_connection_graph(graph)
+
+    def serve(self, service: str, failure: str = "", reply: bytes | Any = None) -> None:
+        is_new = service not in self._services
+        self._services[service] = failure, reply
+        if is_new and self.server is not None:
+            self.server.add_services([self._service(service)])
+
+    def calls(self) -> list[str]:
+        return list(self._calls)
+
+    def _service(self, name: str) -> Service:
+        def answer(request: ServiceRequest) -> bytes:
+            self._calls.append(name)
+            failure, reply = self._services[name]
+            if failure:
+                raise RuntimeError(failure)
+            return bytes(request.payload) if reply is None else reply
+
+        return Service(name, schema=ServiceSchema("test/srv/Any"), handler=answer)
 
     def complain(self, words: str) -> None:
         assert self.server is not None

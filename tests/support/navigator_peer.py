@@ -64,7 +64,11 @@ class NavigatorPeer(FoxglovePeer):
             self.complain(self.refusal)
         elif STATUS in self._channels:
             for status in self.statuses:
-                self._channels[STATUS].log(_said(self._goals, status))
+                self.tell(status)
+
+    def tell(self, status: int) -> None:
+        """Say a number of GoalStatus of the last goal."""
+        self._channels[STATUS].log(_said(self._goals, status))
 
     def _offer(self, topic: str, kind: str) -> None:
         text = _store().generate_msgdef(kind, ros_version=2)[0].encode()

@@ -153,6 +153,18 @@ class RosbridgePeer(LivePeer):
     def listen_as(self, topic: str, *nodes: str) -> None:
         self._listeners[topic] = list(nodes)
 
+    def serve(self, service: str, failure: str = "", reply: bytes | Any = None) -> None:
+        def answer(arguments: dict[str, Any]) -> Answer:
+            if failure:
+                raise RuntimeError(failure)
+            return arguments if reply is None else reply
+
+        self.services[service] = answer
+
+    def calls(self) -> list[str]:
+        named = (one["service"] for one in self.asked("call_service"))
+        return [one for one in named if not one.startswith("/rosapi/")]
+
     def complain(self, words: str) -> None:
         self.send(json.dumps({"op": "status", "level": "error", "msg": words}))
 
@@ -216,7 +228,11 @@ class RosbridgePeer(LivePeer):
         if service is None:
             answer["values"] = f"Service {call['service']} does not exist"
         else:
-            values = service(call["args"])
+            try:
+                values = service(call["args"])
+            except RuntimeError as error:
+                answer |= {"result": False}
+                values = str(error)
             if values is None:
                 return
             answer["values"] = values

@@ -1,4 +1,4 @@
-"""The panel that drives a live robot by hand, and what stops it for everyone.
+"""The panel that drives a live robot by hand, its goal, and STOP for everyone.
 
 What a hand says is taken at once, on the event loop and without the session's lock: a
 session that hangs stops the robot no later (see `publishing.dead_mans_switch`).
@@ -101,13 +101,19 @@ class LiveDrivePanel(Panel):
             "why": driving.why if driving else "",
             "protection": driver.protection if driver else "",
         }
-        return [Data("live/state", state)]
+        found = [Data("live/state", state)]
+        goal = self._publisher.goal
+        if goal is not None and self._publisher.is_on_the_way:
+            found.append(Data("live/goal", goal.words))
+        return found
 
     def offers(self, command_id: str) -> bool:
         """Tell whether there is a live robot that may be sent something."""
         publisher = self._publisher
         if command_id == "live/stop":
             return publisher.robot is not None and publisher.sends_anything
+        if command_id == "live/cancel":
+            return publisher.is_on_the_way
         return publisher.driver is not None
 
     @property
@@ -130,6 +136,10 @@ class LiveDrivePanel(Panel):
     def _release(self, client: int, press: int) -> None:
         if self._publisher.driver is not None:
             self._publisher.driver.release(client, press)
+
+    @command("live/cancel", name="Cancel")
+    def _cancel(self) -> None:
+        self._publisher.cancel()
 
     @command("live/stop", client_local=True, at_once=True)
     def _stop(self, client: int) -> None:

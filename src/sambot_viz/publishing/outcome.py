@@ -73,6 +73,11 @@ class GoalFollower:
         return _outcome(status)
 
 
+def cancel_of(topic: str) -> str:
+    """Return the service that cancels the goals of a topic; hidden in ROS."""
+    return f"{status_of(topic).removesuffix('status')}cancel_goal"
+
+
 def status_of(topic: str) -> str:
     """Return where Nav2 says what becomes of the goals of a topic; hidden in ROS."""
     return f"{topic.rpartition('/')[0]}/navigate_to_pose/_action/status"

@@ -7,12 +7,20 @@ import os
 import time
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.outlet import write_err
+from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.driver import Driver
-from sambot_viz.publishing.outbound import KINDS, Kind, Outbound, kinds_of
+from sambot_viz.publishing.outbound import (
+    GOAL_TOPIC,
+    KINDS,
+    Kind,
+    Outbound,
+    kinds_of,
+)
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
@@ -106,6 +114,7 @@ class Publisher:
     Attributes:
         robot: the live robot; None without one.
         driver: drives it; None where that is not allowed.
+        goal: what became of the last goal; None without one.
         name_of: the user of a page, for the log.
     """
 
@@ -120,6 +129,7 @@ class Publisher:
     ) -> None:
         self.robot: SourceRobot | None = None
         self.driver: Driver | None = None
+        self.goal: Outcome | None = None
         self.name_of: Callable[[int], str] = lambda client: ""
         self._drive = drive or DriveSettings()
         self._allowed, self._frames, self._log = frozenset(allowed), frames, log
@@ -155,6 +165,7 @@ class Publisher:
         self._outgoing.clear()
         for topic in tuple(self._followed):
             self._follow_no_more(topic)
+        self.goal = None
 
     @property
     def sends_anything(self) -> bool:
@@ -170,6 +181,40 @@ class Publisher:
         write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
         if self.driver is not None:
             self.driver.stop(f"{who or 'somebody'} pressed STOP", at_rest=True)
+        if self.sends_anything:
+            self.cancel()
+
+    @property
+    def is_on_the_way(self) -> bool:
+        """Whether a goal that was sent from here has not ended, as far as is known."""
+        return self.goal is not None and not self.goal.is_over
+
+    def cancel(self) -> None:
+        """Cancel all goals of the robot; takes no lock of the session.
+
+        What becomes of it is said with the goal.
+        """
+        robot = self.robot
+        if robot is None:
+            return
+
+        for topic in tuple(self._followed) or (GOAL_TOPIC,):
+            told = partial(self._tell_cancelled, robot, topic)
+            cancel_goals(robot.source, topic, robot.decoding.types, told)
+
+    def _tell_cancelled(self, robot: SourceRobot, topic: str, why: str) -> None:
+        """Take what the robot has answered to `cancel`; "" for success."""
+        if not self.is_on_the_way:
+            return
+        if why:
+            self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
+        elif status_of(topic) not in robot.source.topics():
+            # Nobody else says it.
+            self._note(Outcome("cancelled", True, False))
+
+    def _note(self, outcome: Outcome) -> None:
+        self.goal = outcome
+        self._drive.told()
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -257,16 +302,27 @@ class Publisher:
             self._follow(robot, topic)
             self._tell = tell
             self._followed[topic][0].begin()
+            self._note(Outcome("sent", False, True))
         try:
-            outgoing.send(content)
+            self._send_once(robot, outgoing, content)
         except SourceError:
-            # That connection has ended; there may be another one by now.
-            self._forget(topic, message.type_name)
-            self._topic(robot, topic, message.type_name).send(content)
+            self.goal = None
+            raise
         write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
         if self._log is not None:
             self._log.add(message, topic, who)
         return told
+
+    def _send_once(
+        self, robot: SourceRobot, outgoing: Outgoing, content: bytes
+    ) -> None:
+        try:
+            outgoing.send(content)
+        except SourceError:
+            # That connection has ended; there may be another one by now.
+            topic, type_name = outgoing.topic, outgoing.type_name
+            self._forget(topic, type_name)
+            self._topic(robot, topic, type_name).send(content)
 
     def _note_velocity(self, velocity: Velocity, client: int) -> None:
         """Have a new velocity written down; what sends it does not wait for that."""
@@ -283,6 +339,7 @@ class Publisher:
         def take(message: Recorded) -> None:
             outcome = follower.take(message, decode)
             if outcome is not None:
+                self._note(outcome)
                 self._tell(outcome)
 
         if len(self._followed) >= _TOPICS:

@@ -1,7 +1,7 @@
 """Foxglove's websocket protocol: foxglove_bridge, or a server of Foxglove's SDK.
 
 Schemas, files, parameters and the graph come over the same connection. What goes out is
-CDR; its QoS is the bridge's. No parameter is set, no service is called.
+CDR; its QoS is the bridge's. No parameter is set.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from __future__ import annotations
 import re
 import time
 from itertools import count
-from typing import Literal
 
 from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources import foxglove_wire as wire
+from sambot_viz.sources.foxglove_services import FoxgloveServices
 from sambot_viz.sources.message import (
     Recorded,
     SourceTopic,
     TopicChannel,
     is_latched_name,
 )
-from sambot_viz.sources.source import Capability, Receivers
+from sambot_viz.sources.source import Capability, Encoding, Receivers
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
@@ -48,10 +48,12 @@ _MOST_NOTES = 3
 class FoxgloveConversation(Conversation):
     """One connection to a Foxglove server."""
 
-    publishes: Literal["cdr", "json"] = "cdr"
+    publishes: Encoding = "cdr"
 
     def __init__(self, ends: Ends) -> None:
         super().__init__(ends)
+        self._services = FoxgloveServices(ends)
+        self.calls = self._services.calls
         self._encodings: tuple[str, ...] = ()
         self._outgoing: dict[int, OutgoingTopic] = {}
         self._subscribers: dict[str, tuple[str, ...]] = {}
@@ -163,6 +165,7 @@ class FoxgloveConversation(Conversation):
         """Let lines of the server that have no id end after a while."""
         if now > self._line_end:
             self._line = ""
+        self.calls.tick(now)
         # The bridge advertises topics one after the other; it is given a moment.
         if self.is_ready and "parameters" in self.capabilities:
             self._ticks += 1
@@ -233,6 +236,8 @@ class FoxgloveConversation(Conversation):
                 parsed.request_id, parsed.content, parsed.error, _ALLOW
             )
             self._ask_for_assets()
+        elif isinstance(parsed, wire.ServiceFrame):
+            self._services.answered(parsed)
 
     def _text(self, frame: str) -> None:
         parsed = wire.parse_text(frame)
@@ -253,6 +258,10 @@ class FoxgloveConversation(Conversation):
                 self._lines.pop(line_id, None)
         elif isinstance(content, wire.GraphUpdate):
             self._graph(content)
+        elif isinstance(content, wire.ServiceFailure):
+            self._services.answered(content)
+        elif isinstance(content, wire.ServicesAdvertised | wire.ServicesUnadvertised):
+            self._services.take(content)
         elif isinstance(content, wire.Advertised):
             for channel in content.channels:
                 self._add(channel)
@@ -268,6 +277,7 @@ class FoxgloveConversation(Conversation):
         self.server, self.session_id = info.name, info.session_id
         self.capabilities = frozenset(info.capabilities)
         self._encodings = info.supported_encodings
+        self._services.are_offered = "services" in self.capabilities
         if self.ends.session_id != info.session_id:
             self.ends.assets.forget()
         if "connectionGraph" in self.capabilities:

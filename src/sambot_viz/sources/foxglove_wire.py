@@ -24,11 +24,14 @@ from sambot_viz.sources.qos import Qos, parse_qos
 SUBPROTOCOLS = ("foxglove.sdk.v1", "foxglove.websocket.v1")
 """Newer servers take only the first, older ones only the second."""
 
-_MESSAGE, _TIME, _ASSET = 1, 2, 4
+_MESSAGE, _TIME, _SERVICE, _ASSET = 1, 2, 3, 4
+_CALL = 2
+"""The opcode of a call, in the other direction."""
 _MESSAGE_HEAD = struct.Struct("<BIQ")
 _PUBLISHED_HEAD = struct.Struct("<BI")
 _TIME_HEAD = struct.Struct("<BQ")
 _ASSET_HEAD = struct.Struct("<BIBI")
+_SERVICE_HEAD = struct.Struct("<BIII")
 _BASE64_SCHEMAS = ("protobuf", "flatbuffer")
 
 Id = Annotated[int, msgspec.Meta(ge=0)]
@@ -63,7 +66,18 @@ class AssetFrame:
     content: bytes
 
 
-def parse_binary(frame: bytes) -> MessageFrame | TimeFrame | AssetFrame | None:
+@dataclass(frozen=True, slots=True)
+class ServiceFrame:
+    """The answer of a service: the response, as CDR."""
+
+    call_id: int
+    content: bytes
+
+
+BinaryFrame = MessageFrame | TimeFrame | AssetFrame | ServiceFrame
+
+
+def parse_binary(frame: bytes) -> BinaryFrame | None:
     """Read a binary frame; None for one that a client without requests does not get.
 
     Raises:
@@ -79,6 +93,8 @@ def parse_binary(frame: bytes) -> MessageFrame | TimeFrame | AssetFrame | None:
             return TimeFrame(_TIME_HEAD.unpack_from(frame)[1])
         if opcode == _ASSET:
             return _asset(frame)
+        if opcode == _SERVICE:
+            return _service(frame)
     except struct.error as error:
         raise Malformed(f"a frame of {len(frame)} bytes is cut") from error
     if not frame:
@@ -93,6 +109,14 @@ def _asset(frame: bytes) -> AssetFrame:
         raise Malformed(f"an error text of {length} bytes in {len(rest)}")
     error = str(rest[:length], "utf-8", "replace") if status else None
     return AssetFrame(request, error, b"" if status else bytes(rest[length:]))
+
+
+def _service(frame: bytes) -> ServiceFrame:
+    _, _, call, length = _SERVICE_HEAD.unpack_from(frame)
+    rest = frame[_SERVICE_HEAD.size :]
+    if length > len(rest):
+        raise Malformed(f"the name of an encoding of {length} bytes in {len(rest)}")
+    return ServiceFrame(call, rest[length:])
 
 
 class ServerInfo(msgspec.Struct, rename="camel"):
@@ -188,12 +212,42 @@ class GraphUpdate(msgspec.Struct, rename="camel"):
     removed_topics: tuple[str, ...] = ()
 
 
+class OfferedService(msgspec.Struct):
+    """A service that can be called."""
+
+    id: Id
+    name: str
+
+
+class ServicesAdvertised(msgspec.Struct):
+    """Services that are there now."""
+
+    services: tuple[OfferedService, ...]
+
+
+class ServicesUnadvertised(msgspec.Struct, rename="camel"):
+    """Services that are gone."""
+
+    service_ids: tuple[Id, ...] = ()
+
+
+class ServiceFailure(msgspec.Struct, rename="camel"):
+    """Why a call has no answer."""
+
+    call_id: Id = 0
+    message: str = ""
+
+
 class _Op(msgspec.Struct):
     op: str
 
 
 class _Advertise(msgspec.Struct):
     channels: tuple[msgspec.Raw, ...] = ()
+
+
+class _Services(msgspec.Struct):
+    services: tuple[msgspec.Raw, ...] = ()
 
 
 class _ParameterValues(msgspec.Struct):
@@ -220,6 +274,9 @@ TextFrame = (
     | Unadvertised
     | ParameterValues
     | GraphUpdate
+    | ServicesAdvertised
+    | ServicesUnadvertised
+    | ServiceFailure
 )
 
 _WHOLE = {
@@ -228,6 +285,8 @@ _WHOLE = {
     "removeStatus": StatusesRemoved,
     "unadvertise": Unadvertised,
     "connectionGraphUpdate": GraphUpdate,
+    "unadvertiseServices": ServicesUnadvertised,
+    "serviceCallFailure": ServiceFailure,
 }
 _T = TypeVar("_T")
 
@@ -263,6 +322,10 @@ def parse_text(frame: str) -> ParsedText:
             raw = msgspec.json.decode(frame, type=_ParameterValues).parameters
             values = _good(raw, ParameterValue)
             return ParsedText(op, ParameterValues(values), len(raw) - len(values))
+        if op == "advertiseServices":
+            raw = msgspec.json.decode(frame, type=_Services).services
+            found = _good(raw, OfferedService)
+            return ParsedText(op, ServicesAdvertised(found), len(raw) - len(found))
         whole = _WHOLE.get(op)
         return ParsedText(op, whole and msgspec.json.decode(frame, type=whole))
     except (msgspec.MsgspecError, RecursionError) as error:
@@ -317,6 +380,13 @@ def unadvertise(channel_id: int) -> str:
 def published(channel_id: int, message: bytes) -> bytes:
     """Publish a message of a topic that was advertised."""
     return _PUBLISHED_HEAD.pack(_MESSAGE, channel_id) + message
+
+
+def call_service(service_id: int, call_id: int, request: bytes) -> bytes:
+    """Call a service with a request in CDR."""
+    encoding = b"cdr"
+    head = _SERVICE_HEAD.pack(_CALL, service_id, call_id, len(encoding))
+    return head + encoding + request
 
 
 def _text(op: str, **content: object) -> str:

@@ -10,7 +10,9 @@ from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.source import (
     Asset,
     Capability,
+    Encoding,
     OnMessage,
+    OnReply,
     Outgoing,
     Playback,
     Source,
@@ -168,9 +170,23 @@ class JoinedSources:
 
     def advertise(self, topic: str, type_name: str) -> Outgoing:
         """Begin to publish a topic at the robot that has it, or at the first one."""
+        return self._robot_of(topic).advertise(topic, type_name)
+
+    def call(
+        self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
+    ) -> None:
+        """Call a service of the robot whose topics are called so, or of the first."""
+        self._robot_of(service).call(service, write, answered)
+
+    def _robot_of(self, name: str) -> Source:
+        """Return the robot that has a topic, or else topics of its name space."""
         robots = [part for part in self.parts if part.live is not None] or self.parts
-        robot = next((one for one in robots if topic in one.topics()), robots[0])
-        return robot.advertise(topic, type_name)
+        has = next((one for one in robots if name in one.topics()), None)
+        if has is not None:
+            return has
+        space = f"/{name.split('/')[1]}/"
+        near = (r for r in robots if any(t.startswith(space) for t in r.topics()))
+        return next(near, robots[0])
 
     def _ask(self, topic: str, callback: OnMessage) -> None:
         """Subscribe at the part that has a topic, now or when it comes."""

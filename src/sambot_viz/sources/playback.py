@@ -10,7 +10,9 @@ from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
     Asset,
     Capability,
+    Encoding,
     OnMessage,
+    OnReply,
     Outgoing,
     SourceStatus,
     no_file,
@@ -111,7 +113,16 @@ class RecordingPlayback:
         Raises:
             SourceError: always.
         """
-        raise SourceError(
+        raise self._is_over()
+
+    def call(
+        self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
+    ) -> None:
+        """Refuse, as `advertise` does."""
+        raise self._is_over()
+
+    def _is_over(self) -> SourceError:
+        return SourceError(
             f"{self.uri} is a recording, and nothing can be sent to it: name a live "
             "robot with --source foxglove://HOST:8765 or rosbridge://HOST:9090"
         )

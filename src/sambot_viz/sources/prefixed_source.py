@@ -9,7 +9,9 @@ from sambot_viz.sources.prefix import Prefix
 from sambot_viz.sources.source import (
     Asset,
     Capability,
+    Encoding,
     OnMessage,
+    OnReply,
     Outgoing,
     Source,
     SourceStatus,
@@ -57,6 +59,12 @@ class PrefixedSource:
     def advertise(self, topic: str, type_name: str) -> Outgoing:
         """Begin to publish a topic; see `Source.advertise`."""
         return self._source.advertise(self._prefix.inner(topic), type_name)
+
+    def call(
+        self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
+    ) -> None:
+        """Call a service; see `Source.call`."""
+        self._source.call(self._prefix.inner(service), write, answered)
 
     def of_session(self) -> Source:
         """Return it: one connection serves all sessions."""

@@ -12,7 +12,6 @@ import time
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import count
-from typing import Literal
 
 from sambot_viz import limits
 from sambot_viz.sources import rosbridge_wire as wire
@@ -23,13 +22,15 @@ from sambot_viz.sources.message import (
     is_latched_name,
 )
 from sambot_viz.sources.rosapi import Rosapi
-from sambot_viz.sources.source import Capability, Receivers
+from sambot_viz.sources.source import Capability, Encoding, Receivers
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
+from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text
 
 _MAP = "/map"
+_CALL = "sambot-viz-service-"
 _LINE_LASTS = 30.0
 _NO_ROSAPI = (
     "its topics are not known, since rosapi does not run there: start both with "
@@ -60,10 +61,11 @@ class RosbridgeConversation(Conversation):
     Nothing that is published is latched: the server keeps it for a second.
     """
 
-    publishes: Literal["cdr", "json"] = "json"
+    publishes: Encoding = "json"
 
     def __init__(self, ends: Ends) -> None:
         super().__init__(ends)
+        self.calls = ServiceCalls(self._call, self.publishes)
         self._outgoing: list[OutgoingTopic] = []
         self._rosapi = Rosapi(ends.send, self._listed)
         self._subscriptions: dict[str, _Subscription] = {}
@@ -85,7 +87,8 @@ class RosbridgeConversation(Conversation):
         if isinstance(operation, wire.Publication):
             self._publication(operation)
         elif isinstance(operation, wire.ServiceResponse):
-            self.is_ready = self._rosapi.take(operation) or self.is_ready
+            known = self._rosapi.take(operation) or self._take_reply(operation)
+            self.is_ready = known or self.is_ready
         elif isinstance(operation, wire.StatusLine):
             self.is_ready = True
             if operation.level in ("error", "warning"):
@@ -149,6 +152,7 @@ class RosbridgeConversation(Conversation):
         """Ask for the topics again when it is time."""
         if now > self._line_end:
             self._line = ""
+        self.calls.tick(now)
         # Without rosapi, some servers do not answer at all.
         self.is_ready = self._rosapi.tick(now) or self.is_ready
         self._note_changes()
@@ -182,6 +186,18 @@ class RosbridgeConversation(Conversation):
                 left_out=self.left_out(name),
             )
         return found
+
+    def _call(self, number: int, service: str, request: bytes) -> None:
+        self.ends.send(wire.call_with(f"{_CALL}{number}", service, request))
+
+    def _take_reply(self, response: wire.ServiceResponse) -> bool:
+        """Take the answer of a service; return whether it was asked for."""
+        number = response.id.removeprefix(_CALL)
+        if number == response.id or not number.isdecimal():
+            return False
+        if response.result:
+            return self.calls.take(int(number), bytes(response.values))
+        return self.calls.fail(int(number), text(bytes(response.values).decode(), 400))
 
     def _spelled(self, outgoing: OutgoingTopic) -> str:
         """Return the type as the server's ROS writes it."""

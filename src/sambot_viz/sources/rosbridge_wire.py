@@ -323,5 +323,11 @@ def call_service(call: str, service: str, **arguments: object) -> str:
     return _text("call_service", id=call, service=service, args=arguments)
 
 
+def call_with(call: str, service: str, request: bytes) -> str:
+    """Call a service with a request that is JSON already."""
+    head = _text("call_service", id=call, service=service)
+    return f'{head[:-1]},"args":{request.decode()}}}'
+
+
 def _text(op: str, **content: Any) -> str:
     return json.dumps({"op": op, **content}, separators=(",", ":"))

@@ -37,6 +37,26 @@ class Receivers:
     type_name: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """The answer of a service.
+
+    Attributes:
+        content: the response.
+        is_json: whether that is JSON; else it is CDR.
+        refusal: why there is none, in the peer's own words where it has said some.
+    """
+
+    content: bytes
+    is_json: bool = False
+    refusal: str = ""
+
+
+Encoding = Literal["cdr", "json"]
+"""How something is written for a peer."""
+OnReply = Callable[[Reply], object]
+
+
 class Outgoing(Protocol):
     """A topic that is published to a robot, as long as the connection lasts.
 
@@ -52,7 +72,7 @@ class Outgoing(Protocol):
 
     topic: str
     type_name: str
-    encoding: Literal["cdr", "json"]
+    encoding: Encoding
     refused: str
     receivers: Receivers
 
@@ -221,6 +241,22 @@ class Source(Protocol):
         Raises:
             SourceError: there is no connection, or it lacks the capability publish:
                 then with what would turn that on.
+        """
+        ...
+
+    def call(
+        self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
+    ) -> None:
+        """Call a service once; it is not called again after a lost connection.
+
+        Args:
+            service: its name.
+            write: returns the request, as the peer wants it written.
+            answered: called once with the answer, or with why there is none; it must
+                only post.
+
+        Raises:
+            SourceError: there is no connection, or nothing can be called.
         """
         ...
 

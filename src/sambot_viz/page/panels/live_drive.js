@@ -170,6 +170,15 @@ export function StopRobot() {
     onClick=${() => act("live/stop")}><${Icon} name="stop" /> STOP</button>`;
 }
 
+/** How far the robot's goal is, and what cancels it. */
+export function LiveGoal() {
+  const goal = useData("live/goal");
+  if (!goal) return null;
+  return html`<span class="driving"><${CutText} is="stopped" role="status" text=${`Goal: ${goal}`} />
+    <button class="needs-control" title="Cancel all goals of the robot"
+      onClick=${() => act("live/cancel")}>Cancel</button></span>`;
+}
+
 /** Who drives the robot, or why it was stopped. */
 export function LiveDriving() {
   const state = useData("live/state");

@@ -9,7 +9,7 @@ import { notice } from "./notices.js";
 import { ErrorCount, ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
-import { LiveDriving } from "../panels/live_drive.js";
+import { LiveDriving, LiveGoal } from "../panels/live_drive.js";
 import { useData } from "../state.js";
 
 /** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
@@ -30,6 +30,7 @@ export function StatusBar({ problems }) {
     <${Said} />
     <${Driving} />
     <${LiveDriving} />
+    <${LiveGoal} />
     <${Progress} />
     <${People} />
     <${FramesPerSecond} />

@@ -16,6 +16,7 @@ from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
 from sambot_viz.sources.websocket.outgoing_topic import TopicSender
+from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.text import text
 
 _LATE = 1.0
@@ -68,7 +69,10 @@ class Conversation(TopicSender):
         unreadable: frames that made no sense.
         large: topic → sizes of its messages that were too large [bytes]; that of "" is
             not known.
+        calls: of services of the peer.
     """
+
+    calls: ServiceCalls
 
     def __init__(self, ends: Ends) -> None:
         self.ends = ends

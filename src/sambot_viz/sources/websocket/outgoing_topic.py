@@ -5,10 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import partial
-from typing import Literal
 
 from sambot_viz.errors import SourceError
-from sambot_viz.sources.source import Receivers
+from sambot_viz.sources.source import Encoding, Receivers
 from sambot_viz.text import text
 
 
@@ -20,7 +19,7 @@ class TopicSender(ABC):
         is_over: the connection has ended.
     """
 
-    publishes: Literal["cdr", "json"]
+    publishes: Encoding
     is_over: bool
 
     @abstractmethod
@@ -64,7 +63,7 @@ class OutgoingTopic:
     ) -> None:
         self.topic = topic
         self.type_name = type_name
-        self.encoding: Literal["cdr", "json"] = publisher.publishes
+        self.encoding: Encoding = publisher.publishes
         self._publisher = publisher
         self._post = post
         self._is_closed = False

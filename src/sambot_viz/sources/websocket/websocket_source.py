@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -25,7 +26,9 @@ from sambot_viz.outlet import logger
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
     Capability,
+    Encoding,
     OnMessage,
+    OnReply,
     Source,
     SourceStatus,
 )
@@ -194,12 +197,25 @@ class WebsocketSource:
         Raises:
             SourceError: there is none, or the server takes nothing.
         """
-        conversation = self._conversation
-        if conversation is None or not conversation.is_ready:
-            raise SourceError(f"nothing can be sent: {self._status.sentence}")
+        conversation = self._ready()
         if why := conversation.unpublishable:
             raise SourceError(f"nothing can be sent: {why}")
         return OutgoingTopic(topic, type_name, conversation, self._post)
+
+    def call(
+        self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
+    ) -> None:
+        """Call a service over the present connection; see `Source.call`."""
+        conversation = self._ready()
+        request = write(conversation.publishes)
+        self._post(partial(conversation.calls.call, service, request, answered))
+
+    def _ready(self) -> Conversation:
+        """Return what is said over the present connection."""
+        conversation = self._conversation
+        if conversation is None or not conversation.is_ready:
+            raise SourceError(f"nothing can be sent: {self._status.sentence}")
+        return conversation
 
     def _post(self, action: Callable[[], object]) -> None:
         loop = self._loop
@@ -231,6 +247,7 @@ class WebsocketSource:
                 self._tell_topics()
                 if self._conversation is not None:
                     self._conversation.is_over = True
+                    self._conversation.calls.end()
                 self._conversation = None
             lasted = asyncio.get_running_loop().time() - begun
             attempt = 0 if lasted > STEADY else attempt
