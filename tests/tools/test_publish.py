@@ -105,13 +105,19 @@ def hand(
     def make(peer: NavigatorPeer, frame: str = "map", **options: Any) -> Hand:
         config = tmp_path / "a.rviz"
         config.write_text(CONFIG.format(frame=frame))
-        viz = Visualizer(source=peer.uri, config=config, port=0, **options)
+        prefix = options.pop("prefix", "")
+        if prefix:
+            uri, options["source_prefix"] = f"robot={peer.uri}", {"robot": prefix}
+        else:
+            uri = peer.uri
+        viz = Visualizer(source=uri, config=config, port=0, **options)
         made.append(viz)
         data = session_of(viz).data
         assert data is not None
         found = Hand(viz, protocol(viz.viser.get_port()))
         eventually(lambda: data.source.status.is_connected)
-        eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        known = session_of(viz).scene.context.tree
+        eventually(lambda: f"{prefix}/map".lstrip("/") in known.frames)
         wait_for_workers()
         return found
 
@@ -155,6 +161,20 @@ def test_a_drag_of_which_only_the_end_is_left_sends_the_same(
     page.act("tools/drop", 0.5, 0.5, 0.6, 0.5)
     eventually(lambda: len(peer.came()) == 1)
     assert pose_of(peer.came()[0].content)[:2] == pytest.approx((0.0, 0.0), abs=1e-6)
+
+
+def test_a_robot_with_a_prefix_gets_the_names_of_its_own_frames(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, "a/map", publish="", prefix="a")
+    page.choose("2D Goal Pose")
+    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5)
+    eventually(lambda: len(peer.came()) == 1)
+    (came,) = peer.came()
+    assert came.topic == GOAL
+    # The stamp, then the name of the frame with its end.
+    assert bytes(came.content)[12:20] == b"\x04\0\0\0map\0"
 
 
 def test_an_estimate_has_the_covariance_of_the_properties(

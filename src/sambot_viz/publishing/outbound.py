@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from sambot_viz.errors import PublishError, UsageError
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 Kind = Literal["goal", "pose", "point", "drive"]
 KINDS: tuple[Kind, ...] = ("goal", "pose", "point", "drive")
@@ -49,6 +52,11 @@ class Outbound:
     def numbers(self) -> tuple[float, ...]:
         """Its numbers, in the order in which they are given."""
         raise NotImplementedError
+
+    def without(self, prefix: str) -> Self:
+        """Return it with the name of its frame as at the robot, without a prefix."""
+        inner = self.frame.removeprefix(f"{prefix}/")
+        return replace(self, frame=inner) if prefix and inner else self
 
     def fields(self, stamp: object) -> dict[str, Any]:
         """Return the fields of the message.

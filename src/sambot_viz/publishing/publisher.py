@@ -297,7 +297,8 @@ class Publisher:
             self._forget(topic, message.type_name)
             raise PublishError(f"the robot refuses it: {why}")
         told = who_takes(outgoing, message.kind)
-        content = written(outgoing, message, self._now_ns(), robot.decoding.types)
+        inner = message.without(outgoing.frame_prefix)
+        content = written(outgoing, inner, self._now_ns(), robot.decoding.types)
         if message.kind == "goal":
             self._follow(robot, topic)
             self._tell = tell

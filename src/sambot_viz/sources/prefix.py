@@ -34,7 +34,7 @@ class Prefix:
         """Return the name of a topic as the source has it."""
         if topic in self._inner or not self.name:
             return self._inner.get(topic, topic)
-        return f"/{topic.removeprefix(f'/{self.name}/')}"
+        return f"/{topic.removeprefix(f'/{self.name}/').lstrip('/')}"
 
     def topics(self, topics: Mapping[str, SourceTopic]) -> dict[str, SourceTopic]:
         """Return topics by their names as others see them."""

@@ -58,7 +58,9 @@ class PrefixedSource:
 
     def advertise(self, topic: str, type_name: str) -> Outgoing:
         """Begin to publish a topic; see `Source.advertise`."""
-        return self._source.advertise(self._prefix.inner(topic), type_name)
+        made = self._source.advertise(self._prefix.inner(topic), type_name)
+        made.frame_prefix = self._prefix.name
+        return made
 
     def call(
         self, service: str, write: Callable[[Encoding], bytes], answered: OnReply

@@ -68,6 +68,7 @@ class Outgoing(Protocol):
         encoding: how messages are to be written.
         refused: the peer's own words when it has refused the topic or a message.
         receivers: who gets the messages, as far as the peer has said it.
+        frame_prefix: what the names of frames have here, and at the robot have not.
     """
 
     topic: str
@@ -75,6 +76,7 @@ class Outgoing(Protocol):
     encoding: Encoding
     refused: str
     receivers: Receivers
+    frame_prefix: str
 
     def send(self, message: bytes) -> None:
         """Publish a message.

@@ -48,11 +48,13 @@ class OutgoingTopic:
         number: which topic it is, for the peer.
         receivers: as of `Outgoing`, as the publisher hears it.
         refused: the same.
+        frame_prefix: the same; set by who has renamed it.
     """
 
     number = 0
     receivers = Receivers()
     refused = ""
+    frame_prefix = ""
 
     def __init__(
         self,
