@@ -83,6 +83,21 @@ class MessageShape:
         """
         return self._fill(fields)
 
+    def unknown_field(self, fields: Mapping[str, Any]) -> str:
+        """Return the first name that the type does not have, such as "pose.positon"."""
+        return self._unknown(self.name, fields)
+
+    def _unknown(self, type_name: str, fields: Mapping[str, Any]) -> str:
+        known: dict[str, Any] = {f: k for f, k in cast("Any", self._types[type_name])}
+        for name, value in fields.items():
+            if name not in known:
+                return name
+            kind, what = known[name]
+            is_message = kind == NAME and what not in _TIMES and is_fields(value)
+            if is_message and (below := self._unknown(what, value)):
+                return f"{name}.{below}"
+        return ""
+
     def as_cdr(self, fields: Mapping[str, Any]) -> bytes:
         """Return a message of the type as ROS 2 writes it, little-endian.
 

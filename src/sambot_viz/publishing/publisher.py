@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-from sambot_viz.errors import PublishError, SourceError
+from sambot_viz.errors import DecodeError, PublishError, SourceError
 from sambot_viz.outlet import write_err
+from sambot_viz.publishing.any_message import AnyMessage
 from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.driver import Driver
 from sambot_viz.publishing.outbound import (
@@ -22,6 +24,7 @@ from sambot_viz.publishing.outbound import (
     kinds_of,
 )
 from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
+from sambot_viz.publishing.sent_message import PublishLog, SentMessage
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
     KnownFrames,
@@ -40,45 +43,6 @@ _TOPICS = 8
 """So many topics are published at a time: more than there are tools."""
 FASTEST = 0.05
 """Messages go at least so long after one another [s]; a hand is slower."""
-
-
-class PublishLog:
-    """A file with a line of JSON for each message that was sent.
-
-    Args:
-        path: it is appended to.
-
-    Raises:
-        PublishError: it cannot be written.
-    """
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._append("")
-
-    def add(self, message: Outbound | Velocity, topic: str, who: str) -> None:
-        """Write what was sent.
-
-        Raises:
-            PublishError: it cannot be written.
-        """
-        told = {
-            "time": round(time.time(), 3),
-            "who": who,
-            "topic": topic,
-            "type": message.type_name,
-            "frame": message.frame,
-            "values": message.numbers,
-        }
-        self._append(f"{json.dumps(told, allow_nan=False)}\n")
-
-    def _append(self, line: str) -> None:
-        try:
-            with self._path.open("a", encoding="utf-8") as file:
-                file.write(line)
-        except OSError as error:
-            why = error.strerror or str(error)
-            raise PublishError(f"{self._path} cannot be written: {why}") from error
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +80,8 @@ class Publisher:
         driver: drives it; None where that is not allowed.
         goal: what became of the last goal; None without one.
         name_of: the user of a page, for the log.
+        listeners: called with all that was sent, in the session's thread or in that of
+            the program that sends it.
     """
 
     def __init__(
@@ -131,6 +97,7 @@ class Publisher:
         self.driver: Driver | None = None
         self.goal: Outcome | None = None
         self.name_of: Callable[[int], str] = lambda client: ""
+        self.listeners: list[Callable[[SentMessage], object]] = []
         self._drive = drive or DriveSettings()
         self._allowed, self._frames, self._log = frozenset(allowed), frames, log
         self._is_private = is_private
@@ -238,26 +205,30 @@ class Publisher:
             return
         if kind == "goal":
             self._follow(robot, topic)
-        try:
-            self._topic(robot, topic, type_name)
-        except SourceError:
-            # It is said when something is sent.
-            return
+        self.advertise(topic, type_name)
 
-    def wait(self, kind: Kind, topic: str, type_name: str) -> None:
+    def advertise(self, topic: str, type_name: str) -> None:
+        """Let the robot know of any topic, where something may be sent at all."""
+        robot = self.robot
+        if robot is None or not self.sends_anything:
+            return
+        # What is wrong is said when something is sent.
+        with suppress(SourceError):
+            self._topic(robot, topic, type_name)
+
+    def wait(self, topic: str, type_name: str) -> None:
         """Wait until somebody is known to take a topic, or might be by now.
 
         The session's lock is not held: it is held while `prepare` is called.
 
         Args:
-            kind: of what is sent.
             topic: where.
             type_name: of the messages.
         """
         outgoing = self._outgoing.get((topic, type_name))
         until = time.monotonic() + FOUND_WITHIN
         while outgoing is not None and time.monotonic() < until:
-            if outgoing.receivers.names or outgoing.refused or self.refusal(kind):
+            if outgoing.receivers.names or outgoing.refused or self.robot is None:
                 return
             time.sleep(_LOOKS)
 
@@ -310,9 +281,49 @@ class Publisher:
             self.goal = None
             raise
         write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
-        if self._log is not None:
-            self._log.add(message, topic, who)
+        self._tell_sent(message.type_name, topic, who, message.frame, message.numbers)
         return told
+
+    def send_any(self, message: AnyMessage, topic: str, who: str) -> str:
+        """Send a message of a program once, and return who takes it, in words.
+
+        Raises:
+            PublishError: it is not allowed, or nobody would take it.
+            SourceError: the robot takes nothing, or has left.
+        """
+        if not self.sends_anything:
+            raise PublishError(self.refusal("goal"))
+        robot = self.robot
+        assert robot is not None
+        try:
+            shape = robot.decoding.types.shape(message.type_name)
+        except DecodeError as error:
+            raise PublishError(f"nothing was sent: {error}") from error
+        if name := shape.unknown_field(message.content):
+            raise PublishError(f"{message.type_name} has no field '{text(name, 80)}'")
+        outgoing = self._topic(robot, topic, message.type_name)
+        if outgoing.refused:
+            raise PublishError(f"the robot refuses it: {text(outgoing.refused, 400)}")
+        told = who_takes(outgoing)
+        content = written(outgoing, message, self._now_ns(), robot.decoding.types)
+        self._send_once(robot, outgoing, content)
+        self._tell_sent(message.type_name, topic, who, "", message.content)
+        return told
+
+    def _tell_sent(
+        self,
+        type_name: str,
+        topic: str,
+        who: str,
+        frame: str,
+        values: Sequence[float] | dict[str, Any],
+    ) -> None:
+        """Write down and tell what was sent."""
+        sent = SentMessage(time.time(), who, topic, type_name, frame, values)
+        if self._log is not None:
+            self._log.add(sent)
+        for listener in tuple(self.listeners):
+            listener(sent)
 
     def _send_once(
         self, robot: SourceRobot, outgoing: Outgoing, content: bytes
@@ -327,9 +338,14 @@ class Publisher:
 
     def _note_velocity(self, velocity: Velocity, client: int) -> None:
         """Have a new velocity written down; what sends it does not wait for that."""
-        if (log := self._log) is not None:
-            topic = self._drive.topic
-            self._drive.post(lambda: log.add(velocity, topic, self.name_of(client)))
+        if self._log is None and not self.listeners:
+            return
+
+        def told() -> None:
+            topic, who = self._drive.topic, self.name_of(client)
+            self._tell_sent(velocity.type_name, topic, who, "", velocity.numbers)
+
+        self._drive.post(told)
 
     def _follow(self, robot: SourceRobot, topic: str) -> None:
         """Listen to what becomes of the goals of a topic, before there is one."""

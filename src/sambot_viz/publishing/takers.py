@@ -42,12 +42,12 @@ _TAKERS = {
 """What is sent → who would take it."""
 
 
-def who_takes(outgoing: Outgoing, kind: Kind) -> str:
+def who_takes(outgoing: Outgoing, kind: Kind | None = None) -> str:
     """Return who gets a topic, in words.
 
     Args:
         outgoing: the topic.
-        kind: what is sent on it.
+        kind: what is sent on it; None for anything else than the tools send.
 
     Raises:
         PublishError: nobody does, or its messages are of another type.
@@ -60,9 +60,10 @@ def who_takes(outgoing: Outgoing, kind: Kind) -> str:
         )
     if receivers.names is None:
         return f"{topic}; the bridge does not say who gets it"
+    taker = _TAKERS[kind] if kind else "start the program that takes it"
     if not receivers.names:
         raise PublishError(
-            f"nobody has subscribed to {topic}: {_TAKERS[kind]}, or name another topic"
+            f"nobody has subscribed to {topic}: {taker}, or name another topic"
         )
     names = ", ".join(text(name, 80) for name in receivers.names[:_NAMES])
     more = len(receivers.names) - _NAMES

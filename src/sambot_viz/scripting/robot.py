@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from sambot_viz.errors import JointError
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
+from sambot_viz.publishing.any_message import AnyMessage
 from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal
+from sambot_viz.publishing.sent_message import SentMessage
 from sambot_viz.robot.model import Positions, Robot
 from sambot_viz.scripting.camera_control import CameraControl
 from sambot_viz.scripting.displays import Displays, first
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from sambot_viz.scripting.outputs import Motion
 
 _F = TypeVar("_F", bound=Moved)
+_P = TypeVar("_P", bound=Callable[[SentMessage], object])
 
 
 class RobotControl:
@@ -116,9 +119,55 @@ class RobotControl:
         publisher = session.publisher
         with session.lock:
             publisher.prepare("goal", topic, goal.type_name)
-        publisher.wait("goal", topic, goal.type_name)
+        publisher.wait(topic, goal.type_name)
         with session.lock:
             return publisher.send(goal, topic, "Python")
+
+    def publish(self, topic: str, type_name: str, message: Mapping[str, Any]) -> str:
+        """Send a live robot a message once; `publish` must allow something.
+
+        It is not latched. With private sessions nothing can be sent.
+
+        Args:
+            topic: where.
+            type_name: of the message, such as "geometry_msgs/msg/PoseStamped".
+            message: its fields by name; those that are left out are zero. A header
+                without a stamp gets the time of the robot.
+
+        Returns:
+            Who takes it, in words.
+
+        Raises:
+            PublishError: it is not allowed, nobody would take it, a number is not
+                finite, a quaternion is not of length 1, or a field is not of the type.
+            SourceError: the robot takes no messages, or has left.
+        """
+        made = AnyMessage(type_name, dict(message))
+        session = first(self._server.sessions)
+        publisher = session.publisher
+        with session.lock:
+            publisher.advertise(topic, type_name)
+        publisher.wait(topic, type_name)
+        with session.lock:
+            return publisher.send_any(made, topic, "Python")
+
+    def stop_robot(self) -> None:
+        """Stop a live robot, as STOP does: zero velocities, and no goal any longer.
+
+        Nothing happens where nothing may be sent. `stop` ends the server.
+        """
+        session = first(self._server.sessions)
+        session.publisher.stop("Python")
+        with session.change():
+            session.roles.return_control()
+
+    def on_published(self, callback: _P) -> _P:
+        """Call back with each message that is sent to the robot, as `SentMessage`.
+
+        Of velocities each new one is told. Can be used as a decorator.
+        """
+        first(self._server.sessions).publisher.listeners.append(callback)
+        return callback
 
     @property
     def topics(self) -> Mapping[str, Account]:
