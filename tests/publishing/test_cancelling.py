@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -106,3 +107,38 @@ def test_a_goal_that_ends_can_be_cancelled_no_longer(
     client.act("live/cancel")
     client.settle(viser_server(viz))
     assert peer.calls() == []
+
+
+FEEDBACK = "/navigate_to_pose/_action/feedback"
+DEFINITION = """
+unique_identifier_msgs/UUID goal_id
+nav2_msgs/NavigateToPose_Feedback feedback
+================================================================================
+MSG: unique_identifier_msgs/UUID
+uint8[16] uuid
+================================================================================
+MSG: nav2_msgs/NavigateToPose_Feedback
+geometry_msgs/PoseStamped current_pose
+builtin_interfaces/Duration navigation_time
+builtin_interfaces/Duration estimated_time_remaining
+int16 number_of_recoveries
+float32 distance_remaining
+"""
+
+
+def test_it_is_said_how_far_a_goal_is(
+    peer: NavigatorPeer, viz: Visualizer, client: ProtocolClient
+) -> None:
+    kind = "nav2_msgs/action/NavigateToPose_FeedbackMessage"
+    peer.offer(FEEDBACK, kind, DEFINITION)
+    pose = bytes(8) + b"\x01\0\0\0\0" + bytes(3) + bytes(56)
+    tail = struct.pack("<iIiIhxxf", 3, 0, 12, 0, 0, 3.25)
+    mine = bytes([2] * 16)
+    peer.log(FEEDBACK, b"\0\1\0\0" + bytes([9] * 16) + pose + tail)
+
+    def told() -> bool:
+        # Each is looked at when some time has gone by since the last.
+        peer.log(FEEDBACK, b"\0\1\0\0" + mine + pose + tail)
+        return goal(viz, client) == "on the way: 3.2 m, about 12 s left"
+
+    eventually(told)

@@ -23,7 +23,7 @@ class BasePeer(NavigatorPeer):
         self.has_type = bool(type_name)
         super().__init__(**options)
         if type_name:
-            self._offer(CMD_VEL, type_name)
+            self.offer(CMD_VEL, type_name)
         self.listen_as(CMD_VEL, "/base")
 
     def speeds(self) -> list[tuple[float, float]]:

@@ -45,13 +45,13 @@ class NavigatorPeer(FoxglovePeer):
         self._goals = 0
         super().__init__()
         if frames:
-            self._offer("/tf_static", "tf2_msgs/msg/TFMessage")
-            self._latched["/tf_static"] = [_transforms(frames)]
+            self.offer("/tf_static", "tf2_msgs/msg/TFMessage")
+            self._latched["/tf_static"] = [transforms(frames)]
         if not is_hidden:
-            self._offer(STATUS, "action_msgs/msg/GoalStatusArray")
+            self.offer(STATUS, "action_msgs/msg/GoalStatusArray")
             # Somebody has sent it somewhere before.
             self._latched[STATUS] = [_said(0, 4)]
-        self._offer("/rosout", "std_msgs/msg/String")
+        self.offer("/rosout", "std_msgs/msg/String")
         if node:
             self.listen_as(GOAL, node)
 
@@ -70,9 +70,10 @@ class NavigatorPeer(FoxglovePeer):
         """Say a number of GoalStatus of the last goal."""
         self._channels[STATUS].log(_said(self._goals, status))
 
-    def _offer(self, topic: str, kind: str) -> None:
-        text = _store().generate_msgdef(kind, ros_version=2)[0].encode()
-        schema = foxglove.Schema(name=kind, encoding="ros2msg", data=text)
+    def offer(self, topic: str, kind: str, definition: str = "") -> None:
+        """Begin to publish a topic, of a type of ROS or with its definition."""
+        text = definition or _store().generate_msgdef(kind, ros_version=2)[0]
+        schema = foxglove.Schema(name=kind, encoding="ros2msg", data=text.encode())
         self._channels[topic] = foxglove.Channel(
             topic, schema=schema, message_encoding="cdr", context=self.context
         )
@@ -89,7 +90,8 @@ def _said(goal: int, status: int) -> bytes:
     return bytes(_store().serialize_cdr(found, "action_msgs/msg/GoalStatusArray"))
 
 
-def _transforms(frames: dict[str, str]) -> bytes:
+def transforms(frames: dict[str, str]) -> bytes:
+    """A TFMessage without translations, as CDR: child → parent."""
     found = blank_message(_store(), "tf2_msgs/msg/TFMessage")
     for child, parent in frames.items():
         one = blank_message(_store(), "geometry_msgs/msg/TransformStamped")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +12,7 @@ from sambot_viz.errors import DecodeError
 from sambot_viz.sources.message import Recorded
 
 _ENDS = {4: "reached", 5: "cancelled", 6: "not reached: the robot has given it up"}
+_EXECUTES, _BETWEEN_LOOKS = 2, 0.5
 _ON_THE_WAY = {1: "accepted", 2: "on the way", 3: "being cancelled"}
 
 
@@ -39,6 +42,8 @@ class GoalFollower:
         self._goal: bytes | None = None
         self._waits = False
         self._last = 0
+        self._left = ""
+        self._next_look = 0.0
 
     def begin(self) -> None:
         """Follow the next new goal: all that were told of until now are others."""
@@ -72,10 +77,44 @@ class GoalFollower:
         self._last = status
         return _outcome(status)
 
+    def take_feedback(
+        self, message: Recorded, decode: Callable[[Recorded], Any]
+    ) -> Outcome | None:
+        """Take a NavigateToPose_FeedbackMessage; return what is new of the goal.
+
+        Nav2 sends a hundred in a second; two are looked at.
+        """
+        now = time.monotonic()
+        if now < self._next_look or self._last != _EXECUTES:
+            return None
+        self._next_look = now + _BETWEEN_LOOKS
+        try:
+            told = decode(message)
+            if bytes(told.goal_id.uuid) != self._goal:
+                return None
+            metres = float(told.feedback.distance_remaining)
+            left = told.feedback.estimated_time_remaining
+            seconds = float(left.sec) + float(left.nanosec) * 1e-9
+        except (DecodeError, AttributeError, TypeError, ValueError):
+            return None
+        words = f"{metres:.1f} m"
+        # Until it knows its speed, Nav2 says 0.
+        if seconds >= 1.0:
+            words += f", about {seconds:.0f} s"
+        if not math.isfinite(metres) or words == self._left:
+            return None
+        self._left = words
+        return Outcome(f"{_ON_THE_WAY[_EXECUTES]}: {words} left", False, True)
+
 
 def cancel_of(topic: str) -> str:
     """Return the service that cancels the goals of a topic; hidden in ROS."""
     return f"{status_of(topic).removesuffix('status')}cancel_goal"
+
+
+def feedback_of(topic: str) -> str:
+    """Return where Nav2 says how far the goals of a topic are; hidden in ROS."""
+    return f"{status_of(topic).removesuffix('status')}feedback"
 
 
 def status_of(topic: str) -> str:

@@ -23,7 +23,7 @@ from sambot_viz.publishing.outbound import (
     Outbound,
     kinds_of,
 )
-from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
+from sambot_viz.publishing.outcome import GoalFollower, Outcome, feedback_of, status_of
 from sambot_viz.publishing.sent_message import PublishLog, SentMessage
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
@@ -352,9 +352,12 @@ class Publisher:
         if topic in self._followed:
             return
         decode, follower = robot.new_decoding().decode, GoalFollower()
+        feedback = feedback_of(topic)
 
         def take(message: Recorded) -> None:
-            outcome = follower.take(message, decode)
+            is_feedback = message.topic == feedback
+            look = follower.take_feedback if is_feedback else follower.take
+            outcome = look(message, decode)
             if outcome is not None:
                 self._note(outcome)
                 self._tell(outcome)
@@ -362,12 +365,14 @@ class Publisher:
         if len(self._followed) >= _TOPICS:
             self._follow_no_more(next(iter(self._followed)))
         self._followed[topic] = follower, take
-        robot.source.subscribe(status_of(topic), take)
+        for one in (status_of(topic), feedback):
+            robot.source.subscribe(one, take)
 
     def _follow_no_more(self, topic: str) -> None:
         _, take = self._followed.pop(topic)
         if self.robot is not None:
-            self.robot.source.unsubscribe(status_of(topic), take)
+            for one in (status_of(topic), feedback_of(topic)):
+                self.robot.source.unsubscribe(one, take)
 
     def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
         key = topic, type_name
