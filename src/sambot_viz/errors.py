@@ -17,6 +17,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   └── FrameCycleError         a transform that would form a ring
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
     ├── PublishError                a message that is not sent, or that a robot refuses
+    │   └── PublishFrameError       a message in a frame that nobody takes
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── DecodeError                 a message, or its definition, that cannot be read
     │   └── UnreadFieldError        a field of a kind that is not read
@@ -243,6 +244,10 @@ class FrameError(SambotVizError):
 
 class PublishError(SambotVizError):
     """A message is not sent to a robot, or the robot refuses it."""
+
+
+class PublishFrameError(PublishError):
+    """A message is in a frame that its receiver does not take."""
 
 
 class JointError(SambotVizError):

@@ -93,6 +93,31 @@ def test_a_goal_by_mouse_and_what_becomes_of_it(
     assert len(peer.came()) == 1
 
 
+def test_a_goal_by_keyboard_alone(
+    peer: NavigatorPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url)
+    viewer.settle(viz)
+    user = viewer.user
+    user.keys("g")
+    user.reads("Drag from the place towards the heading")
+    user.keys("Enter")
+    user.find("dialog", "2D Goal Pose by numbers")
+    user.until(lambda: user.find("textbox", "x").state("focused"))
+    user.type("1.5")
+    viewer.wait_for("'/~pose' in __viserMutable.nodeRefFromName")
+    user.keys("Tab")
+    user.type("-2")
+    user.keys("Tab")
+    user.type("90 deg")
+    user.keys("Enter")
+    user.gone("dialog")
+    user.reads("Reached.")
+    (came,) = peer.came()
+    assert struct.unpack_from("<2d", bytes(came.content)[-56:]) == (1.5, -2.0)
+    assert yaws(peer) == pytest.approx([math.pi / 2])
+
+
 def test_a_goal_by_finger(
     peer: NavigatorPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:

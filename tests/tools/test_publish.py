@@ -163,6 +163,43 @@ def test_a_drag_of_which_only_the_end_is_left_sends_the_same(
     assert pose_of(peer.came()[0].content)[:2] == pytest.approx((0.0, 0.0), abs=1e-6)
 
 
+def test_a_refused_frame_is_put_right_with_a_button(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    peer.listen_as("/initialpose", "/amcl")
+    page = hand(peer, "odom", publish="")
+    page.choose("2D Pose Estimate")
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    assert "AMCL takes poses in map only" in page.said
+    assert page.client.row("tools/wants_map")["value"] is True
+    page.act("tools/use_map")
+    assert page.client.row("tools/wants_map")["value"] is False
+    assert page.current == "2D Pose Estimate" and "AMCL" not in page.said
+    page.drag((0.5, 0.5), (0.6, 0.5))
+    eventually(lambda: len(peer.came()) == 1)
+
+
+def test_a_pose_by_numbers_is_shown_before_it_is_sent(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="")
+    # Without a tool that takes a pose nothing is meant.
+    page.act("tools/send", 1.0, 2.0, 0.5)
+    page.choose("2D Goal Pose")
+    page.act("tools/preview", 1.0, 2.0, 0.5)
+    assert page.draws() and peer.came() == []
+    page.act("tools/right_click")
+    assert not page.draws()
+    page.act("tools/send", 1.5, -2.0, 0.5)
+    eventually(lambda: len(peer.came()) == 1)
+    x, y, z, *_, qz, qw = pose_of(peer.came()[0].content)
+    assert (x, y, z) == (1.5, -2.0, 0.0)
+    assert 2.0 * math.atan2(qz, qw) == pytest.approx(0.5)
+    assert page.current == "Move Camera" and not page.draws()
+
+
 def test_a_robot_with_a_prefix_gets_the_names_of_its_own_frames(
     navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
 ) -> None:

@@ -13,6 +13,7 @@ import { followPalette } from "./window/palette.js";
 import { followPermalinks } from "./wire/permalink.js";
 import { followDriving } from "./panels/drive.js";
 import { drivesRobot, followLiveDriving } from "./panels/live_drive.js";
+import { followByNumbers } from "./dialogs/by_numbers.js";
 import { followGhost } from "./panels/poses.js";
 import { play, seek } from "./window/player_bar.js";
 import { tellView } from "./panels/views.js";
@@ -60,6 +61,7 @@ const start = () => {
   followGhost();
   followDriving();
   followLiveDriving();
+  followByNumbers();
   followFile();
   followConnection();
   followRole();

@@ -55,7 +55,9 @@ class ToolsPanel(Panel):
         return [
             Data("tools/list", [self._tool(tool) for tool in tools.offered]),
             Data("tools/controls", tools.shows_controls),
+            Data("tools/frame", tools.fixed_frame),
             Data("tools/hint", {"text": hint, "touch": touch}),
+            Data("tools/wants_map", tools.wants_map),
             Data("tools/selected", [*labels(tools.selection)]),
             Data("tools/pointed", self._pointed()),
         ]
@@ -84,6 +86,7 @@ class ToolsPanel(Panel):
             "clicks": tool.clicks,
             "rectangles": tool.rectangles,
             "drags": tool.drags,
+            "poses": tool.takes_pose,
         }
 
     def _kind(self, label: str) -> str:
@@ -130,6 +133,18 @@ class ToolsPanel(Panel):
     @command("tools/drop", *[NUMBER] * 4, client_local=True)
     def _drop(self, from_x: float, from_y: float, x: float, y: float) -> None:
         self._client.tools.drag((from_x, from_y), (x, y), ends=True)
+
+    @command("tools/preview", *[NUMBER] * 3, client_local=True)
+    def _preview(self, x: float, y: float, yaw: float) -> None:
+        self._client.tools.place(x, y, yaw)
+
+    @command("tools/send", *[NUMBER] * 3, client_local=True)
+    def _send(self, x: float, y: float, yaw: float) -> None:
+        self._client.tools.place(x, y, yaw, sends=True)
+
+    @command("tools/use_map", name="Use map")
+    def _use_map(self) -> None:
+        self._client.tools.use_map()
 
     @command("tools/double_click", NUMBER, NUMBER, client_local=True)
     def _double_click(self, x: float, y: float) -> None:

@@ -11,7 +11,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from sambot_viz.errors import DecodeError, PublishError, SourceError
+from sambot_viz.errors import (
+    DecodeError,
+    PublishError,
+    PublishFrameError,
+    SourceError,
+)
 from sambot_viz.outlet import write_err
 from sambot_viz.publishing.any_message import AnyMessage
 from sambot_viz.publishing.cancelling import cancel_goals
@@ -105,7 +110,7 @@ class Publisher:
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
         self._tell: Callable[[Outcome], object] = lambda outcome: None
         self._now_ns: Callable[[], int] = lambda: 0
-        self._last = 0.0
+        self._last = self._stopped = 0.0
 
     def take(self, robot: SourceRobot | None, now_ns: Callable[[], int]) -> None:
         """Send to another robot from now on, or to none.
@@ -121,6 +126,7 @@ class Publisher:
             self.driver = Driver(
                 robot, now_ns, how.topic, how.most, how.told, self._note_velocity
             )
+        self._drive.told()
 
     def close(self) -> None:
         """Stop the robot, and publish no topic any more; a second call does nothing."""
@@ -145,11 +151,15 @@ class Publisher:
         Args:
             who: has pressed STOP.
         """
-        write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
         if self.driver is not None:
             self.driver.stop(f"{who or 'somebody'} pressed STOP", at_rest=True)
-        if self.sends_anything:
-            self.cancel()
+        now = time.monotonic()
+        if now - self._stopped < FASTEST or not self.sends_anything:
+            # A page that floods fills neither the terminal nor the robot.
+            return
+        self._stopped = now
+        write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
+        self.cancel()
 
     @property
     def is_on_the_way(self) -> bool:
@@ -248,7 +258,8 @@ class Publisher:
             tell: called with what becomes of a goal, in any thread.
 
         Raises:
-            PublishError: it is not allowed, or nobody would take it.
+            PublishError: it is not allowed, or nobody would take it; a
+                PublishFrameError where another frame would be taken.
             SourceError: the robot takes nothing, or has left.
         """
         if why := self.refusal(message.kind):
@@ -256,7 +267,7 @@ class Publisher:
         robot = self.robot
         assert robot is not None
         if why := frame_fault(self._frames, message.frame, message.kind):
-            raise PublishError(f"nothing was sent: {why}")
+            raise PublishFrameError(f"nothing was sent: {why}")
         now = time.monotonic()
         if now - self._last < FASTEST:
             raise PublishError("nothing was sent: messages come too fast")

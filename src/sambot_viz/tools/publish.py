@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any, ClassVar
 
+import numpy as np
+
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.displays.scene.solid_nodes import ArrowsNode
@@ -76,6 +78,7 @@ class PoseTool(PublishTool):
 
     touch = _FINGER
     drags = True
+    takes_pose = True
 
     def __init__(self, context: ToolContext, config: ToolConfig | None) -> None:
         """Nothing is drawn at first."""
@@ -94,6 +97,16 @@ class PoseTool(PublishTool):
         x, y = (point - self._start)[:2].tolist()
         far = abs(float(click.origin[2])) + math.hypot(*(point - click.origin)[:2])
         self._yaw = math.atan2(y, x) if math.hypot(x, y) > SHORTEST * far else None
+        self._draw()
+
+    def place(self, x: float, y: float, yaw: float, *, sends: bool) -> None:
+        """Show a pose, or send it and leave the tool."""
+        if sends:
+            self.cancel()
+            made = self.pose(self.context.fixed_frame, x, y, yaw)
+            self.context.publish(made, self.topic)
+            return
+        self._start, self._yaw = np.array([x, y, 0.0]), yaw
         self._draw()
 
     def drop(self, begin: Click, click: Click) -> None:

@@ -100,6 +100,7 @@ class Tool:
             other tool a press of the mouse moves the camera.
         rectangles: whether dragging with the left button draws a rectangle.
         drags: whether it follows a drag with the left button itself.
+        takes_pose: whether it can be given a pose by numbers.
         only_listed: whether it has a button only where the config lists it.
         sends: whether it sends something to a robot.
         properties: its settings.
@@ -113,6 +114,7 @@ class Tool:
     clicks: ClassVar[bool] = False
     rectangles: ClassVar[bool] = False
     drags: ClassVar[bool] = False
+    takes_pose: ClassVar[bool] = False
     only_listed: ClassVar[bool] = False
     sends: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]] = ()
@@ -143,6 +145,17 @@ class Tool:
     def drop(self, begin: Click, click: Click) -> None:
         """A user released the left button there; only with `drags`."""
         del begin, click
+
+    def place(self, x: float, y: float, yaw: float, *, sends: bool) -> None:
+        """A user typed a pose; only with `takes_pose`.
+
+        Args:
+            x: on the ground of the fixed frame [m].
+            y: the same.
+            yaw: the heading [rad].
+            sends: whether it is meant; else it is only shown.
+        """
+        del x, y, yaw, sends
 
     def rectangle(self, items: Selection, modifier: str | None) -> None:
         """A user drew a rectangle; `items` are the things visible in it."""

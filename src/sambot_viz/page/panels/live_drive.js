@@ -92,6 +92,8 @@ export function followLiveDriving() {
   addEventListener("pagehide", leave);
   addEventListener("visibilitychange", () => document.hidden && leave());
   rows.listen(CUT, () => end(false));
+  // What is refused is not asked again until the next press.
+  rows.listen("notice", () => rows.data("notice")?.row === "live/hold" && end(false));
   rows.listen("live/state", () => {
     const driver = rows.data("live/state")?.client;
     const was = isMine;

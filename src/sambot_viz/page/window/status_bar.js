@@ -9,6 +9,7 @@ import { notice } from "./notices.js";
 import { ErrorCount, ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
+import { ByNumbersButton, UseMapButton } from "../dialogs/by_numbers.js";
 import { LiveDriving, LiveGoal } from "../panels/live_drive.js";
 import { useData } from "../state.js";
 
@@ -27,6 +28,7 @@ export function StatusBar({ problems }) {
     <${ErrorCount} />
     <${Selected} />
     <${CutText} is="hint" role="status" text=${hint} />
+    <${UseMapButton} /><${ByNumbersButton} />
     <${Said} />
     <${Driving} />
     <${LiveDriving} />

@@ -19,8 +19,8 @@ from sambot_viz.displays.picking.selectable import (
     merged,
 )
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.errors import PublishError, SourceError, UsageError
-from sambot_viz.publishing.outbound import Kind, Outbound
+from sambot_viz.errors import PublishError, PublishFrameError, SourceError, UsageError
+from sambot_viz.publishing.outbound import MAP, Kind, Outbound
 from sambot_viz.publishing.outcome import Outcome
 from sambot_viz.publishing.publisher import Publisher
 from sambot_viz.session.clients.client_view import ClientView
@@ -62,6 +62,7 @@ class ClientTools:
     Attributes:
         changed: the tools, the selection or the status.
         status: what the current tool reports; empty shows its help.
+        wants_map: whether it would do what was asked in the frame map.
         selection: what is selected, in the order of selection.
         pointed: what was clicked on twice last, and how often that has happened.
         tools: those of the document first, then the others.
@@ -84,6 +85,7 @@ class ClientTools:
     ) -> None:
         self.changed = Signal(change, None)
         self.status = ""
+        self.wants_map = False
         self.selection: Selection = {}
         self.pointed: tuple[Selectable | None, int] = (None, 0)
         self._client = client
@@ -211,6 +213,12 @@ class ClientTools:
             else:
                 tool.aim(pressed, click)
 
+    def place(self, x: float, y: float, yaw: float, *, sends: bool = False) -> None:
+        """A user typed a pose for the tool: show it, or take it; see `Tool.place`."""
+        if self.current.takes_pose:
+            with self._change(self.changed):
+                self.current.place(x, y, yaw, sends=sends)
+
     def double_click(self, at: ScreenPoint) -> None:
         """Note what is under the mouse; a tool with clicks of its own has them alone.
 
@@ -304,7 +312,13 @@ class ClientTools:
     def show_status(self, status: str) -> None:
         """Show a sentence below the toolbar; an empty one shows the tool's help."""
         with self._change(self.changed):
-            self.status = status
+            self.status, self.wants_map = status, False
+
+    def use_map(self) -> None:
+        """Make the map the fixed frame, for everyone, as the last refusal asked for."""
+        with self._change(self.changed):
+            self._document.set_option("Fixed Frame", MAP)
+            self.status, self.wants_map = "", False
 
     @property
     def fixed_frame(self) -> str:
@@ -327,12 +341,16 @@ class ClientTools:
         person = self._roles.people.get(self._client.client_id)
         who = "" if person is None else person.name
         with self._change(self.changed):
+            self.wants_map = False
             try:
                 if why := self.publish_refusal(message.kind):
                     raise PublishError(why)
                 told = self._publisher.send(message, topic, who, self._tell)
             except (PublishError, SourceError) as error:
                 self.status = f"{capitalized(str(error))}."
+                is_wrong = isinstance(error, PublishFrameError)
+                known = self._scene.context.tree.frames
+                self.wants_map = is_wrong and MAP in known
                 return
             if leave:
                 self._switch(self.default)
@@ -397,7 +415,7 @@ class ClientTools:
         if tool is not self.current:
             self.current.left()
             self.current = tool
-            self.status = ""
+            self.status, self.wants_map = "", False
             self._listen()
             tool.chosen()
 
