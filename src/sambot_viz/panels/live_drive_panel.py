@@ -102,9 +102,9 @@ class LiveDrivePanel(Panel):
             "protection": driver.protection if driver else "",
         }
         found = [Data("live/state", state)]
-        goal = self._publisher.goal
-        if goal is not None and self._publisher.is_on_the_way:
-            found.append(Data("live/goal", goal.words))
+        goals = self._publisher.goals
+        if goals is not None and goals.last is not None and goals.is_on_the_way:
+            found.append(Data("live/goal", goals.last.words))
         return found
 
     def offers(self, command_id: str) -> bool:
@@ -113,7 +113,7 @@ class LiveDrivePanel(Panel):
         if command_id == "live/stop":
             return publisher.robot is not None and publisher.sends_anything
         if command_id == "live/cancel":
-            return publisher.is_on_the_way
+            return publisher.goals is not None and publisher.goals.is_on_the_way
         return publisher.driver is not None
 
     @property
@@ -139,7 +139,8 @@ class LiveDrivePanel(Panel):
 
     @command("live/cancel", name="Cancel")
     def _cancel(self) -> None:
-        self._publisher.cancel()
+        if self._publisher.goals is not None:
+            self._publisher.goals.cancel()
 
     @command("live/stop", client_local=True, at_once=True)
     def _stop(self, client: int) -> None:

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,16 +18,15 @@ from sambot_viz.errors import (
 )
 from sambot_viz.outlet import write_err
 from sambot_viz.publishing.any_message import AnyMessage
-from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.driver import Driver
+from sambot_viz.publishing.goals import Goals
 from sambot_viz.publishing.outbound import (
-    GOAL_TOPIC,
     KINDS,
     Kind,
     Outbound,
     kinds_of,
 )
-from sambot_viz.publishing.outcome import GoalFollower, Outcome, feedback_of, status_of
+from sambot_viz.publishing.outcome import Outcome
 from sambot_viz.publishing.sent_message import PublishLog, SentMessage
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
@@ -38,8 +36,7 @@ from sambot_viz.publishing.takers import (
 )
 from sambot_viz.publishing.velocity import CMD_VEL, MOST_ANGULAR, MOST_LINEAR, Velocity
 from sambot_viz.publishing.written import written
-from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import OnMessage, Outgoing
+from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
@@ -83,7 +80,7 @@ class Publisher:
     Attributes:
         robot: the live robot; None without one.
         driver: drives it; None where that is not allowed.
-        goal: what became of the last goal; None without one.
+        goals: those of the robot; None without one.
         name_of: the user of a page, for the log.
         listeners: called with all that was sent, in the session's thread or in that of
             the program that sends it.
@@ -100,15 +97,13 @@ class Publisher:
     ) -> None:
         self.robot: SourceRobot | None = None
         self.driver: Driver | None = None
-        self.goal: Outcome | None = None
+        self.goals: Goals | None = None
         self.name_of: Callable[[int], str] = lambda client: ""
         self.listeners: list[Callable[[SentMessage], object]] = []
         self._drive = drive or DriveSettings()
         self._allowed, self._frames, self._log = frozenset(allowed), frames, log
         self._is_private = is_private
         self._outgoing: dict[tuple[str, str], Outgoing] = {}
-        self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
-        self._tell: Callable[[Outcome], object] = lambda outcome: None
         self._now_ns: Callable[[], int] = lambda: 0
         self._last = self._stopped = 0.0
 
@@ -121,6 +116,8 @@ class Publisher:
         """
         self.close()
         self.robot, self._now_ns = robot, now_ns
+        if robot is not None:
+            self.goals = Goals(robot, self._drive.told)
         if robot is not None and not self.refusal("drive"):
             how = self._drive
             self.driver = Driver(
@@ -136,9 +133,9 @@ class Publisher:
         for outgoing in self._outgoing.values():
             outgoing.close()
         self._outgoing.clear()
-        for topic in tuple(self._followed):
-            self._follow_no_more(topic)
-        self.goal = None
+        if self.goals is not None:
+            self.goals.close()
+            self.goals = None
 
     @property
     def sends_anything(self) -> bool:
@@ -159,39 +156,8 @@ class Publisher:
             return
         self._stopped = now
         write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
-        self.cancel()
-
-    @property
-    def is_on_the_way(self) -> bool:
-        """Whether a goal that was sent from here has not ended, as far as is known."""
-        return self.goal is not None and not self.goal.is_over
-
-    def cancel(self) -> None:
-        """Cancel all goals of the robot; takes no lock of the session.
-
-        What becomes of it is said with the goal.
-        """
-        robot = self.robot
-        if robot is None:
-            return
-
-        for topic in tuple(self._followed) or (GOAL_TOPIC,):
-            told = partial(self._tell_cancelled, robot, topic)
-            cancel_goals(robot.source, topic, robot.decoding.types, told)
-
-    def _tell_cancelled(self, robot: SourceRobot, topic: str, why: str) -> None:
-        """Take what the robot has answered to `cancel`; "" for success."""
-        if not self.is_on_the_way:
-            return
-        if why:
-            self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
-        elif status_of(topic) not in robot.source.topics():
-            # Nobody else says it.
-            self._note(Outcome("cancelled", True, False))
-
-    def _note(self, outcome: Outcome) -> None:
-        self.goal = outcome
-        self._drive.told()
+        if self.goals is not None:
+            self.goals.cancel()
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -213,8 +179,8 @@ class Publisher:
         robot = self.robot
         if robot is None or self.refusal(kind):
             return
-        if kind == "goal":
-            self._follow(robot, topic)
+        if kind == "goal" and self.goals is not None:
+            self.goals.follow(topic)
         self.advertise(topic, type_name)
 
     def advertise(self, topic: str, type_name: str) -> None:
@@ -272,24 +238,18 @@ class Publisher:
         if now - self._last < FASTEST:
             raise PublishError("nothing was sent: messages come too fast")
         self._last = now
-        outgoing = self._topic(robot, topic, message.type_name)
-        if outgoing.refused:
-            why = text(outgoing.refused, 400)
-            # It is tried again the next time.
-            self._forget(topic, message.type_name)
-            raise PublishError(f"the robot refuses it: {why}")
+        outgoing = self._taken(robot, topic, message.type_name)
         told = who_takes(outgoing, message.kind)
         inner = message.without(outgoing.frame_prefix)
         content = written(outgoing, inner, self._now_ns(), robot.decoding.types)
-        if message.kind == "goal":
-            self._follow(robot, topic)
-            self._tell = tell
-            self._followed[topic][0].begin()
-            self._note(Outcome("sent", False, True))
+        goals = self.goals if message.kind == "goal" else None
+        if goals is not None:
+            goals.begin(topic, tell)
         try:
             self._send_once(robot, outgoing, content)
         except SourceError:
-            self.goal = None
+            if goals is not None:
+                goals.forget()
             raise
         write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
         self._tell_sent(message.type_name, topic, who, message.frame, message.numbers)
@@ -312,9 +272,7 @@ class Publisher:
             raise PublishError(f"nothing was sent: {error}") from error
         if name := shape.unknown_field(message.content):
             raise PublishError(f"{message.type_name} has no field '{text(name, 80)}'")
-        outgoing = self._topic(robot, topic, message.type_name)
-        if outgoing.refused:
-            raise PublishError(f"the robot refuses it: {text(outgoing.refused, 400)}")
+        outgoing = self._taken(robot, topic, message.type_name)
         told = who_takes(outgoing)
         content = written(outgoing, message, self._now_ns(), robot.decoding.types)
         self._send_once(robot, outgoing, content)
@@ -358,32 +316,15 @@ class Publisher:
 
         self._drive.post(told)
 
-    def _follow(self, robot: SourceRobot, topic: str) -> None:
-        """Listen to what becomes of the goals of a topic, before there is one."""
-        if topic in self._followed:
-            return
-        decode, follower = robot.new_decoding().decode, GoalFollower()
-        feedback = feedback_of(topic)
-
-        def take(message: Recorded) -> None:
-            is_feedback = message.topic == feedback
-            look = follower.take_feedback if is_feedback else follower.take
-            outcome = look(message, decode)
-            if outcome is not None:
-                self._note(outcome)
-                self._tell(outcome)
-
-        if len(self._followed) >= _TOPICS:
-            self._follow_no_more(next(iter(self._followed)))
-        self._followed[topic] = follower, take
-        for one in (status_of(topic), feedback):
-            robot.source.subscribe(one, take)
-
-    def _follow_no_more(self, topic: str) -> None:
-        _, take = self._followed.pop(topic)
-        if self.robot is not None:
-            for one in (status_of(topic), feedback_of(topic)):
-                self.robot.source.unsubscribe(one, take)
+    def _taken(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
+        """Return a topic that the robot has not refused."""
+        outgoing = self._topic(robot, topic, type_name)
+        if outgoing.refused:
+            why = text(outgoing.refused, 400)
+            # It is tried again the next time.
+            self._forget(topic, type_name)
+            raise PublishError(f"the robot refuses it: {why}")
+        return outgoing
 
     def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
         key = topic, type_name

@@ -1,0 +1,111 @@
+"""The goals of one robot: what becomes of those that were sent, and cancelling them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from sambot_viz.publishing.cancelling import cancel_goals
+from sambot_viz.publishing.outbound import GOAL_TOPIC
+from sambot_viz.publishing.outcome import GoalFollower, Outcome, feedback_of, status_of
+from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import OnMessage
+from sambot_viz.text import text
+from sambot_viz.topics.source_robot import SourceRobot
+
+_TOPICS = 8
+"""The goals of so many topics are followed at a time."""
+
+
+class Goals:
+    """Follows the goals of a robot, topic by topic, before there is one.
+
+    Args:
+        robot: a live one.
+        told: called when there is something new; in any thread, must only post.
+
+    Attributes:
+        last: what became of the last goal; None without one.
+    """
+
+    def __init__(self, robot: SourceRobot, told: Callable[[], object]) -> None:
+        self.last: Outcome | None = None
+        self._robot, self._told = robot, told
+        self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
+        self._tell: Callable[[Outcome], object] = lambda outcome: None
+
+    @property
+    def is_on_the_way(self) -> bool:
+        """Whether a goal that was sent from here has not ended, as far as is known."""
+        return self.last is not None and not self.last.is_over
+
+    def follow(self, topic: str) -> None:
+        """Listen to what becomes of the goals of a topic."""
+        if topic in self._followed:
+            return
+        decode, follower = self._robot.new_decoding().decode, GoalFollower()
+        feedback = feedback_of(topic)
+
+        def take(message: Recorded) -> None:
+            is_feedback = message.topic == feedback
+            look = follower.take_feedback if is_feedback else follower.take
+            outcome = look(message, decode)
+            if outcome is not None:
+                self._note(outcome)
+                self._tell(outcome)
+
+        if len(self._followed) >= _TOPICS:
+            self._follow_no_more(next(iter(self._followed)))
+        self._followed[topic] = follower, take
+        for one in (status_of(topic), feedback):
+            self._robot.source.subscribe(one, take)
+
+    def begin(self, topic: str, tell: Callable[[Outcome], object]) -> None:
+        """The next new goal of a topic is the one that is sent now.
+
+        Args:
+            topic: where.
+            tell: called with what becomes of it, in any thread.
+        """
+        self.follow(topic)
+        self._tell = tell
+        self._followed[topic][0].begin()
+        self._note(Outcome("sent", False, True))
+
+    def forget(self) -> None:
+        """The goal that was begun could not be sent."""
+        self.last = None
+
+    def cancel(self) -> None:
+        """Cancel all goals of the robot; takes no lock of the session.
+
+        What becomes of it is said with the goal.
+        """
+        types = self._robot.decoding.types
+        for topic in tuple(self._followed) or (GOAL_TOPIC,):
+            told = partial(self._tell_cancelled, topic)
+            cancel_goals(self._robot.source, topic, types, told)
+
+    def close(self) -> None:
+        """Follow nothing any more."""
+        for topic in tuple(self._followed):
+            self._follow_no_more(topic)
+
+    def _tell_cancelled(self, topic: str, why: str) -> None:
+        """Take what the robot has answered to `cancel`; "" for success."""
+        if not self.is_on_the_way:
+            return
+        if why:
+            self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
+        elif status_of(topic) not in self._robot.source.topics():
+            # Nobody else says it.
+            self._note(Outcome("cancelled", True, False))
+
+    def _note(self, outcome: Outcome) -> None:
+        self.last = outcome
+        self._told()
+
+    def _follow_no_more(self, topic: str) -> None:
+        _, take = self._followed.pop(topic)
+        for one in (status_of(topic), feedback_of(topic)):
+            self._robot.source.unsubscribe(one, take)
