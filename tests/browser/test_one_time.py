@@ -58,8 +58,7 @@ def messages(points: int) -> Iterator[Message]:
     """Two seconds in which a frame goes along x; all else says where it is.
 
     Args:
-        points: of each cloud; the first is at the origin of the fixed frame, and the
-            rest out of sight: drawing them is not the point.
+        points: of each cloud; they are all at the origin of the fixed frame.
     """
     store = store_of_all()
     types, numbers = store.types, ("x", "y", "z")
@@ -71,11 +70,9 @@ def messages(points: int) -> Iterator[Message]:
         time = START * 10**9 + round(x * 1e9)
         moved = transforms_message(store, x, {"base": "odom"})
         yield "/tf", "tf2_msgs/msg/TFMessage", time, moved
-        places = np.full((points, 3), 1e5, np.float32)
-        places[0] = -x, 0.0, 0.0
+        at_origin = np.tile(np.array([-x, 0.0, 0.0], np.float32), points)
         fields = [field(name, 4 * n, 7, 1) for n, name in enumerate(numbers)]
-        content = places.reshape(-1).view(np.uint8)
-        shape = (1, points, fields, False, 12, 12 * points, content)
+        shape = (1, points, fields, False, 12, 12 * points, at_origin.view(np.uint8))
         kind = "sensor_msgs/msg/PointCloud2"
         yield "/cloud", kind, time, types[kind](header(store, x, "base"), *shape, True)
         outline = types["geometry_msgs/msg/Polygon"](
