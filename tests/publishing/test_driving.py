@@ -286,6 +286,31 @@ def test_what_nobody_takes_is_said(
     assert "start the robot's base" in str(client.row("notice")["value"]["text"])
 
 
+def test_a_robot_that_seems_to_listen_no_more_is_stopped_all_the_same(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    # What a bridge tells of its graph is not always what is there.
+    peer.listen_as("/another", "/base")
+    eventually(peer.rests)
+    eventually(lambda: "nobody has subscribed" in driven.state(client)["why"])
+
+
+def test_a_robot_whose_bridge_complains_is_stopped_all_the_same(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    peer.complain("/cmd_vel: the bridge is out of sorts")
+    eventually(peer.rests)
+    eventually(lambda: "out of sorts" in driven.state(client)["why"])
+
+
 @pytest.mark.parametrize(
     "values", [(1, float("nan"), 0.0), (1, 2.0, 0.0), (1, 0.0), ("1", 0.0, 0.0)]
 )

@@ -45,7 +45,8 @@ class DeadMansSwitch:
 
     Args:
         send: sends a linear [m/s] and an angular velocity [rad/s]; called in the thread
-            of the switch. It raises SourceError or PublishError where it cannot.
+            of the switch. It raises PublishError for a velocity that is not to be sent,
+            and SourceError where nothing can be.
         most: the highest linear [m/s] and angular speed [rad/s].
         changed: called when a hand begins or ends, with the hand (None for nobody) and
             why the last one was stopped ("" where it let go); it must only post.
@@ -103,10 +104,8 @@ class DeadMansSwitch:
             )
             if begins:
                 self._velocity, self._zeros = (0.0, 0.0), 0
-                if not self._thread.ident:
-                    self._thread.start()
                 self._changed(hand, "")
-                self._wake.notify_all()
+                self._begin()
             return True
 
     def release(self, client: int, press: int) -> None:
@@ -134,10 +133,8 @@ class DeadMansSwitch:
             if self._hand is not None:
                 self._end(why)
             elif at_rest and not self._is_closed:
-                if not self._thread.ident:
-                    self._thread.start()
                 self._zeros = ZEROS
-                self._wake.notify_all()
+                self._begin()
 
     def close(self) -> None:
         """Stop the robot, and send nothing after that; waits until it is done."""
@@ -148,6 +145,12 @@ class DeadMansSwitch:
             self._wake.notify_all()
         if self._thread.is_alive() and threading.current_thread() is not self._thread:
             self._thread.join(2 * ZEROS * PERIOD + 1.0)
+
+    def _begin(self) -> None:
+        """Let the thread send what there is now; the lock is held."""
+        if not self._thread.ident:
+            self._thread.start()
+        self._wake.notify_all()
 
     def _end(self, why: str) -> None:
         """End the present hand; the lock is held."""
@@ -180,7 +183,10 @@ class DeadMansSwitch:
                 velocity, last = self._velocity, now
             try:
                 self._send(*velocity)
-            except (PublishError, SourceError) as error:
+            except PublishError as error:
+                # The zeros are sent all the same: it may have been wrong.
+                self.stop(str(error))
+            except SourceError as error:
                 self._give_up(str(error))
             with self._wake:
                 # A hand that ends does not wait for the next period.

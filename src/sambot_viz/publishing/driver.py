@@ -176,9 +176,8 @@ class Driver:
         if outgoing is None:
             raise SourceError("the robot has left")
         velocity = Velocity(outgoing.type_name, linear, angular)
-        if outgoing.refused:
-            raise PublishError(f"the robot refuses it: {text(outgoing.refused, 400)}")
-        who_takes(outgoing, "drive")
+        if linear or angular:
+            self._require_taken(outgoing)
         types = self._robot.decoding.types
         try:
             outgoing.send(written(outgoing, velocity, self._now_ns(), types))
@@ -189,6 +188,12 @@ class Driver:
         if (velocity, self._client) != self._last:
             self._last = velocity, self._client
             self._sent(velocity, self._client)
+
+    def _require_taken(self, outgoing: Outgoing) -> None:
+        """Raise PublishError where a velocity would be refused, or have no effect."""
+        if outgoing.refused:
+            raise PublishError(f"the robot refuses it: {text(outgoing.refused, 400)}")
+        who_takes(outgoing, "drive")
 
     def _change(self, hand: Hand | None, why: str) -> None:
         self.driving = Driving(hand, why)
