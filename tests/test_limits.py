@@ -106,7 +106,6 @@ NO_LIMITS = {
         displays/data/interactive_markers/controls.py LARGEST
         frames/history.py _DEEPEST
         panels/drive_panel.py MOST_LINEAR MOST_ANGULAR
-        publishing/velocity.py MOST_LINEAR MOST_ANGULAR
         robot/balance/ground.py LARGEST_GAP
         robot/parts.py _NO_LIMIT
         robot/urdf/write_urdf.py _NO_LIMIT

@@ -34,7 +34,7 @@ from sambot_viz.publishing.takers import (
     frame_fault,
     who_takes,
 )
-from sambot_viz.publishing.velocity import CMD_VEL, MOST_ANGULAR, MOST_LINEAR, Velocity
+from sambot_viz.publishing.velocity import Velocity
 from sambot_viz.publishing.written import written
 from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
@@ -59,10 +59,10 @@ class DriveSettings:
         post: has something done in the session's thread.
     """
 
-    topic: str = CMD_VEL
-    most: tuple[float, float] = (MOST_LINEAR, MOST_ANGULAR)
-    told: Callable[[], object] = lambda: None
-    post: Callable[[Callable[[], object]], object] = lambda action: action()
+    topic: str
+    most: tuple[float, float]
+    told: Callable[[], object]
+    post: Callable[[Callable[[], object]], object]
 
 
 class Publisher:
@@ -74,8 +74,8 @@ class Publisher:
         allowed: which kinds may be sent.
         frames: of the session.
         log: where what was sent is written; None for nowhere.
-        is_private: it is a copy of one user, who sends nothing.
         drive: how the robot is driven by hand.
+        is_private: it is a copy of one user, who sends nothing.
 
     Attributes:
         robot: the live robot; None without one.
@@ -90,17 +90,17 @@ class Publisher:
         self,
         allowed: Collection[Kind],
         frames: KnownFrames,
-        log: PublishLog | None = None,
+        log: PublishLog | None,
+        drive: DriveSettings,
         *,
         is_private: bool = False,
-        drive: DriveSettings | None = None,
     ) -> None:
         self.robot: SourceRobot | None = None
         self.driver: Driver | None = None
         self.goals: Goals | None = None
         self.name_of: Callable[[int], str] = lambda client: ""
         self.listeners: list[Callable[[SentMessage], object]] = []
-        self._drive = drive or DriveSettings()
+        self._drive = drive
         self._allowed, self._frames, self._log = frozenset(allowed), frames, log
         self._is_private = is_private
         self._outgoing: dict[tuple[str, str], Outgoing] = {}
@@ -362,4 +362,4 @@ def publisher_of(
     """
     allowed = () if publish is None or is_private else kinds_of(publish)
     kept = None if log is None or not allowed else PublishLog(Path(log))
-    return Publisher(allowed, frames, kept, is_private=is_private, drive=drive)
+    return Publisher(allowed, frames, kept, drive, is_private=is_private)

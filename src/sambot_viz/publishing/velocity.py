@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
-
-from sambot_viz.publishing.outbound import Kind
+from typing import Any
 
 TWIST, TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 """Which of them a robot takes, only its own nodes know."""
-CMD_VEL = "/cmd_vel"
-"""Where robots take them, as they come."""
 VELOCITY_TYPES = (TWIST, TWIST_STAMPED)
-MOST_LINEAR, MOST_ANGULAR = 0.2, 0.5
-"""The speeds [m/s] and [rad/s] that no hand goes beyond, unless options say so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,21 +15,14 @@ class Velocity:
     """A velocity; its message has no frame, as that of other teleoperation.
 
     Attributes:
-        kind: what it is among `KINDS`.
         type_name: of the message, one of `VELOCITY_TYPES`.
         linear: forwards [m/s].
         angular: to the left [rad/s].
     """
 
-    kind: ClassVar[Kind] = "drive"
     type_name: str
     linear: float = 0.0
     angular: float = 0.0
-
-    @property
-    def frame(self) -> str:
-        """It has none."""
-        return ""
 
     @property
     def numbers(self) -> tuple[float, ...]:
