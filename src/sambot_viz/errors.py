@@ -246,6 +246,10 @@ class PublishError(SambotVizError):
     """A message is not sent to a robot, or the robot refuses it."""
 
 
+class PublishPaceError(PublishError):
+    """It comes too soon after the last message."""
+
+
 class PublishFrameError(PublishError):
     """A message is in a frame that its receiver does not take."""
 

@@ -82,7 +82,8 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("live/release", "live/stop"),
         *("tools/press", "tools/right_click", "tools/zero", "tools/drag"),
         # What is sent to a robot asks for control itself.
-        *("tools/drop", "tools/preview", "tools/send"),
+        *("tools/drop", "tools/preview", "tools/send", "tools/entry"),
+        "tools/open_menu",
         *("views/first", "views/restore", "views/use"),
         *("views/side", "views/press_side"),
     }

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hand import Hand
 from inside import session_of, viser_server
 from live_peers import eventually
 from navigator_peer import GOAL, NavigatorPeer
@@ -38,62 +39,6 @@ Visualization Manager:
       Topic: {{Value: /clicked_point}}
 """
 ALL = "goal,pose,point"
-
-
-class Hand:
-    """A browser whose camera looks down from 5 m, 4.1 m high and 5.5 m wide."""
-
-    def __init__(self, viz: Visualizer, client: ProtocolClient) -> None:
-        self.viz, self.client = viz, client
-        client.settle(viser_server(viz))
-        client.send(
-            "ViewerCameraMessage",
-            wxyz=(0.0, 1.0, 0.0, 0.0),
-            position=(0.0, 0.0, 5.0),
-            fov=0.785,
-            near=0.01,
-            far=1000.0,
-            image_height=480,
-            image_width=640,
-            look_at=(0.0, 0.0, 0.0),
-            up_direction=(0.0, 1.0, 0.0),
-        )
-        client.settle(viser_server(viz))
-
-    def act(self, name: str, *values: object) -> None:
-        self.client.act(name, *values)
-        self.client.settle(viser_server(self.viz))
-
-    def choose(self, label: str) -> None:
-        self.act("tools/choose", label)
-
-    def drag(self, *places: tuple[float, float], ends: bool = True) -> None:
-        begin, *_, last = places[0], *places
-        for place in places:
-            self.client.edit("tools/drag", [*begin, *place])
-        if ends:
-            self.act("tools/drop", *begin, *last)
-        self.client.settle(viser_server(self.viz))
-
-    @property
-    def said(self) -> str:
-        return str(self.client.row("tools/hint")["value"]["text"])
-
-    @property
-    def labels(self) -> list[str]:
-        return [tool["name"] for tool in self.client.row("tools/list")["value"]]
-
-    @property
-    def current(self) -> str:
-        listed = self.client.row("tools/list")["value"]
-        return next(tool["name"] for tool in listed if tool["current"])
-
-    def draws(self) -> bool:
-        """Whether there is an arrow."""
-        names = [m.fields.get("name", "") for m in self.client.messages]
-        last = [m for m in self.client.messages if m.fields.get("name") == "/~pose"]
-        assert names
-        return bool(last) and last[-1].type != "RemoveSceneNodeMessage"
 
 
 @pytest.fixture
@@ -158,7 +103,7 @@ def test_a_drag_of_which_only_the_end_is_left_sends_the_same(
     page = hand(peer, publish="")
     page.choose("2D Goal Pose")
     # A server that has much to do takes the last move of a drag only.
-    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5)
+    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5, None)
     eventually(lambda: len(peer.came()) == 1)
     assert pose_of(peer.came()[0].content)[:2] == pytest.approx((0.0, 0.0), abs=1e-6)
 
@@ -206,7 +151,7 @@ def test_a_robot_with_a_prefix_gets_the_names_of_its_own_frames(
     peer = navigator()
     page = hand(peer, "a/map", publish="", prefix="a")
     page.choose("2D Goal Pose")
-    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5)
+    page.act("tools/drop", 0.5, 0.5, 0.6, 0.5, None)
     eventually(lambda: len(peer.came()) == 1)
     (came,) = peer.came()
     assert came.topic == GOAL
@@ -312,11 +257,11 @@ def test_without_a_heading_with_esc_and_beside_the_ground_nothing_is_sent(
     page.drag((0.5, 0.5), (0.7, 0.5), ends=False)
     page.act("tools/escape")
     assert not page.draws()
-    page.act("tools/drop", 0.5, 0.5, 0.7, 0.5)
+    page.act("tools/drop", 0.5, 0.5, 0.7, 0.5, None)
     page.choose("2D Goal Pose")
     # What is left of the last gesture is not taken for this one.
     page.drag((0.2, 0.2))
-    page.client.edit("tools/drag", [7.0, float("1e300"), 0.5, 0.5])
+    page.client.edit("tools/drag", [7.0, float("1e300"), 0.5, 0.5, None])
     page.client.settle(viser_server(page.viz))
     assert peer.came() == []
 

@@ -19,6 +19,7 @@ import viser
 
 from sambot_viz import limits
 from sambot_viz.displays.camera_pictures import Pictures
+from sambot_viz.displays.picking.handle import Handle
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
@@ -368,6 +369,24 @@ class Display:
     def pick_geometry(self) -> PickGeometry:
         """Return what it shows now, for rays; only called while it is shown."""
         return PickGeometry()
+
+    def handle_geometry(self, facing: Matrix) -> PickGeometry:
+        """Return what it shows with all that a hand can move, for rays.
+
+        Args:
+            facing: rotation of what faces the view, (4, 4), with x along it and z up.
+        """
+        del facing
+        return self.pick_geometry()
+
+    @property
+    def has_handles(self) -> bool:
+        """Whether it shows something that a hand can move."""
+        return False
+
+    def handle(self, item: Selectable) -> Handle | None:
+        """Return what a hand can move of what a ray has met; None for nothing."""
+        del item
 
     def parts(
         self, of: Callable[[Selectable | None], bool]

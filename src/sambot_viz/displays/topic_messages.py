@@ -11,6 +11,7 @@ from sambot_viz.frames import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.text import capitalized
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.service_message import ServiceMessage
 from sambot_viz.topics.subscription import Subscription
 
 Rests: TypeAlias = Literal["never", "where recorded", "always"]
@@ -103,6 +104,10 @@ class TopicMessages(Protocol):
 
     def unsubscribe(self, subscription: Subscription) -> None:
         """Ask for them no longer."""
+        ...
+
+    def call(self, service: ServiceMessage, subscription: Subscription) -> None:
+        """Call a service once; its answer comes to the subscription as a message."""
         ...
 
     @property

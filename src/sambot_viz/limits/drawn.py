@@ -94,6 +94,12 @@ CONTROL_MARKERS = LimitRow(
     "",
     "later ones are not drawn; the display says so",
 )
+MENU_ENTRIES = LimitRow(
+    "entries of the menu of an interactive marker",
+    200,
+    "",
+    "it ends with a line that has how many more there are",
+)
 INTERACTIVE_UPDATES = LimitRow(
     "updates of interactive markers that are applied after a jump",
     10_000,

@@ -51,7 +51,7 @@ const start = () => {
       Boolean(rows.data("tools/list")?.some((/** @type {any} */ tool) => tool.hover)),
     // Of the places that wait, only the last one counts.
     hover: (place) => send(HOVER, place, hovering),
-    rightClick: () => act("tools/right_click"),
+    rightClick: () => act(rows.data("tools/over")?.holds ? "tools/open_menu" : "tools/right_click"),
     twice: (place) => act("tools/double_click", place),
     enter: releaseKept,
   });

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+from sambot_viz.displays.picking.handle import MenuEntry
 from sambot_viz.displays.picking.selectable import labels
 from sambot_viz.errors import UsageError
-from sambot_viz.panels.command import NUMBER, TEXT, Argument, command
+from sambot_viz.panels.command import INTEGER, NUMBER, TEXT, Argument, command
 from sambot_viz.panels.joints.joint_rows import joint_id
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.property_rows import property_rows
@@ -17,10 +18,14 @@ from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.text import text
 from sambot_viz.tools.tool import Tool
 
 _PLACE = Argument(float, optional=True)
 """Of the mouse in the view, 0 to 1 from left or top; None when it is not there."""
+
+_MODIFIER = Argument(str, optional=True)
+"""A key that is held; None for none."""
 
 
 class ToolsPanel(Panel):
@@ -60,7 +65,23 @@ class ToolsPanel(Panel):
             Data("tools/wants_map", tools.wants_map),
             Data("tools/selected", [*labels(tools.selection)]),
             Data("tools/pointed", self._pointed()),
+            Data("tools/over", self._over()),
+            Data("tools/menu", self._menu()),
         ]
+
+    def _over(self) -> Json:
+        """Return where the mouse was last, and whether a press there is a drag."""
+        (x, y), holds = self._client.tools.over
+        return {"x": x, "y": y, "holds": holds}
+
+    def _menu(self) -> Json:
+        """Return the menu that was shown last."""
+        number, title, entries = self._client.tools.menu
+        return {
+            "number": number,
+            "title": text(title, 120),
+            "entries": [_entry(one) for one in entries],
+        }
 
     def _pointed(self) -> Json:
         """Return the row of the joint that moves the link clicked on twice."""
@@ -86,6 +107,7 @@ class ToolsPanel(Panel):
             "clicks": tool.clicks,
             "rectangles": tool.rectangles,
             "drags": tool.drags,
+            "handles": tool.takes_handles,
             "poses": tool.takes_pose,
         }
 
@@ -126,13 +148,25 @@ class ToolsPanel(Panel):
         self._client.tools.hover((x, y))
 
     # Of the moves of a drag that wait only the last one counts: each has its begin.
-    @command("tools/drag", *[NUMBER] * 4, client_local=True)
-    def _drag(self, from_x: float, from_y: float, x: float, y: float) -> None:
-        self._client.tools.drag((from_x, from_y), (x, y))
+    @command("tools/drag", *[NUMBER] * 4, _MODIFIER, client_local=True)
+    def _drag(
+        self, from_x: float, from_y: float, x: float, y: float, held: str | None
+    ) -> None:
+        self._client.tools.drag((from_x, from_y), (x, y), held)
 
-    @command("tools/drop", *[NUMBER] * 4, client_local=True)
-    def _drop(self, from_x: float, from_y: float, x: float, y: float) -> None:
-        self._client.tools.drag((from_x, from_y), (x, y), ends=True)
+    @command("tools/drop", *[NUMBER] * 4, _MODIFIER, client_local=True)
+    def _drop(
+        self, from_x: float, from_y: float, x: float, y: float, held: str | None
+    ) -> None:
+        self._client.tools.drag((from_x, from_y), (x, y), held, ends=True)
+
+    @command("tools/open_menu", client_local=True)
+    def _open_menu(self) -> None:
+        self._client.tools.open_menu()
+
+    @command("tools/entry", INTEGER, client_local=True)
+    def _choose_entry(self, number: int) -> None:
+        self._client.tools.choose_entry(number)
 
     @command("tools/preview", *[NUMBER] * 3, client_local=True)
     def _preview(self, x: float, y: float, yaw: float) -> None:
@@ -202,3 +236,12 @@ class ToolPropertiesPanel(Panel):
 
 
 _NO_SETTINGS = "No tool of this config has settings."
+
+
+def _entry(entry: MenuEntry) -> Json:
+    return {
+        "id": entry.id,
+        "title": entry.title,
+        "runs": entry.runs,
+        "entries": [_entry(one) for one in entry.entries],
+    }

@@ -11,9 +11,10 @@ from sambot_viz.errors import PublishError, UsageError
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-Kind = Literal["goal", "pose", "point", "drive"]
-KINDS: tuple[Kind, ...] = ("goal", "pose", "point", "drive")
-"""What may be allowed: goals, estimates of the pose, points, and velocities."""
+Kind = Literal["goal", "pose", "point", "drive", "markers"]
+KINDS: tuple[Kind, ...] = ("goal", "pose", "point", "drive", "markers")
+"""What may be allowed: goals, estimates of the pose, points, velocities, and what is
+done with interactive markers."""
 MAP = "map"
 """The frame in which Nav2 plans and AMCL localizes, as they come."""
 GOAL_TOPIC = "/goal_pose"

@@ -14,6 +14,7 @@ from sambot_viz.errors import (
     DecodeError,
     PublishError,
     PublishFrameError,
+    PublishPaceError,
     SourceError,
 )
 from sambot_viz.outlet import write_err
@@ -214,6 +215,8 @@ class Publisher:
         topic: str,
         who: str,
         tell: Callable[[Outcome], object] = lambda outcome: None,
+        *,
+        follows: bool = False,
     ) -> str:
         """Send a message once, and return who takes it, in words.
 
@@ -222,6 +225,7 @@ class Publisher:
             topic: where.
             who: sends it, for the log.
             tell: called with what becomes of a goal, in any thread.
+            follows: it belongs to the last one, and may come at once after it.
 
         Raises:
             PublishError: it is not allowed, or nobody would take it; a
@@ -235,8 +239,8 @@ class Publisher:
         if why := frame_fault(self._frames, message.frame, message.kind):
             raise PublishFrameError(f"nothing was sent: {why}")
         now = time.monotonic()
-        if now - self._last < FASTEST:
-            raise PublishError("nothing was sent: messages come too fast")
+        if now - self._last < FASTEST and not follows:
+            raise PublishPaceError("nothing was sent: messages come too fast")
         self._last = now
         outgoing = self._taken(robot, topic, message.type_name)
         told = who_takes(outgoing, message.kind)
@@ -251,7 +255,8 @@ class Publisher:
             if goals is not None:
                 goals.forget()
             raise
-        write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
+        if message.words:
+            write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
         self._tell_sent(message.type_name, topic, who, message.frame, message.numbers)
         return told
 

@@ -38,6 +38,7 @@ _TAKERS = {
     "pose": "start AMCL or slam_toolbox (they take poses)",
     "point": "start the program that takes points",
     "drive": "start the robot's base (its controller takes velocities)",
+    "markers": "start the program that has these markers",
 }
 """What is sent → who would take it."""
 
@@ -79,7 +80,7 @@ def frame_fault(frames: KnownFrames, frame: str, kind: Kind) -> str:
         kind: what is sent.
     """
     known = frames.frames
-    if not known or kind == "point":
+    if not known or kind in ("point", "markers"):
         return ""
     place = MAP if MAP in known else known[0]
     if kind == "pose" and MAP in known and plain_name(frame) != MAP:

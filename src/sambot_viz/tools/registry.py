@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from sambot_viz.tools.focus_camera import FocusCameraTool
+from sambot_viz.tools.interact import InteractTool
 from sambot_viz.tools.measure import MeasureTool
-from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
+from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.publish import (
     NavGoalTool,
     PublishPointTool,

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol
 
 import viser
 
+from sambot_viz.displays.picking.aim import Aim
+from sambot_viz.displays.picking.handle import Handle, MenuEntry
 from sambot_viz.displays.picking.rays import Array
-from sambot_viz.displays.picking.selectable import Hit, Selection
+from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
 from sambot_viz.publishing.outbound import Kind, Outbound
 from sambot_viz.rviz import Property, ToolConfig
 
@@ -17,21 +19,13 @@ Key = Literal["I", "M", "S", "C", "N", "P", "G", "U"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Click:
+class Click(Aim):
     """A click into the 3D view, or where the mouse is over it; in the fixed frame.
 
     Attributes:
-        origin: the position of its camera, (3,) [m].
-        direction: from there through the pixel, (3,), of length 1.
-        pixel: size of a pixel at 1 m [m].
-        up: what is up in the picture, (3,).
         modifier: held keys as viser names them ("shift", "cmd/ctrl"), or None.
     """
 
-    origin: Array
-    direction: Array
-    pixel: float
-    up: Array
     modifier: str | None = None
 
 
@@ -86,6 +80,33 @@ class ToolContext(Protocol):
         """
         ...
 
+    @property
+    def has_handles(self) -> bool:
+        """Whether something is shown that a hand can move."""
+        ...
+
+    def handle(self, item: Selectable) -> Handle | None:
+        """Return what a hand can move of what a ray has met; None for nothing."""
+        ...
+
+    def tell_program(
+        self, messages: Sequence[Outbound], topic: str, *, follows: bool = False
+    ) -> bool:
+        """Send what is done with a marker, all at once; return whether it was sent.
+
+        Why it was not sent is shown, unless it only comes too soon.
+
+        Args:
+            messages: what is sent.
+            topic: where.
+            follows: whether it may come at once after what was sent last.
+        """
+        ...
+
+    def show_menu(self, title: str, entries: Sequence[MenuEntry]) -> None:
+        """Show a menu where the pointer is."""
+        ...
+
 
 class Tool:
     """Base of all tools. Its methods are called with the session locked.
@@ -101,6 +122,8 @@ class Tool:
         rectangles: whether dragging with the left button draws a rectangle.
         drags: whether it follows a drag with the left button itself.
         takes_pose: whether it can be given a pose by numbers.
+        takes_handles: whether rays of its pointer meet what a hand can move; a press of
+            that is a drag of the tool.
         only_listed: whether it has a button only where the config lists it.
         sends: whether it sends something to a robot.
         properties: its settings.
@@ -115,6 +138,7 @@ class Tool:
     rectangles: ClassVar[bool] = False
     drags: ClassVar[bool] = False
     takes_pose: ClassVar[bool] = False
+    takes_handles: ClassVar[bool] = False
     only_listed: ClassVar[bool] = False
     sends: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]] = ()
@@ -169,6 +193,19 @@ class Tool:
     def hover(self, click: Click, hit: Hit) -> None:
         """The mouse has moved over the 3D view; only called while `wants_hover`."""
         del click, hit
+
+    @property
+    def holds(self) -> bool:
+        """Whether a press where the mouse is now is a drag; with `takes_handles`."""
+        return False
+
+    def open_menu(self) -> bool:
+        """Show the menu of what is under the mouse; return whether there is one."""
+        return False
+
+    def choose_entry(self, number: int) -> None:
+        """A user chose an entry of the menu that was shown."""
+        del number
 
     def chosen(self) -> None:
         """A user chose it."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -35,9 +36,19 @@ from made_messages import Make
 from sambot_viz.displays.by_topic import displays_of_topic
 from sambot_viz.displays.data.interactive_markers.controls import controls_of
 from sambot_viz.displays.data.interactive_markers.handles import handles
+from sambot_viz.displays.data.interactive_markers.initial_set import (
+    FULL_TYPE,
+    as_full_set,
+)
+from sambot_viz.displays.data.interactive_markers.menu import menu_of
+from sambot_viz.errors import DecodeError
 from sambot_viz.frames import Transform
 from sambot_viz.geometry import IDENTITY
+from sambot_viz.messages import MessageTypes
+from sambot_viz.sources.source import Reply
 from sambot_viz.tools.picking.pick_scene import PickSnapshot
+from sambot_viz.topics.decoding import Decoding
+from sambot_viz.topics.service_message import ServiceMessage
 
 Open = Callable[..., Any]
 NAMESPACE = "Interactive Markers Namespace"
@@ -285,9 +296,47 @@ def test_a_display_that_is_added_for_a_topic_shows_its_namespace() -> None:
     assert first.topic_values("/ns/update", TYPE, None) == {NAMESPACE: "/ns"}
 
 
-def test_nothing_can_be_moved_and_that_is_said(shown: Open) -> None:
+def test_a_recording_has_nobody_who_hears_of_a_hand(shown: Open) -> None:
     opened = shown(update(lambda t: marker(t)))
-    assert opened.display.notes()[NAMESPACE].startswith("Shown only")
+    assert known(opened) == {"one"} and not opened.display.has_handles
+
+
+@pytest.mark.parametrize("is_json", [True, False])
+def test_the_answer_of_the_service_is_a_full_set(types: Any, is_json: bool) -> None:
+    content = b'{"sequence_number": 7, "markers": [{"name": "one"}]}'
+    if not is_json:
+        numbers = struct.pack("<QI", 7, 0)
+        content = b"\0\1\0\0" + numbers
+    asked = ServiceMessage("/s", "/ns/update_full", FULL_TYPE, as_full_set, print)
+    message = asked.message(Reply(content, is_json), 5, "")
+    read = Decoding(MessageTypes()).decode(message)
+    assert (read.seq_num, read.server_id) == (7, "")
+    assert [str(one.name) for one in read.markers] == (["one"] if is_json else [])
+
+
+@pytest.mark.parametrize("reply", [Reply(b"[]", True), Reply(b"{}", True), Reply(b"")])
+def test_another_answer_is_refused(reply: Reply) -> None:
+    with pytest.raises(DecodeError):
+        as_full_set(reply)
+
+
+def test_a_menu_has_a_bottom_and_says_what_is_more(
+    types: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entry = types["visualization_msgs/msg/MenuEntry"]
+    made = marker(types)
+    # The first is below itself, each other one below the one before.
+    chain = [entry(1, 1, "ring", "", 0), entry(2, 0, "top", "", 0)]
+    made.menu_entries = chain + [entry(n, n - 1, "", "", 0) for n in range(3, 40)]
+    depth, below = 0, menu_of(made)
+    assert [one.title for one in below] == ["top"]
+    while below:
+        depth, below = depth + 1, below[0].entries
+    assert depth == 38
+    lower(monkeypatch, "MENU_ENTRIES", 20)
+    assert menu_of(made)[-1].title == "19 more, above 20"
+    made.menu_entries = made.menu_entries[:20]
+    assert len(menu_of(made)) == 1
 
 
 # Where markers are

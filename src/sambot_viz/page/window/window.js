@@ -31,6 +31,7 @@ import {
 } from "./panels.js";
 import { Asking } from "./people.js";
 import { openRecording } from "./files.js";
+import { MarkerMenu } from "./marker_menu.js";
 import { PlayerBar } from "./player_bar.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./header.js";
@@ -73,6 +74,7 @@ export function Window() {
       problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} />`
     }
     <${StopRobot} />
+    <${MarkerMenu} />
     <div class="over-view"><${Asking} /><${Connection} /></div>
     <${Dialogs} />
   </div>`;

@@ -11,6 +11,7 @@ from typing import Any
 
 import viser
 
+from sambot_viz.displays.picking.handle import Handle, MenuEntry
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.displays.picking.selectable import (
     Hit,
@@ -19,7 +20,13 @@ from sambot_viz.displays.picking.selectable import (
     merged,
 )
 from sambot_viz.displays.picking.selected import SelectedData
-from sambot_viz.errors import PublishError, PublishFrameError, SourceError, UsageError
+from sambot_viz.errors import (
+    PublishError,
+    PublishFrameError,
+    PublishPaceError,
+    SourceError,
+    UsageError,
+)
 from sambot_viz.publishing.outbound import MAP, Kind, Outbound
 from sambot_viz.publishing.outcome import Outcome
 from sambot_viz.publishing.publisher import Publisher
@@ -33,7 +40,8 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Listening, Signal, connect
 from sambot_viz.session.worker import Worker
 from sambot_viz.text import capitalized
-from sambot_viz.tools.move_camera import InteractTool, MoveCameraTool
+from sambot_viz.tools.interact import InteractTool
+from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.pixel_rays import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
 from sambot_viz.tools.registry import TOOLS
@@ -65,6 +73,8 @@ class ClientTools:
         wants_map: whether it would do what was asked in the frame map.
         selection: what is selected, in the order of selection.
         pointed: what was clicked on twice last, and how often that has happened.
+        over: where the mouse was last, and whether a press there is a drag of the tool.
+        menu: how many menus were shown, the title of the last one and its entries.
         tools: those of the document first, then the others.
         current: the tool that gets clicks.
     """
@@ -88,6 +98,8 @@ class ClientTools:
         self.wants_map = False
         self.selection: Selection = {}
         self.pointed: tuple[Selectable | None, int] = (None, 0)
+        self.over: tuple[ScreenPoint, bool] = ((-1.0, -1.0), False)
+        self.menu: tuple[int, str, Sequence[MenuEntry]] = (0, "", ())
         self._client = client
         self._change = change
         self._view = view
@@ -113,6 +125,7 @@ class ClientTools:
 
     def close(self) -> None:
         """Follow the session no longer: the page was closed."""
+        self.current.cancel()
         self._disconnect()
         self._moving.to()
 
@@ -192,18 +205,27 @@ class ClientTools:
         if not self._hovering and self.current.wants_hover:
             self._follow_mouse(self.current)
 
-    def drag(self, begin: ScreenPoint, at: ScreenPoint, *, ends: bool = False) -> None:
+    def drag(
+        self,
+        begin: ScreenPoint,
+        at: ScreenPoint,
+        modifier: str | None = None,
+        *,
+        ends: bool = False,
+    ) -> None:
         """The left button is held in the 3D view, by a tool that drags.
 
         Args:
             begin: where it was pressed, from 0 (left, top) to 1 (right, bottom) of the
                 picture.
             at: where the pointer is.
+            modifier: a held key ("shift", "cmd/ctrl"), or None.
             ends: whether it is released there.
         """
-        pressed, click = (pointed_at(self._client, one) for one in (begin, at))
+        pressed = pointed_at(self._client, begin)
+        click = pointed_at(self._client, at, modifier)
         tool = self.current
-        if not tool.drags:
+        if not (tool.drags or tool.takes_handles):
             return
         with self._change(self.changed):
             if pressed is None or click is None:
@@ -241,6 +263,16 @@ class ClientTools:
         """A click with the right button: start again what the current tool does."""
         with self._change(self.changed):
             self.current.cancel()
+
+    def open_menu(self) -> None:
+        """A click with the right button on what has a menu: show it."""
+        with self._change(self.changed):
+            self.current.open_menu()
+
+    def choose_entry(self, number: int) -> None:
+        """An entry of the menu that was shown was chosen."""
+        with self._change(self.changed):
+            self.current.choose_entry(number)
 
     def focus(self, at: ScreenPoint | None = None) -> None:
         """Key F: look at what is under the mouse, or show the whole robot.
@@ -338,14 +370,12 @@ class ClientTools:
 
     def publish(self, message: Outbound, topic: str, *, leave: bool = True) -> None:
         """Send a message to the robot once, and show what becomes of it."""
-        person = self._roles.people.get(self._client.client_id)
-        who = "" if person is None else person.name
         with self._change(self.changed):
             self.wants_map = False
             try:
                 if why := self.publish_refusal(message.kind):
                     raise PublishError(why)
-                told = self._publisher.send(message, topic, who, self._tell)
+                told = self._publisher.send(message, topic, self._name, self._tell)
             except (PublishError, SourceError) as error:
                 self.status = f"{capitalized(str(error))}."
                 is_wrong = isinstance(error, PublishFrameError)
@@ -356,7 +386,44 @@ class ClientTools:
                 self._switch(self.default)
             self.status = f"Sent to {told}."
 
+    @property
+    def has_handles(self) -> bool:
+        """Whether something is shown that a hand can move."""
+        return self._publisher.robot is not None and self._picker.has_handles
+
+    def handle(self, item: Selectable) -> Handle | None:
+        """Return what a hand can move of what a ray has met; None for nothing."""
+        return self._picker.handle(item)
+
+    def tell_program(
+        self, messages: Sequence[Outbound], topic: str, *, follows: bool = False
+    ) -> bool:
+        """Send what is done with a marker, all at once; return whether it was sent."""
+        try:
+            for number, message in enumerate(messages):
+                if why := self.publish_refusal(message.kind):
+                    raise PublishError(why)
+                behind = follows or number > 0
+                self._publisher.send(message, topic, self._name, follows=behind)
+        except PublishPaceError:
+            return False
+        except (PublishError, SourceError) as error:
+            self.show_status(f"{capitalized(str(error))}.")
+            return False
+        return True
+
+    def show_menu(self, title: str, entries: Sequence[MenuEntry]) -> None:
+        """Show a menu where the pointer is."""
+        with self._change(self.changed):
+            self.menu = self.menu[0] + 1, title, entries
+
     # Inside
+
+    @property
+    def _name(self) -> str:
+        """What its user is called."""
+        person = self._roles.people.get(self._client.client_id)
+        return "" if person is None else person.name
 
     def _tell(self, outcome: Outcome) -> None:
         """Show what has become of a goal; in the thread of the source."""
@@ -366,9 +433,17 @@ class ClientTools:
 
         self._worker.post(show, client=self._client.client_id)
 
-    def _follow(self, what: str, click: Click, then: Callable[[Hit], None]) -> None:
+    def _follow(
+        self,
+        what: str,
+        click: Click,
+        then: Callable[[Hit], None],
+        *,
+        handles: bool = False,
+    ) -> None:
         ray = click.origin, click.direction, click.pixel, click.up
-        self._picker.follow((self, what), lambda s: s.first_hit(*ray), then)
+        facing = click.facing if handles else None
+        self._picker.follow((self, what), lambda s: s.first_hit(*ray), then, facing)
 
     def _follow_mouse(self, tool: Tool) -> None:
         """Give a tool what is under the mouse, once more when it has moved on."""
@@ -382,10 +457,11 @@ class ClientTools:
             with self._change(self.changed):
                 if self.current is tool and tool.wants_hover:
                     tool.hover(click, hit)
+                self.over = followed, self.current is tool and tool.holds
             if self._mouse != followed:
                 self.hover(self._mouse)
 
-        self._follow("hover", click, then)
+        self._follow("hover", click, then, handles=tool.takes_handles)
 
     def _take_config(self) -> None:
         """The tools of the document, then the others, each with its settings."""

@@ -66,11 +66,18 @@ def click_of(event: viser.SceneClickEvent) -> Click | None:
     picture = Picture.of(event.client.camera)
     if picture is None:
         return None
-    return Click(origin, direction / length, picture.pixel, picture.up, event.modifier)
+    return _click(picture, origin, direction / length, event.modifier)
 
 
-def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
+def pointed_at(
+    client: viser.ClientHandle, at: ScreenPoint, modifier: str | None = None
+) -> Click | None:
     """What a click at a point of a browser's picture would be.
+
+    Args:
+        client: the browser.
+        at: the point.
+        modifier: a held key.
 
     Returns:
         None when the point is not in the picture, or the camera is nonsense.
@@ -81,7 +88,14 @@ def pointed_at(client: viser.ClientHandle, at: ScreenPoint) -> Click | None:
     if not ((point >= 0.0) & (point <= 1.0)).all():
         return None
     x, y = point.tolist()
-    return Click(picture.eye, picture.direction((x, y)), picture.pixel, picture.up)
+    return _click(picture, picture.eye, picture.direction((x, y)), modifier)
+
+
+def _click(
+    picture: Picture, origin: Array, direction: Array, modifier: str | None
+) -> Click:
+    pixel, up, forward = picture.pixel, picture.up, picture.forward
+    return Click(origin, direction, pixel, up, forward, modifier)
 
 
 def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from typing import Literal
 
 from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.topic_messages import Rests, TopicDoubt, topics_of
+from sambot_viz.errors import DecodeError, SourceError
 from sambot_viz.frames import LookupRefused
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.session.data.descriptions import wanted_qos
 from sambot_viz.session.data.feed import Feed
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.qos import Qos
+from sambot_viz.sources.source import Reply
 from sambot_viz.topics import reasons
 from sambot_viz.topics.heard import Heard
 from sambot_viz.topics.placement import Placement
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.topics.service_message import ServiceMessage
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.subscription import Subscription
 
@@ -57,6 +61,7 @@ class DisplayTopics:
         self._subscriptions: dict[Subscription, Rests] = {}
         self._asleep: set[Subscription] = set()
         self._is_seen = True
+        self._refusals: deque[Callable[[], object]] = deque()
         self.unheard: Callable[[str], TopicReason | None] = lambda topic: None
         self._types: tuple[object, Mapping[str, str]] = (None, {})
 
@@ -99,6 +104,27 @@ class DisplayTopics:
         else:
             self._feed.remove(subscription)
 
+    def call(self, service: ServiceMessage, subscription: Subscription) -> None:
+        """Call a service; see `TopicMessages`. It is answered in another thread."""
+        beside = self._feed.source.topics().get(subscription.topics[0])
+        prefix = "" if beside is None else beside.frame_prefix
+
+        def answered(reply: Reply) -> None:
+            why, now_ns = reply.refusal, self.now_ns(service.topic)
+            try:
+                if not why:
+                    subscription.take(service.message(reply, now_ns, prefix))
+            except DecodeError as error:
+                why = f"its answer makes no sense: {error}"
+            if why:
+                self._refusals.append(partial(service.refused, why))
+            self._wake()
+
+        try:
+            self._moved_by.source.call(service.service, service.request, answered)
+        except SourceError as error:
+            service.refused(str(error))
+
     def rest(self) -> None:
         """Ask for what may rest no longer: nobody looks."""
         self._is_seen = False
@@ -129,10 +155,12 @@ class DisplayTopics:
     @property
     def has_news(self) -> bool:
         """Whether something has come, or waits for a transform."""
-        return any(one.has_news for one in self._subscriptions)
+        return bool(self._refusals) or any(one.has_news for one in self._subscriptions)
 
     def deliver(self) -> None:
         """Let those draw for whom something has come, or who wait for a transform."""
+        while self._refusals:
+            self._refusals.popleft()()
         for one in list(self._subscriptions):
             if one.has_news and one not in self._asleep:
                 try:

@@ -7,10 +7,12 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
+from sambot_viz.displays.picking.handle import Handle
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Selectable, Selection
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.picking.triangle_mesh import Corners
+from sambot_viz.geometry import Matrix
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.worker import Worker
 from sambot_viz.tools.picking.pick_scene import PickScene, PickSnapshot
@@ -41,6 +43,7 @@ class Picker:
         of: object,
         rays: Callable[[PickSnapshot], T],
         then: Callable[[T], None],
+        facing: Matrix | None = None,
     ) -> None:
         """Follow rays through what is drawn now, then act.
 
@@ -51,8 +54,11 @@ class Picker:
             of: who asks, for what; of several that wait only the latest is followed.
             rays: follows them.
             then: acts, in the session's worker.
+            facing: rotation of what faces the view, (4, 4), where all that a hand can
+                move counts; None where it does not.
         """
-        snapshot = self._scene.snapshot()
+        scene = self._scene
+        snapshot = scene.snapshot() if facing is None else scene.with_handles(facing)
         if snapshot.triangles <= INLINE:
             then(rays(snapshot))
             return
@@ -76,6 +82,15 @@ class Picker:
         with self._lock:
             work = self._waiting.pop(of)
         work()
+
+    @property
+    def has_handles(self) -> bool:
+        """Whether something is shown that a hand can move."""
+        return self._scene.has_handles
+
+    def handle(self, item: Selectable) -> Handle | None:
+        """Return what a hand can move of what a ray has met; None for nothing."""
+        return self._scene.handle(item)
 
     def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
         """Return the edges of the boxes around what is selected.

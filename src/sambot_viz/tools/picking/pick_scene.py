@@ -9,12 +9,14 @@ import numpy as np
 
 from sambot_viz import limits
 from sambot_viz.displays.display import Display
+from sambot_viz.displays.picking.handle import Handle
 from sambot_viz.displays.picking.pick_buffer import Owner, PickBuffer, hides
 from sambot_viz.displays.picking.pick_geometry import PickGeometry
 from sambot_viz.displays.picking.rays import Array, RayGrid
 from sambot_viz.displays.picking.selectable import Hit, Selectable, Selection
 from sambot_viz.displays.picking.selected import Cubes, SelectedData
 from sambot_viz.displays.picking.triangle_mesh import Corners, Part, TurnedBox
+from sambot_viz.geometry import Matrix
 from sambot_viz.text import columns
 from sambot_viz.views.view import Name
 
@@ -142,6 +144,24 @@ class PickScene:
     def snapshot(self) -> PickSnapshot:
         """Return everything that is drawn now; files are not read for it."""
         return PickSnapshot(tuple(d.pick_geometry() for d in self._shown()))
+
+    def with_handles(self, facing: Matrix) -> PickSnapshot:
+        """Return everything that is drawn now, with all that a hand can move.
+
+        Args:
+            facing: rotation of what faces the view, (4, 4).
+        """
+        return PickSnapshot(tuple(d.handle_geometry(facing) for d in self._shown()))
+
+    @property
+    def has_handles(self) -> bool:
+        """Whether something is shown that a hand can move."""
+        return any(display.has_handles for display in self._shown())
+
+    def handle(self, item: Selectable) -> Handle | None:
+        """Return what a hand can move of what a ray has met; None for nothing."""
+        known = (display.handle(item) for display in self._shown())
+        return next((one for one in known if one is not None), None)
 
     def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
         """Return the boxes around what is selected, as the lines of their edges.

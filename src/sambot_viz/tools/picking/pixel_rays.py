@@ -64,6 +64,11 @@ class Picture:
         """What is up in the picture, (3,), of length 1."""
         return -self.axes[:, 1]
 
+    @property
+    def forward(self) -> Array:
+        """Where the camera looks, (3,), of length 1."""
+        return self.axes[:, 2]
+
     def direction(self, at: ScreenPoint) -> Array:
         """The direction of the ray through a point of the picture, (3,), length 1."""
         x = (2.0 * at[0] - 1.0) * self.half * self.width / self.height

@@ -15,7 +15,8 @@ from sambot_viz.displays.data.interactive_markers.control_marker import (
     control_marker,
     opaque,
 )
-from sambot_viz.displays.data.interactive_markers.handles import MENU, handles, title
+from sambot_viz.displays.data.interactive_markers.dragging import MENU, NONE
+from sambot_viz.displays.data.interactive_markers.handles import handles, title
 from sambot_viz.displays.data.message_numbers import coordinates_of
 from sambot_viz.displays.data.refused_messages import MessageRefused
 from sambot_viz.geometry import IDENTITY, Wxyz, unit_wxyz
@@ -65,12 +66,16 @@ class Control:
         group: how it is turned and hidden.
         wxyz: its rotation; x is the axis along or about which it moves.
         markers: what is drawn of it.
+        mode: of interaction.
+        turning: as its message has it: the frame in which it moves.
     """
 
     name: str
     group: Group
     wxyz: Wxyz
     markers: Sequence[ControlMarker]
+    mode: int = NONE
+    turning: int = INHERIT
 
 
 def require_valid(message: Any) -> None:
@@ -145,7 +150,7 @@ def controls_of(message: Any, *, is_transparent: bool) -> Sequence[Control]:
 
 def _control(name: str, control: Any, scale: float, is_transparent: bool) -> Control:
     mode, wxyz = int(control.interaction_mode), unit_wxyz(_of_turn(control.orientation))
-    turning = int(control.orientation_mode)
+    moves_in = turning = int(control.orientation_mode)
     markers: Sequence[ControlMarker] = [control_marker(m) for m in control.markers]
     if not markers:
         markers = handles(mode, scale, wxyz, str(control.description))
@@ -157,7 +162,8 @@ def _control(name: str, control: Any, scale: float, is_transparent: bool) -> Con
         turning = FIXED
     if not is_transparent:
         markers = [opaque(marker) for marker in markers]
-    return Control(name, Group(turning, bool(control.always_visible)), wxyz, markers)
+    group = Group(turning, bool(control.always_visible))
+    return Control(name, group, wxyz, markers, mode, moves_in)
 
 
 def title_of(message: Any) -> Control | None:

@@ -13,11 +13,16 @@ from sambot_viz.displays.data.interactive_markers.control_marker import (
     Xyz,
     turn_of,
 )
+from sambot_viz.displays.data.interactive_markers.dragging import (
+    MENU,
+    MOVE_AXIS,
+    MOVE_PLANE,
+    MOVE_ROTATE,
+    ROTATE_AXIS,
+)
 from sambot_viz.displays.data.markers.checks import ARROW, TEXT, TRIANGLES
 from sambot_viz.geometry import Wxyz, wxyz_rotated
 
-MENU, MOVE_AXIS, MOVE_PLANE, ROTATE_AXIS, MOVE_ROTATE = 1, 3, 4, 5, 6
-"""Modes of interaction that have handles."""
 ALPHA = 0.5
 STEPS = 36
 """A ring has so many parts."""

@@ -1,4 +1,4 @@
-"""InteractiveMarkers: markers with handles, which this version cannot move."""
+"""InteractiveMarkers: markers with handles, that a hand moves."""
 
 from __future__ import annotations
 
@@ -7,21 +7,31 @@ from typing import Any
 
 from sambot_viz import limits
 from sambot_viz.displays.data.interactive_markers.controls import ShowOptions
+from sambot_viz.displays.data.interactive_markers.initial_set import (
+    FULL_TYPE,
+    SERVICE,
+    as_full_set,
+)
 from sambot_viz.displays.data.interactive_markers.interactive_markers import (
     InteractiveMarkers,
 )
+from sambot_viz.displays.data.interactive_markers.marker_handle import MarkerHandle
 from sambot_viz.displays.data.markers.marker_rows import MarkerRows
 from sambot_viz.displays.data.refused_messages import MESSAGE, MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import NO_SOURCE, TopicDisplay
 from sambot_viz.displays.display import DisplayContext, Status
-from sambot_viz.displays.picking.placed import Placed
+from sambot_viz.displays.picking.pick_geometry import PickGeometry
+from sambot_viz.displays.picking.placed import Placed, PlacedShapes
 from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.robot_display import Repair, WantedQos
 from sambot_viz.displays.topic_messages import TopicDoubt, topics_of
+from sambot_viz.geometry import Matrix
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import BoolProperty, DisplayConfig, StringProperty
 from sambot_viz.sources.message import Recorded
+from sambot_viz.text import text
+from sambot_viz.topics.service_message import ServiceMessage
 
 NAMESPACE = "Interactive Markers Namespace"
 ROS1_TOPIC = "Update Topic"
@@ -32,10 +42,10 @@ UPDATES = "Updates"
 UPDATE, FULL = "/update", "/update_full"
 """What the names of the topics end with."""
 KEEP_ALIVE = 0
-CANNOT_MOVE = (
-    "Shown only: to move them, the robot must be sent messages, which this version "
-    "does not do"
-)
+FEEDBACK = "/feedback"
+"""What the name of the topic ends with where the program hears of what is done."""
+_PATIENCE = 5
+"""A service that was not there is asked for again after so many seconds."""
 WHOLE_S = 1e8
 """How far back updates count where there is no full set [s]: three years."""
 
@@ -57,11 +67,8 @@ class InteractiveMarkersDisplay(TopicDisplay):
         StringProperty(
             NAMESPACE,
             aliases=(ROS1_TOPIC,),
-            help="What the names of the topics begin with; they end with /update and "
-            "/update_full.",
-            support="approximate",
-            note="shown as the topics /update and /update_full say; the service "
-            "get_interactive_markers is not called, and the markers cannot be moved",
+            help="What the names of the topics begin with; they end with /update, "
+            "/update_full and /feedback.",
         ),
         BoolProperty(
             "Show Descriptions",
@@ -76,7 +83,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
             default=False,
             help="The line along the axis while a marker is dragged.",
             support="none",
-            note="only seen while a marker is dragged, which this version cannot",
+            note="nothing is drawn while a marker is dragged",
         ),
         BoolProperty(
             "Enable Transparency",
@@ -94,6 +101,9 @@ class InteractiveMarkersDisplay(TopicDisplay):
         self._full: tuple[str, int] | None = None
         self._last: tuple[str, int] | None = None
         self._missed = 0
+        self._asked = False
+        self._refused = ""
+        self._pause = 0
 
     # Its topics
 
@@ -162,17 +172,30 @@ class InteractiveMarkersDisplay(TopicDisplay):
             self.status.remove(MESSAGE)
 
     def _take_full(self, message: Any) -> None:
-        self._full = self._last = (str(message.server_id), int(message.seq_num))
+        server, number = str(message.server_id), int(message.seq_num)
+        last, is_answer = self._last, not server
+        if is_answer:
+            # The answer of the service does not say whose it is.
+            server, self._refused = last[0] if last else "", ""
+            # What has come in between is in the next answer.
+            self._asked = last is None or number >= last[1]
+        self._full = self._last = (server, number)
         self._missed = 0
         self._markers.replace_all(message.markers)
 
     def _take_update(self, message: Any) -> None:
         server, number = str(message.server_id), int(message.seq_num)
-        if self._full is not None and self._full[0] == server:
+        if self._full is not None and self._full[0] in (server, ""):
             if number <= self._full[1]:
                 return
-        if self._last is not None and self._last[0] == server:
-            self._missed += max(0, number - self._last[1] - 1)
+        if self._last is not None and self._last[0] in (server, ""):
+            missed = max(0, number - self._last[1] - 1)
+        else:
+            # Another program: what it has made before is in its answer.
+            missed = int(self._last is not None)
+        if missed:
+            self._missed += missed
+            self._asked = False
         self._last = (server, number)
         for marker in message.markers:
             self._markers.set(marker)
@@ -180,9 +203,61 @@ class InteractiveMarkersDisplay(TopicDisplay):
             self._markers.move(pose)
         self._markers.erase(str(name) for name in message.erases)
 
+    # What was there before
+
+    def begin(self) -> None:
+        """Ask for the markers that were there before."""
+        self._asked, self._pause, self._refused = False, 0, ""
+        self._ask()
+
+    def time_passed(self) -> None:
+        """Ask for the markers that were there before, if that was of no use yet."""
+        self._pause = max(0, self._pause - 1)
+        self._ask()
+        super().time_passed()
+
+    def _ask(self) -> None:
+        """Ask the program for all its markers, when it may be there; once."""
+        messages, subscription = self.context.messages, self.subscription
+        if messages is None or subscription is None or self._asked or self._pause:
+            return
+        if messages.is_recorded(self.topic) or self.topic not in messages.types():
+            return
+        self._asked, self._pause = True, _PATIENCE
+        service, topic = f"{self.namespace}{SERVICE}", self.base_topic
+        asked = ServiceMessage(service, topic, FULL_TYPE, as_full_set, self._no_answer)
+        messages.call(asked, subscription)
+
+    def _no_answer(self, why: str) -> None:
+        """Say why the service has not answered, and ask again later."""
+        self._asked, self._refused = False, why
+
+    # In a hand
+
     def placed(self) -> Iterator[Placed]:
         """Yield what tools that click can see: controls that are always visible."""
         yield from self._markers.placed()
+
+    def handle_geometry(self, facing: Matrix) -> PickGeometry:
+        """Return all its controls, for rays."""
+        return PlacedShapes(tuple(self._markers.placed(facing)))
+
+    @property
+    def has_handles(self) -> bool:
+        """Whether a program hears of what is done with its markers."""
+        messages = self.context.messages
+        if messages is None or not self._markers.known:
+            return False
+        return not messages.is_recorded(self.topic)
+
+    def handle(self, item: Selectable) -> MarkerHandle | None:
+        """Return a control that a ray has met; None for anything else."""
+        found = self._markers.control_of(item)
+        if found is None or not self.has_handles:
+            return None
+        topic = f"{self.namespace}{FEEDBACK}"
+        made = MarkerHandle(self.context, self._markers, found, topic, self._draw)
+        return made if made.hint else None
 
     def selected(self, item: Selectable) -> SelectedData | None:
         """Return a marker of a control while it is shown."""
@@ -228,8 +303,8 @@ class InteractiveMarkersDisplay(TopicDisplay):
             many = (
                 "1 update is" if self._missed == 1 else f"{self._missed:,} updates are"
             )
-            text = f"{many} missing: markers may look otherwise"
-            self.status.set(UPDATES, "Warn", text)
+            said = f"{many} missing: markers may look otherwise"
+            self.status.set(UPDATES, "Warn", said)
         else:
             self.status.remove(UPDATES)
 
@@ -247,11 +322,16 @@ class InteractiveMarkersDisplay(TopicDisplay):
         if self._markers.unknown:
             name = next(iter(self._markers.unknown))
             came = f"Only poses have come, such as that of '{name}', and no marker"
-        service = f"{self.namespace}/get_interactive_markers"
+        service = f"{self.namespace}{SERVICE}"
+        why = "which has not answered yet"
+        if self._refused:
+            why = f"which does not: {text(self._refused, 300)}"
+        elif self.context.messages.is_recorded(self.topic):
+            why = "which a recording has not"
         return Status(
             "Warn",
             f"{came}: programs send them when they are made, and later only answer "
-            f"the service {service}, which is not called here",
+            f"the service {service}, {why}",
         )
 
     def _doubt(self) -> TopicDoubt | None:
@@ -266,8 +346,8 @@ class InteractiveMarkersDisplay(TopicDisplay):
         return doubts[0] if all(doubts) else None
 
     def notes(self) -> Mapping[str, str]:
-        """Return why nothing comes, or that nothing can be moved."""
-        return {NAMESPACE: CANNOT_MOVE if self.context.messages else NO_SOURCE}
+        """Return why nothing comes, where no messages come at all."""
+        return {} if self.context.messages else {NAMESPACE: NO_SOURCE}
 
     def options(self) -> Mapping[str, Sequence[str]]:
         """Return the namespaces that it could show."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from itertools import chain
 from typing import Any
 
@@ -14,6 +15,7 @@ from sambot_viz.displays.data.interactive_markers.control_nodes import (
 )
 from sambot_viz.displays.data.interactive_markers.controls import (
     TITLES,
+    Control,
     ShowOptions,
 )
 from sambot_viz.displays.data.interactive_markers.known_marker import (
@@ -31,6 +33,7 @@ from sambot_viz.displays.picking.selectable import Selectable
 from sambot_viz.displays.picking.selected import SelectedData
 from sambot_viz.displays.scene.frame_nodes import short_id
 from sambot_viz.frames import LookupRefused
+from sambot_viz.geometry import Matrix
 
 EMPTY = "Marker empty."
 
@@ -89,6 +92,9 @@ class InteractiveMarkers:
         """Add an interactive marker, or replace the one of its name."""
         name = str(message.name)
         before = self.known.get(name)
+        if before is not None and before.is_held:
+            before.later = {"set": partial(self.set, message)}
+            return
         if not len(message.controls):
             self.erase([name])
             self._rows.say(name, "Ok", EMPTY)
@@ -120,6 +126,9 @@ class InteractiveMarkers:
             if len(self.unknown) < limits.INTERACTIVE_MARKERS.value:
                 self.unknown[name] = None
             return
+        if known.is_held:
+            known.later["move"] = partial(self.move, message)
+            return
         try:
             with refusing():
                 known.move(message)
@@ -127,6 +136,17 @@ class InteractiveMarkers:
             self._refuse(name, known, "Pose message contains invalid floats!")
             return
         self._dirty[name] = None
+
+    def moved(self, name: str) -> None:
+        """A hand has moved an interactive marker."""
+        self._dirty[name] = None
+
+    def release(self, known: KnownMarker) -> None:
+        """A hand has left an interactive marker: do what was asked for meanwhile."""
+        known.is_held = False
+        later, known.later = known.later, {}
+        for one in later.values():
+            one()
 
     def _refuse(self, name: str, known: KnownMarker | None, text: str) -> None:
         """Say why a message was not taken, until the next one of the marker."""
@@ -162,12 +182,26 @@ class InteractiveMarkers:
 
     # What is drawn
 
-    def placed(self) -> Iterator[Placed]:
-        """Yield what is visible with every tool, for rays."""
+    def placed(self, facing: Matrix | None = None) -> Iterator[Placed]:
+        """Yield what is visible, for rays.
+
+        Args:
+            facing: rotation of what faces the view, (4, 4); None for what is visible
+                with every tool.
+        """
         known = (one for one in self.known.values() if one.drawn is not None)
-        poses = (one.visible_poses(self._context) for one in known)
+        poses = (one.group_poses(self._context, facing) for one in known)
         self._nodes.poses = dict(chain.from_iterable(one.items() for one in poses))
         yield from self._nodes.placed(self._shown, self.item_of)
+
+    def control_of(self, item: Selectable) -> tuple[str, KnownMarker, Control] | None:
+        """Return what a marker of a control belongs to; None for anything else."""
+        name, _, number = item.name.rpartition("/")
+        known = self.known.get(name)
+        if known is None or item.kind != "marker" or item.of != self._key:
+            return None
+        control = known.control_of(int(number))
+        return None if control is None else (name, known, control)
 
     def item_of(self, key: Key) -> Selectable:
         """Return a marker of a control as something that can be selected."""
@@ -181,7 +215,7 @@ class InteractiveMarkers:
         known, one = self.known.get(name), self._shown.get((name, int(number)))
         if known is None or one is None:
             return None
-        T = known.visible_poses(self._context).get(one.frame or "")
+        T = known.group_poses(self._context, None).get(one.frame or "")
         return None if T is None else selected_marker(item, known.frame, one, T)
 
     def draw(self, options: ShowOptions) -> None:

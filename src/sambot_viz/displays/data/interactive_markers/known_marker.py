@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +22,7 @@ from sambot_viz.displays.data.interactive_markers.controls import (
     scale_of,
     title_of,
 )
+from sambot_viz.displays.data.interactive_markers.menu import menu_of
 from sambot_viz.displays.data.markers.marker_fields import MarkerPose
 from sambot_viz.displays.data.message_numbers import point_of, wxyz_of
 from sambot_viz.displays.display import DisplayContext
@@ -32,6 +33,8 @@ from sambot_viz.geometry import (
     Vector3,
     Wxyz,
     rotation_from_xyzw,
+    unit_wxyz,
+    wxyz_from_matrix,
     wxyz_product,
 )
 from sambot_viz.topics.decoding import frame_and_stamp
@@ -72,6 +75,10 @@ class KnownMarker:
         drawn: the parts that are drawn, and with what options.
         wrong: what is wrong with one of them; empty when nothing is.
         refused: why the last message was not taken; empty when it was.
+        controls: what is drawn of its controls, by their names.
+        menu: its menu.
+        is_held: whether a hand moves it.
+        later: what messages ask for meanwhile, to be done when it is left.
     """
 
     def __init__(self, message: Any, nodes: InteractiveMarkerNodes) -> None:
@@ -87,6 +94,10 @@ class KnownMarker:
         self._position = point_of(message.pose.position)
         self._T_fixed_frame: Transform | None = None
         self._parts: tuple[ControlPart, ...] | None = None
+        self.controls: dict[str, Control] = {}
+        self.menu = menu_of(message)
+        self.is_held = False
+        self.later: dict[str, Callable[[], None]] = {}
 
     @property
     def is_locked(self) -> bool:
@@ -131,13 +142,45 @@ class KnownMarker:
         wxyz = wxyz_product((w, x, y, z), self._wxyz)
         return "", wxyz, (float(at[0]), float(at[1]), float(at[2]))
 
+    # A hand that moves it
+
+    def pose(self, context: DisplayContext) -> Matrix | None:
+        """Return T_fixed_marker, (4, 4); None when its frame has no place."""
+        try:
+            _, wxyz, position = self.place(context)
+        except LookupRefused:
+            return None
+        T_fixed_above = context.pose(self.frame) if self.is_locked else np.eye(4)
+        return (
+            None if T_fixed_above is None else T_fixed_above @ _matrix(wxyz, position)
+        )
+
+    def reference(self, context: DisplayContext) -> Matrix | None:
+        """Return T_fixed_frame, (4, 4), of the frame that its pose is in."""
+        if self.is_locked:
+            return context.pose(self.frame)
+        return None if self._T_fixed_frame is None else self._T_fixed_frame.matrix
+
+    def put(self, T_fixed_marker: Matrix, context: DisplayContext) -> None:
+        """Take another pose from a hand; without a place of its frame nothing."""
+        T_fixed_frame = self.reference(context)
+        if T_fixed_frame is not None:
+            T = np.linalg.inv(T_fixed_frame) @ T_fixed_marker
+            self._wxyz = unit_wxyz(wxyz_from_matrix(T))
+            x, y, z = T[:3, 3].tolist()
+            self._position = (x, y, z)
+
     # Its controls
 
-    def visible_poses(self, context: DisplayContext) -> Mapping[str, Matrix]:
-        """Return where groups are that any tool shows and the view does not turn.
+    def group_poses(
+        self, context: DisplayContext, facing: Matrix | None
+    ) -> Mapping[str, Matrix]:
+        """Return where groups of controls are.
 
         Args:
             context: has the frames.
+            facing: rotation of what faces the view, (4, 4); None for those only that
+                any tool shows and the view does not turn.
 
         Returns:
             Name of the node of a group → T_fixed_group, (4, 4).
@@ -146,16 +189,26 @@ class KnownMarker:
             _, wxyz, position = self.place(context)
         except LookupRefused:
             return {}
-        found: dict[str, Matrix] = {}
         T_fixed_above = context.pose(self.frame) if self.is_locked else np.eye(4)
-        groups = dict.fromkeys(part.group for part in self._parts or ())
-        for group in groups:
-            if T_fixed_above is not None and group.is_always:
-                if group.turning != VIEW_FACING:
-                    turn = wxyz if group.turning == INHERIT else IDENTITY
-                    T_fixed_group = T_fixed_above @ _matrix(turn, position)
-                    found[self.nodes.path(group)] = T_fixed_group
+        if T_fixed_above is None:
+            return {}
+        found: dict[str, Matrix] = {}
+        for group in dict.fromkeys(part.group for part in self._parts or ()):
+            turn = wxyz if group.turning == INHERIT else IDENTITY
+            T_fixed_group = T_fixed_above @ _matrix(turn, position)
+            if group.turning == VIEW_FACING and facing is not None:
+                T_fixed_group[:3, :3] = facing[:3, :3]
+            elif facing is None and (
+                group.turning == VIEW_FACING or not group.is_always
+            ):
+                continue
+            found[self.nodes.path(group)] = T_fixed_group
         return found
+
+    def control_of(self, number: int) -> Control | None:
+        """Return the control of a part; None for the description."""
+        part = self._parts[number] if self._parts else None
+        return None if part is None else self.controls.get(part.control)
 
     def parts(
         self, context: DisplayContext, *, transparency: bool
@@ -173,6 +226,7 @@ class KnownMarker:
         """
         if self._parts is None:
             controls = controls_of(self._message, is_transparent=transparency)
+            self.controls = {one.name: one for one in controls}
             title = title_of(self._message)
             made = [part for c in controls for part in self._parts_of(c, context)]
             if title is not None:
