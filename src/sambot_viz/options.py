@@ -172,8 +172,9 @@ class Options:
     publish: str | None = option(
         None,
         "what may be sent to a live robot by those in control: goal, pose (an estimate "
-        "of where it is), point, drive, markers (interactive ones), or several with "
-        "commas; without a value all of them",
+        "of where it is), point, drive, joints (of the sliders), markers (interactive "
+        "ones), description (the model when it is saved), or several with commas; "
+        "without a value all of them",
         "--publish",
         metavar="KINDS",
         optional_value="word",

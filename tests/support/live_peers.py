@@ -87,9 +87,14 @@ class Came:
 
 
 class LivePeer(ABC):
-    """A robot with one transport."""
+    """A robot with one transport.
+
+    Attributes:
+        requests: what services were called with, CDR or the fields.
+    """
 
     uri: str
+    requests: list[Any]
 
     @abstractmethod
     def start(self) -> None:
@@ -162,6 +167,9 @@ class FoxglovePeer(LivePeer, ServerListener):
         self._came: list[Came] = []
         self._services: dict[str, tuple[str, bytes | None]] = {}
         self._calls: list[str] = []
+        self.requests = []
+        self._listeners: tuple[str, list[str]] | None = None
+        self._publishers: dict[str, list[str]] = {}
         self.start()
 
     def start(self) -> None:
@@ -243,8 +251,20 @@ class FoxglovePeer(LivePeer, ServerListener):
         return list(self._came)
 
     def listen_as(self, topic: str, *nodes: str) -> None:
+        self._listeners = topic, list(nodes)
+        self._tell_graph()
+
+    def published_by(self, topic: str, *nodes: str) -> None:
+        """Let nodes publish a topic."""
+        self._publishers[topic] = list(nodes)
+        self._tell_graph()
+
+    def _tell_graph(self) -> None:
         graph = ConnectionGraph()
-        graph.set_subscribed_topic(topic, list(nodes))
+        if self._listeners is not None:
+            graph.set_subscribed_topic(*self._listeners)
+        for topic, nodes in self._publishers.items():
+            graph.set_published_topic(topic, nodes)
         assert self.server is not None
         self.server.publish_connection_graph(graph)
 
@@ -260,6 +280,7 @@ class FoxglovePeer(LivePeer, ServerListener):
     def _service(self, name: str) -> Service:
         def answer(request: ServiceRequest) -> bytes:
             self._calls.append(name)
+            self.requests.append(bytes(request.payload))
             failure, reply = self._services[name]
             if failure:
                 raise RuntimeError(failure)

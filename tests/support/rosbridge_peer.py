@@ -87,6 +87,7 @@ class RosbridgePeer(LivePeer):
         }
         self.is_json = False
         self.operations: list[dict[str, Any]] = []
+        self.requests = []
         self.there: dict[str, Topic] = {}
         self._lock = threading.RLock()
         self._server: Server | None = None
@@ -155,6 +156,7 @@ class RosbridgePeer(LivePeer):
 
     def serve(self, service: str, failure: str = "", reply: bytes | Any = None) -> None:
         def answer(arguments: dict[str, Any]) -> Answer:
+            self.requests.append(arguments)
             if failure:
                 raise RuntimeError(failure)
             return arguments if reply is None else reply

@@ -13,7 +13,7 @@ from sambot_viz.messages.decoder import (
     FieldDecoder,
     definition_wrong,
 )
-from sambot_viz.messages.definition import UnreadFieldError, closed
+from sambot_viz.messages.definition import TypeDefinition, UnreadFieldError, closed
 from sambot_viz.messages.definition_text import LANGUAGES, canonical_name, parse
 from sambot_viz.messages.flatbuffer import FlatBufferDecoder
 from sambot_viz.messages.known_types import KnownTypes
@@ -48,7 +48,7 @@ class MessageTypes:
         folders = [*msg_path, *(Path(prefix) for prefix in prefixes if prefix)]
         self._known = KnownTypes(folders, distro or os.environ.get("ROS_DISTRO"))
         self._decoders: dict[tuple[Schema, str], Decoder] = {}
-        self._shapes: dict[str, MessageShape] = {}
+        self._shapes: dict[tuple[str, str], MessageShape] = {}
         # Players of several sessions ask at the same time.
         self._lock = Lock()
 
@@ -60,19 +60,30 @@ class MessageTypes:
                 known = self._decoders[key] = self._made(schema, message_encoding)
         return known
 
-    def shape(self, name: str) -> MessageShape:
+    def shape(self, name: str, text: str = "") -> MessageShape:
         """Return a type of ROS that is filled with fields of any encoding.
+
+        Args:
+            name: of the type.
+            text: its definition, as a .msg file has it; "" for a type that is known.
 
         Raises:
             DecodeError: its definition is not known.
         """
+        key = name, text
         with self._lock:
-            if (known := self._shapes.get(name)) is None:
-                definitions = self._known.definitions(name, "cdr")
-                if not definitions:
-                    closed(name, {}, lambda one: self._known.find(one, "cdr"))
-                known = self._shapes[name] = MessageShape(definitions[0])
+            if (known := self._shapes.get(key)) is None:
+                known = self._shapes[key] = MessageShape(self._definition(name, text))
         return known
+
+    def _definition(self, name: str, text: str) -> TypeDefinition:
+        def find(one: str):
+            return self._known.find(one, "cdr")
+
+        if text:
+            return parse(name, "ros2msg", text, find)
+        definitions = self._known.definitions(name, "cdr")
+        return definitions[0] if definitions else closed(name, {}, find)
 
     def _made(self, schema: Schema, encoding: str) -> Decoder:
         name = canonical_name(schema.name)

@@ -110,7 +110,13 @@ class Window:
             arrow = JointArrow(scene, session.worker)
             panels += [
                 JointsPanel(
-                    robot, session.motion, history, arrow, session.sources, remake
+                    robot,
+                    session.motion,
+                    history,
+                    arrow,
+                    session.sources,
+                    session.joints_out,
+                    remake,
                 ),
                 PosesPanel(
                     session.poses, robot, session.motion, history, session.roles, remake

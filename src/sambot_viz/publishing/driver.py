@@ -8,15 +8,13 @@ from dataclasses import dataclass
 
 from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.publishing.dead_mans_switch import DeadMansSwitch, Hand
+from sambot_viz.publishing.protection import Protection
 from sambot_viz.publishing.takers import who_takes
 from sambot_viz.publishing.velocity import VELOCITY_TYPES, Velocity
 from sambot_viz.publishing.written import written
 from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
-
-_STOPPERS = ("velocity_smoother", "collision_monitor")
-"""Nodes of Nav2 that stop a robot that is not told its velocity any more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +61,7 @@ class Driver:
         self._outgoing: Outgoing | None = None
         self._last: tuple[Velocity, int] | None = None
         self._client = -1
+        self._protection = Protection(robot, told)
         self._switch = DeadMansSwitch(self._send, most, self._change)
 
     @property
@@ -87,20 +86,9 @@ class Driver:
     @property
     def protection(self) -> str:
         """What stops the robot when the connection to it is lost, in words."""
-        topics = self._robot.source.topics().values()
-        named = [one.publishers for one in topics]
-        nodes = {n for names in named if isinstance(names, tuple) for n in names}
         with self._lock:
             receivers = None if self._outgoing is None else self._outgoing.receivers
-        if receivers is not None and receivers.names:
-            nodes.update(receivers.names)
-        found = sorted(n for n in nodes if any(one in n for one in _STOPPERS))
-        if found:
-            names = " and ".join(text(name, 60) for name in found[:2])
-            return f"{names} of the robot can stop it when it hears nothing"
-        known = any(one is not None for one in named)
-        seen = "nothing seen that stops it" if known else "its nodes are not known"
-        return f"the robot may keep its last speed: {seen}"
+        return self._protection.words(receivers)
 
     def hold(self, hand: Hand, forwards: float, left: float) -> None:
         """Drive on; said again and again while a key or the stick is held.

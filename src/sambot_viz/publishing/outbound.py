@@ -11,10 +11,18 @@ from sambot_viz.errors import PublishError, UsageError
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-Kind = Literal["goal", "pose", "point", "drive", "markers"]
-KINDS: tuple[Kind, ...] = ("goal", "pose", "point", "drive", "markers")
-"""What may be allowed: goals, estimates of the pose, points, velocities, and what is
-done with interactive markers."""
+Kind = Literal["goal", "pose", "point", "drive", "joints", "markers", "description"]
+KINDS: tuple[Kind, ...] = (
+    "goal",
+    "pose",
+    "point",
+    "drive",
+    "joints",
+    "markers",
+    "description",
+)
+"""What may be allowed: goals, estimates of the pose, points, velocities, joints, what
+is done with interactive markers, and the model when it is saved."""
 MAP = "map"
 """The frame in which Nav2 plans and AMCL localizes, as they come."""
 GOAL_TOPIC = "/goal_pose"

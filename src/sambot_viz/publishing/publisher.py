@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,11 +29,13 @@ from sambot_viz.publishing.outbound import (
     kinds_of,
 )
 from sambot_viz.publishing.outcome import Outcome
+from sambot_viz.publishing.parameters import set_parameter
 from sambot_viz.publishing.sent_message import PublishLog, SentMessage
 from sambot_viz.publishing.takers import (
     FOUND_WITHIN,
     KnownFrames,
     frame_fault,
+    other_publishers,
     who_takes,
 )
 from sambot_viz.publishing.velocity import Velocity
@@ -41,6 +44,9 @@ from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
+JOINTS_TOPIC = "/joint_states"
+DESCRIPTION_TOPIC, DESCRIPTION_NODE = "/robot_description", "/robot_state_publisher"
+"""Where a robot is described, and the node that has it as a parameter."""
 _LOOKS = 0.05
 _TOPICS = 8
 """So many topics are published at a time: more than there are tools."""
@@ -107,6 +113,7 @@ class Publisher:
         self._outgoing: dict[tuple[str, str], Outgoing] = {}
         self._now_ns: Callable[[], int] = lambda: 0
         self._last = self._stopped = 0.0
+        self._joints: dict[str, float] = {}
 
     def take(self, robot: SourceRobot | None, now_ns: Callable[[], int]) -> None:
         """Send to another robot from now on, or to none.
@@ -283,6 +290,69 @@ class Publisher:
         self._send_once(robot, outgoing, content)
         self._tell_sent(message.type_name, topic, who, "", message.content)
         return told
+
+    def send_joints(self, positions: Mapping[str, float]) -> str:
+        """Send where joints are, and return who takes it, in words.
+
+        Their time is that of the robot's clock: robot_state_publisher passes over what
+        is not newer than the last. In the log is what has changed.
+
+        Args:
+            positions: joint → position [rad or m].
+
+        Raises:
+            PublishError: it is not allowed, nobody would take it, or somebody else
+                publishes the topic.
+            SourceError: the robot takes nothing, or has left.
+        """
+        if why := self.refusal("joints"):
+            raise PublishError(why)
+        robot = self.robot
+        assert robot is not None
+        if others := other_publishers(robot.source, JOINTS_TOPIC):
+            raise PublishError(
+                f"the joints are not published: {JOINTS_TOPIC} is that of "
+                f"{text(others[0], 80)}; stop it first"
+            )
+        names, values = [*positions], [*positions.values()]
+        content = {"header": {"frame_id": ""}, "name": names, "position": values}
+        message = AnyMessage("sensor_msgs/msg/JointState", content)
+        outgoing = self._taken(robot, JOINTS_TOPIC, message.type_name)
+        told = who_takes(outgoing, "joints")
+        now_ns = robot.source.clock_ns()
+        types = robot.decoding.types
+        self._send_once(robot, outgoing, written(outgoing, message, now_ns, types))
+        if positions != self._joints:
+            self._joints = dict(positions)
+            kind, values_of = message.type_name, self._joints
+            self._tell_sent(kind, JOINTS_TOPIC, "the sliders", "", values_of)
+        return told
+
+    def describe(self, urdf: str, who: str, told: Callable[[str, str], object]) -> None:
+        """Give the robot another description: its node publishes it from then on.
+
+        Args:
+            urdf: the model.
+            who: sends it, for the log.
+            told: called with the node that has the description, and with why it did
+                not take this one, "" for success; in any thread.
+
+        Raises:
+            PublishError: it is not allowed.
+        """
+        if why := self.refusal("description"):
+            raise PublishError(why)
+        robot = self.robot
+        assert robot is not None
+        known = robot.source.topics().get(DESCRIPTION_TOPIC)
+        nodes = () if known is None else known.publishers
+        node = nodes[0] if isinstance(nodes, tuple) and nodes else DESCRIPTION_NODE
+        name, types = DESCRIPTION_TOPIC[1:], robot.decoding.types
+        take = partial(told, node)
+        set_parameter(robot.source, node, name, urdf, types, take)
+        write_err(f"sambot-viz: {who}: {name} of {text(node, 80)}: {len(urdf):,} bytes")
+        kind, values = "rcl_interfaces/srv/SetParameters", {name: urdf}
+        self._tell_sent(kind, f"{node}/set_parameters", who, "", values)
 
     def _tell_sent(
         self,

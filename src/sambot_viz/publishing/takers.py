@@ -9,7 +9,7 @@ from sambot_viz.errors import PublishError
 from sambot_viz.frames import LookupRefused
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.publishing.outbound import MAP, Kind
-from sambot_viz.sources.source import Outgoing
+from sambot_viz.sources.source import Outgoing, Source
 from sambot_viz.text import text
 
 
@@ -33,12 +33,16 @@ class KnownFrames(Protocol):
 FOUND_WITHIN = 2.0
 """What a robot says unasked, and who takes a topic, is known by then [s]."""
 _NAMES = 3
+_BRIDGES = ("foxglove_bridge", "rosbridge")
+"""What is in the names of the nodes through which we publish."""
 _TAKERS = {
     "goal": "start Nav2 (its bt_navigator takes goals)",
     "pose": "start AMCL or slam_toolbox (they take poses)",
     "point": "start the program that takes points",
     "drive": "start the robot's base (its controller takes velocities)",
+    "joints": "start robot_state_publisher (it takes joints)",
     "markers": "start the program that has these markers",
+    "description": "start robot_state_publisher",
 }
 """What is sent → who would take it."""
 
@@ -69,6 +73,20 @@ def who_takes(outgoing: Outgoing, kind: Kind | None = None) -> str:
     names = ", ".join(text(name, 80) for name in receivers.names[:_NAMES])
     more = len(receivers.names) - _NAMES
     return f"{topic}, which {names}{f' and {more} more' if more > 0 else ''} takes"
+
+
+def other_publishers(source: Source, topic: str) -> Sequence[str]:
+    """Return who publishes a topic beside the bridge, which does it for us.
+
+    Args:
+        source: the robot.
+        topic: its name.
+    """
+    known = source.topics().get(topic)
+    names = () if known is None else known.publishers
+    if not isinstance(names, tuple):
+        return ()
+    return [one for one in names if not any(bridge in one for bridge in _BRIDGES)]
 
 
 def frame_fault(frames: KnownFrames, frame: str, kind: Kind) -> str:

@@ -17,7 +17,7 @@ from sambot_viz.displays.display import robot_displays
 from sambot_viz.displays.robot_display import RobotDisplay
 from sambot_viz.errors import ConfigError, JointError, Problem, RobotError
 from sambot_viz.outlet import logger
-from sambot_viz.robot.model import assets_of, something_missing
+from sambot_viz.robot.model import Robot, assets_of, something_missing
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.rviz.yaml.yaml_nodes import Plain
 from sambot_viz.server import reload_problems
@@ -26,6 +26,7 @@ from sambot_viz.server.sessions import Sessions
 from sambot_viz.server.watch import FileWatcher, Watched
 from sambot_viz.session import Session
 from sambot_viz.session.signals import connect
+from sambot_viz.text import text
 
 _log = logger(__name__)
 
@@ -178,7 +179,21 @@ class Reloader:
             self._sources.show(robot)
             self._sessions.set_reload_problems("fault", ())
             self._of_model = robot.problems
+            self._describe(robot)
         self._report_changed()
+
+    def _describe(self, robot: Robot) -> None:
+        """Give a live robot the model that was saved, where that is allowed."""
+
+        def told(node: str, why: str) -> None:
+            made = reload_problems.described(text(node, 80), why)
+            self._sessions.set_reload_problems("description", (made,))
+
+        def send(session: Session) -> None:
+            if not session.publisher.refusal("description"):
+                session.publisher.describe(robot.urdf, "the saved model", told)
+
+        self._sessions.for_each(send, copies=False)
 
     def refuse_model(self, error: RobotError) -> None:
         """Show why the model is not shown, and follow the files that may fix it."""

@@ -41,6 +41,24 @@ def kept(file: str) -> Problem:
     )
 
 
+def described(node: str, why: str) -> Problem:
+    """What the node of a live robot has answered to the model that was saved."""
+    if not why:
+        return Problem(
+            "info",
+            "description-taken",
+            f"{node} has taken the saved model, and publishes it",
+            "nothing is wrong",
+        )
+    return Problem(
+        "warning",
+        "description-not-taken",
+        f"{node} did not take the saved model: {why}",
+        "start robot_state_publisher on the robot, and a bridge that calls services, "
+        "then save the model again",
+    )
+
+
 def internal_error(error: Exception) -> Problem:
     """The program failed while it showed what was saved."""
     return Problem(

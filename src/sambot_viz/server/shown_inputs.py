@@ -110,7 +110,9 @@ class ShownInputs:
             if refusal is None:
                 self._show(inputs.robot())
             clients.show_panels()
-            if inputs.options.watch and inputs.live is None:
+            # Beside a live robot a model of its own is followed, else what that says.
+            is_own = inputs.live is None or inputs.model is not None
+            if inputs.options.watch and is_own:
                 self._follow(refusal)
             if inputs.live is not None:
                 self._follow_live(inputs.live)

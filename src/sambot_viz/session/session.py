@@ -37,6 +37,7 @@ from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.own_config import SizeOfRobot, is_own_config
 from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.robot.joints_out import JointsOut
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
 from sambot_viz.session.robot.robot_state import RobotState
@@ -76,6 +77,7 @@ class Session:
         own_model: whether its robot is its own: that of the server is not shown in it.
         sources: what messages come from, and what they move.
         publisher: the way back to a live robot.
+        joints_out: publishes the joints that users move.
         driven: who drives that robot.
 
     Raises:
@@ -147,6 +149,7 @@ class Session:
             options.publish, options.publish_log, tree, drive, is_private=private
         )
         self.publisher.name_of = self._name_of
+        self.joints_out = JointsOut(robot, self.publisher, change, worker)
         self._take_robot()
         self.clients = Clients(
             document,
@@ -349,6 +352,7 @@ class Session:
             return
         self.scene.close()
         self.motion.close()
+        self.joints_out.close()
         self._trail.close()
         self.follow_view.close()
         self.clients.close()
@@ -367,6 +371,7 @@ class Session:
             self.publisher.take(None, lambda: 0)
         else:
             self.publisher.take(data.moved_by, data.stamp_ns)
+        self.joints_out.begin()
 
     def _tell_driven(self) -> None:
         with self.change(self.driven):

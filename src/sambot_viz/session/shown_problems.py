@@ -27,7 +27,7 @@ from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import log_error
 from sambot_viz.topics.reasons import TopicReason
 
-Reloaded = Literal["model", "config", "watch", "fault"]
+Reloaded = Literal["model", "config", "watch", "fault", "description"]
 """What a save failed to change (model, config), or why saves fail at all."""
 
 

@@ -24,6 +24,7 @@ from sambot_viz.panels.validation import validate
 from sambot_viz.robot.parts import Joint
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.data.session_sources import SessionSources
+from sambot_viz.session.robot.joints_out import JointsOut
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.joint_arrow import JointArrow
@@ -54,6 +55,7 @@ class JointsPanel(Panel):
     Args:
         arrow: shows which way a joint moves.
         sources: have the recording that moves the joints, if there is one.
+        joints_out: publishes them to a live robot.
         remake: called when rows other than the positions have changed.
     """
 
@@ -67,9 +69,11 @@ class JointsPanel(Panel):
         history: History,
         arrow: JointArrow,
         sources: SessionSources,
+        joints_out: JointsOut,
         remake: Callable[[Panel], None],
     ) -> None:
-        self.remade_by = (robot.changed, robot.followed)
+        self.remade_by = (robot.changed, robot.followed, joints_out.said)
+        self._out = joints_out
         self._robot = robot
         self._motion = motion
         self._history = history
@@ -97,7 +101,9 @@ class JointsPanel(Panel):
         follows = bool(self._robot.followed.value)
         if follows:
             rows = [replace(row, set=None) for row in rows]
-        return [_follow_row(follows, recording), *rows]
+        said = self._out.said.value
+        note = [Row("joints/out", "", "note", value=said)] if said else []
+        return [_follow_row(follows, recording), *note, *rows]
 
     def _why_none(self) -> str:
         """Return why there is no joint."""

@@ -274,7 +274,8 @@ class RobotData:
         self._joint_states.set_topics(topics.joint_states)
         if not self._moves and self._has_motion():
             self._moves = True
-            self._robot.set_followed(self.name)
+            if not self._robot.leads:
+                self._robot.set_followed(self.name)
         if not self._closed:
             for one in (self.transforms, self._joint_states):
                 self._feed.listen(one, one.topics)

@@ -43,6 +43,8 @@ class RobotState:
         joints: the positions of its joints; move them with the methods of this class.
         first: joint → its position before anything has moved it [rad or m].
         moved: whether anything has moved a joint.
+        leads: whether its joints are published to a live robot: that they come back
+            does not make messages move them.
         followed: what moves the joints by its messages, such as a recording; "" while
             users and programs do.
         recorder: how joints and frames have moved lately.
@@ -65,6 +67,7 @@ class RobotState:
         self.first: dict[str, float] = {}
         self.moved = False
         self.followed = Signal(change, "")
+        self.leads = False
         self.recorder = MotionRecorder(worker.clock)
         self._tree = tree
         self._added = added

@@ -1,0 +1,107 @@
+"""Calls of services whose fields are known, over any transport."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sambot_viz.errors import DecodeError, SourceError
+from sambot_viz.messages import MessageTypes, Schema
+from sambot_viz.sources.source import Encoding, Reply, Source
+from sambot_viz.text import text
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceType:
+    """A type of services.
+
+    Attributes:
+        name: without what is behind it for the request and the response.
+        request: its fields, as a .srv file has them.
+        response: the same.
+    """
+
+    name: str
+    request: str
+    response: str
+
+
+CANCEL_GOAL = ServiceType(
+    "action_msgs/CancelGoal",
+    "action_msgs/GoalInfo goal_info",
+    "int8 return_code\naction_msgs/GoalInfo[] goals_canceling",
+)
+GET_PARAMETERS = ServiceType(
+    "rcl_interfaces/GetParameters",
+    "string[] names",
+    "rcl_interfaces/ParameterValue[] values",
+)
+SET_PARAMETERS = ServiceType(
+    "rcl_interfaces/SetParameters",
+    "rcl_interfaces/Parameter[] parameters",
+    "rcl_interfaces/SetParametersResult[] results",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ServiceAnswer:
+    """What a service has answered.
+
+    Attributes:
+        content: the response, an object with its fields; None where there is none.
+        refusal: why there is none.
+    """
+
+    content: Any = None
+    refusal: str = ""
+
+
+def call_service(
+    source: Source,
+    service: str,
+    kind: ServiceType,
+    fields: Mapping[str, Any],
+    types: MessageTypes,
+    answered: Callable[[ServiceAnswer], object],
+) -> None:
+    """Call a service once.
+
+    Args:
+        source: the robot.
+        service: its name.
+        kind: its type.
+        fields: of the request.
+        types: has the definitions that the type names.
+        answered: called once, in the thread of the source or at once; it must only
+            post.
+    """
+
+    def write(encoding: Encoding) -> bytes:
+        if encoding == "json":
+            return json.dumps(fields, allow_nan=False).encode()
+        return types.shape(f"{kind.name}_Request", kind.request).as_cdr(fields)
+
+    def take(reply: Reply) -> None:
+        if reply.refusal:
+            answered(ServiceAnswer(refusal=reply.refusal))
+            return
+        try:
+            answered(ServiceAnswer(_read(reply, kind, types)))
+        except (DecodeError, TypeError, ValueError):
+            said = text(repr(bytes(reply.content[:80])), 80)
+            answered(ServiceAnswer(refusal=f"what it answers makes no sense: {said}"))
+
+    try:
+        source.call(service, write, take)
+    except SourceError as error:
+        answered(ServiceAnswer(refusal=str(error)))
+
+
+def _read(reply: Reply, kind: ServiceType, types: MessageTypes) -> Any:
+    name = f"{kind.name}_Response"
+    if reply.is_json:
+        return types.shape(name, kind.response).filled(json.loads(reply.content))
+    schema = Schema(name, "ros2msg", kind.response)
+    return types.decoder(schema, "cdr").decode(reply.content)
