@@ -79,11 +79,11 @@ def refuse_mixture(options: Options) -> None:
     Raises:
         UsageError: the options name such a robot, and others or a prefix.
     """
-    prefixed = any(given.prefix for given in options.live_sources)
-    if options.live_sources and (len(options.sources) > 1 or prefixed):
+    renamed = any(given.is_renamed for given in options.live_sources)
+    if options.live_sources and (len(options.sources) > 1 or renamed):
         raise UsageError(
-            "a command that looks once listens to one robot, without a prefix: name "
-            "one source; the page shows several"
+            "a command that looks once listens to one robot, without a prefix or "
+            "--remap: name one source; the page shows several"
         )
 
 
@@ -94,7 +94,9 @@ def _live(given: GivenSource) -> Source:
 
     source = open_source(given.uri)
     source.uri = given.name or source.uri
-    return PrefixedSource(source, given.prefix) if given.prefix else source
+    if not given.is_renamed:
+        return source
+    return PrefixedSource(source, given.prefix, given.remaps)
 
 
 def _checked_folder(options: Options) -> Path | None:
@@ -133,10 +135,10 @@ def _recordings(given: Sequence[GivenSource]) -> Source:
         # What is large and has no index is looked through now: a second or two a GB.
         while not recording.index_more():
             pass
-        opened.append(Beside(recording, name or called, prefix))
+        opened.append(Beside(recording, name or called, prefix, given[0].remaps))
     name = " and ".join(one.name for one in opened)
     only = opened[0]
-    if len(opened) == 1 and not only.prefix:
+    if len(opened) == 1 and not given[0].is_renamed:
         return RecordingPlayback(only.bag, name)
     return RecordingPlayback(beside_each_other(opened), name)
 

@@ -57,13 +57,14 @@ def _is_live(uri: str) -> bool:
 
 
 def _given_sources(
-    words: Sequence[str], prefixes: Mapping[str, str]
+    words: Sequence[str], prefixes: Mapping[str, str], rules: Sequence[str]
 ) -> tuple[GivenSource, ...]:
-    if not words and not prefixes:
+    if not words and not prefixes and not rules:
         return ()
     from sambot_viz.sources.given import given_sources
+    from sambot_viz.sources.remapping import remaps_of
 
-    return given_sources(words, prefixes)
+    return given_sources(words, prefixes, remaps_of(rules))
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +137,15 @@ class Options:
         metavar="NAME=PREFIX",
         factory=dict,
         read=named_words,
+    )
+    remap: Sequence[str] = option(
+        (),
+        "show a topic TO of the sources as FROM, the name that the config has for it, "
+        f"as RViz does for --ros-args -r FROM:=TO{AGAIN}",
+        "--remap",
+        group="source",
+        metavar="FROM:=TO",
+        read=words_of,
     )
     at: float | None = option(
         None,
@@ -322,6 +332,12 @@ class Options:
         "--session",
         choices=("shared", "private"),
     )
+    fullscreen: bool = option(
+        False,
+        "open pages with their panels hidden; H shows them",
+        "--fullscreen",
+        switch="yes-no",
+    )
     watch: bool = option(
         False,
         "reload the model, its meshes and the config when they are saved",
@@ -422,7 +438,7 @@ class Options:
                 f"--at {self.at:g} needs a recording: give its file, or --source FILE"
             )
         object.__setattr__(self, "source", source)
-        sources = _given_sources(source, self.source_prefix)
+        sources = _given_sources(source, self.source_prefix, self.remap)
         object.__setattr__(self, "sources", sources)
         for flag, given in (
             ("--record", self.record),

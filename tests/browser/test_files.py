@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from desk import Desk
@@ -99,3 +100,33 @@ def test_a_visitor_downloads_and_is_asked_before_leaving_with_changes(
     field = user.row("Displays", "Global Options", "Frame Rate").one("textbox")
     user.enter(field, "12")
     user.until(lambda: user.page.evaluate(leaving))
+
+
+def test_configs_of_before_are_in_the_menu_and_open_again(
+    tmp_path: Path, open_viewer: Open
+) -> None:
+    for name in ("one", "two"):
+        grid = f"{{Class: rviz_default_plugins/Grid, Name: Grid {name}}}"
+        text = f"Visualization Manager:\n  Displays:\n    - {grid}\n"
+        (tmp_path / f"{name}.rviz").write_text(text)
+    with Visualizer(config=tmp_path / "one.rviz", port=0) as viz:
+        user = open_viewer(viz.url).user
+        user.row("Displays", "Grid one")
+        user.click("menuitem", "File")
+        assert not user.there("menuitem", re.compile("^Recent"))
+        user.click("menuitem", "Open Config…")
+        user.click("option", "two.rviz")
+        user.click("button", "Open")
+        user.row("Displays", "Grid two")
+        user.click("menuitem", "File")
+        user.click("menuitem", "Recent: one.rviz")
+        user.row("Displays", "Grid one")
+        user.gone("dialog")
+
+
+@pytest.mark.view
+def test_pages_open_with_their_panels_hidden_where_asked(open_viewer: Open) -> None:
+    with Visualizer(port=0, fullscreen=True) as viz:
+        user = open_viewer(viz.url).user
+        user.click("button", "Show panels (H)")
+        user.row("Displays", "Grid")

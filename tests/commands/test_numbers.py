@@ -33,6 +33,7 @@ OTHERS = {
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
     "JOINT", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
+    "FROM:=TO", "FORMAT",
 }  # fmt: skip
 """Placeholders of what is no number."""
 

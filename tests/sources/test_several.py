@@ -243,5 +243,5 @@ def test_a_command_that_looks_once_listens_to_one_robot(
     }.get(command, [])
     assert main([command, *words]) == 2
     error = capsys.readouterr().err
-    assert "listens to one robot, without a prefix: name one source" in error
+    assert "listens to one robot, without a prefix or --remap: name one source" in error
     assert not list(tmp_path.iterdir())

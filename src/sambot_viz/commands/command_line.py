@@ -10,6 +10,7 @@ from dataclasses import Field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from sambot_viz.commands.ros_arguments import without_ros_arguments
 from sambot_viz.errors import UsageError, nearest
 from sambot_viz.files import is_recording
 from sambot_viz.flags import Flag, Group, declared, flag_of
@@ -148,6 +149,9 @@ def parse(
     """
     rest: list[str] = []
     arguments: dict[str, str] = {}
+    words, notes = without_ros_arguments(words)
+    for note in notes:
+        warn(note)
     for word in words:
         match = _ARGUMENT.fullmatch(word)
         if match:

@@ -11,9 +11,10 @@ import threading
 from collections.abc import Sequence
 from contextlib import suppress
 from queue import SimpleQueue
+from typing import Any
 
 from sambot_viz._version import __version__
-from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.command_line import Parser, parse, warn
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.outlet import write_code, write_err, write_out
@@ -52,6 +53,26 @@ _OPEN_TO_ALL = (
 )
 
 
+_NO_MEANING = "taken as RViz takes it; it has no meaning here"
+_OF_RVIZ: Sequence[tuple[tuple[str, str], dict[str, Any], str]] = (
+    (
+        ("-t", "--display-title-format"),
+        {"metavar": "FORMAT", "help": f"the title of the window: {_NO_MEANING}"},
+        "the title of a page is the name of its config",
+    ),
+    (
+        ("-l", "--ogre-log"),
+        {"action": "store_true", "help": f"a log of Ogre: {_NO_MEANING}"},
+        "nothing is drawn by Ogre",
+    ),
+    (
+        ("-s", "--splash-screen"),
+        {"metavar": "FILE", "help": f"a picture at the start: {_NO_MEANING}"},
+        "a page has no splash screen",
+    ),
+)
+"""Flags that only RViz has a use for: names, how they are added, and what is said."""
+
 _WAITING = (
     "sambot-viz: note: the page is open and will load the file once its errors are "
     "fixed"
@@ -79,6 +100,9 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
     _return_large_blocks()
     report = _Reports()
     given, options = parse(parser(), words, on_reload=report, notes=notes)
+    for (_, flag), _, why in _OF_RVIZ:
+        if getattr(given, flag.removeprefix("--").replace("-", "_")):
+            warn(f"{flag} has no meaning here: {why}")
     report.model = options.model
     with Inputs(options, may_be_broken=options.watch) as inputs:
         _serve(inputs, report, given.open)
@@ -146,6 +170,8 @@ def parser() -> Parser:
     add = made.add_argument
     add("--version", action="version", version=f"sambot-viz {__version__}")
     add("--open", action="store_true", help="open the page in this machine's browser")
+    for names, given, _ in _OF_RVIZ:
+        add(*names, **given)
     return made
 
 

@@ -6,7 +6,7 @@ import { stopDrawing } from "./view/drag_tool.js";
 import { html, render } from "./vendor/preact.js";
 import { act, connect, HOVER, newGesture, rows, send } from "./wire/channel.js";
 import { followConnection } from "./wire/connection.js";
-import { togglePanels } from "./window/splitters.js";
+import { followFullscreen, togglePanels } from "./window/splitters.js";
 import { followFile } from "./window/files.js";
 import { listenToKeys } from "./window/keys.js";
 import { followPalette } from "./window/palette.js";
@@ -63,6 +63,7 @@ const start = () => {
   followLiveDriving();
   followByNumbers();
   followFile();
+  followFullscreen();
   followConnection();
   followRole();
   followPalette();

@@ -20,13 +20,17 @@ class SessionInfoPanel(Panel):
 
     Args:
         private: whether only one client sees the session.
+        fullscreen: whether pages open with their panels hidden.
     """
 
     name = "names"
 
-    def __init__(self, document: ShownDocument, scene: Scene, private: bool) -> None:
+    def __init__(
+        self, document: ShownDocument, scene: Scene, private: bool, fullscreen: bool
+    ) -> None:
         self.remade_by = (scene.frames, document.replaced)
         self._document = document
+        self._fullscreen = fullscreen
         self._tree = scene.context.tree
         # A page that comes back after a restart finds another id here.
         self._session_value = {
@@ -46,6 +50,7 @@ class SessionInfoPanel(Panel):
             Data("names/session", self._session_value),
             Data("names/document", self._documents),
             Data("names/version", __version__),
+            Data("names/fullscreen", self._fullscreen),
         ]
 
 

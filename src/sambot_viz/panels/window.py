@@ -83,7 +83,9 @@ class Window:
         robot, scene, history = session.robot, session.scene, session.history
         is_copy = session.private and session.options.session == "shared"
         panels: list[Panel] = [
-            SessionInfoPanel(session.document, scene, session.private),
+            SessionInfoPanel(
+                session.document, scene, session.private, session.fullscreen
+            ),
             StatusBarPanel(scene),
             PeoplePanel(session.roles, is_copy),
             self._displays,

@@ -100,6 +100,7 @@ class Session:
         self.options = options = options or Options()
         self.poses = poses or Presets()
         change = self.change = Change(worker, audience)
+        self.fullscreen = options.fullscreen
         private = self.private = isinstance(audience, viser.ClientHandle)
         self.own_model = self._has_others = False
         self.roles = Roles(change, options.presenter is not None and not private)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os.path
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from sambot_viz.errors import UsageError
 from sambot_viz.files import RECORDING_ENDINGS
+from sambot_viz.sources.prefix import NO_NAMES
 from sambot_viz.sources.registry import KNOWN, live_address
 from sambot_viz.text import text
 
@@ -27,11 +28,18 @@ class GivenSource:
         uri: the address of a live robot, or bag:PATH.
         name: what the user calls it; "" for none.
         prefix: what is put before its topics and frames; "" for nothing.
+        remaps: topics with other names at the source: name here → name there.
     """
 
     uri: str
     name: str = ""
     prefix: str = ""
+    remaps: Mapping[str, str] = field(default_factory=dict[str, str], compare=False)
+
+    @property
+    def is_renamed(self) -> bool:
+        """Whether topics have other names here than at the source."""
+        return bool(self.prefix or self.remaps)
 
     @property
     def is_live(self) -> bool:
@@ -70,13 +78,16 @@ def given_source(words: str) -> GivenSource:
 
 
 def given_sources(
-    words: Iterable[str], prefixes: Mapping[str, str]
+    words: Iterable[str],
+    prefixes: Mapping[str, str],
+    remaps: Mapping[str, str] = NO_NAMES,
 ) -> tuple[GivenSource, ...]:
     """Read all sources of a command line.
 
     Args:
         words: as for `given_source`.
         prefixes: name → what is put before the topics and frames of that source.
+        remaps: topics with other names at all sources: name here → name there.
 
     Raises:
         UsageError: as `given_source`; a prefix of no source, or one that cannot be; or
@@ -98,4 +109,6 @@ def given_sources(
     for one in found:
         if one.is_live and names.count(one.name) > 1:
             raise UsageError(f"two sources are called {one.name}: name them otherwise")
-    return tuple(replace(one, prefix=prefixes.get(one.name, "")) for one in found)
+    return tuple(
+        replace(one, prefix=prefixes.get(one.name, ""), remaps=remaps) for one in found
+    )

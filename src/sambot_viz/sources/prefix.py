@@ -1,11 +1,18 @@
-"""A prefix before the topics and the frames of a source, to tell it from others."""
+"""Other names for the topics and the frames of a source.
+
+A prefix tells them from those of other sources; rules give single topics the names that
+a config knows them by.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
 from sambot_viz.sources.message import Recorded, SourceTopic, TopicChannel
+
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
 
 
 class Prefix:
@@ -16,15 +23,23 @@ class Prefix:
 
     Args:
         name: such as "robot1"; "" changes nothing.
+        remaps: topics that are called otherwise at the source, behind the prefix: name
+            here → name there.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, remaps: Mapping[str, str] = NO_NAMES) -> None:
         self.name = name.strip("/")
+        self._remaps = remaps
+        self._remapped = {there: here for here, there in remaps.items()}
         self._channels: dict[TopicChannel, TopicChannel] = {}
         self._inner: dict[str, str] = {}
 
     def outer(self, topic: str) -> str:
         """Return the name of a topic as others see it."""
+        name = self._prefixed(topic)
+        return self._remapped.get(name, name)
+
+    def _prefixed(self, topic: str) -> str:
         before = f"/{self.name}/"
         if not self.name or topic.startswith(before):
             return topic
@@ -32,17 +47,25 @@ class Prefix:
 
     def inner(self, topic: str) -> str:
         """Return the name of a topic as the source has it."""
-        if topic in self._inner or not self.name:
-            return self._inner.get(topic, topic)
+        if topic in self._inner:
+            return self._inner[topic]
+        topic = self._remaps.get(topic, topic)
+        if not self.name:
+            return topic
         return f"/{topic.removeprefix(f'/{self.name}/').lstrip('/')}"
 
     def topics(self, topics: Mapping[str, SourceTopic]) -> dict[str, SourceTopic]:
         """Return topics by their names as others see them."""
-        self._inner = {self.outer(name): name for name in topics}
+        self._inner = {self.outer(name): name for name in topics if self._keeps(name)}
         return {
             outer: replace(topics[inner], name=outer, frame_prefix=self.name)
             for outer, inner in self._inner.items()
         }
+
+    def _keeps(self, topic: str) -> bool:
+        """Whether no rule has given the name of a topic to another one."""
+        name = self._prefixed(topic)
+        return self._remaps.get(self.outer(topic), name) == name
 
     def message(self, message: Recorded, shift_ns: int = 0) -> Recorded:
         """Return a message as one of its topic among others.

@@ -1,11 +1,11 @@
-"""A live robot among other sources: its topics and frames have a prefix."""
+"""A live robot whose topics and frames have other names here."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
 from sambot_viz.sources.message import Recorded, SourceTopic
-from sambot_viz.sources.prefix import Prefix
+from sambot_viz.sources.prefix import NO_NAMES, Prefix
 from sambot_viz.sources.source import (
     Asset,
     Capability,
@@ -23,17 +23,20 @@ class PrefixedSource:
 
     Args:
         source: a live robot.
-        prefix: before its topics and frames.
+        prefix: before its topics and frames; "" for none.
+        remaps: topics with other names there (see `Prefix`).
     """
 
     playback = None
     hidden = ()
 
-    def __init__(self, source: Source, prefix: str) -> None:
+    def __init__(
+        self, source: Source, prefix: str, remaps: Mapping[str, str] = NO_NAMES
+    ) -> None:
         self.uri = source.uri
         self.on_topics: Callable[[], object] = lambda: None
         self._source = source
-        self._prefix = Prefix(prefix)
+        self._prefix = Prefix(prefix, remaps)
         self._topics: Mapping[str, SourceTopic] = {}
         self._renaming: dict[tuple[str, OnMessage], OnMessage] = {}
         self.on_status: Callable[[], object] = lambda: None

@@ -14,6 +14,32 @@ export function OpenConfig({ close }) {
     <${Config} close=${close} /></${AskFirst}>`;
 }
 
+/** A config that was open before; what becomes of unsaved changes is asked first.
+ * @param {{name: string, close: () => void}} props */
+export function OpenAgain({ name, close }) {
+  const again = (/** @type {{close: () => void}} */ { close: shut }) =>
+    html`<${OpenAgain} name=${name} close=${shut} />`;
+  return html`<${AskFirst} what="another config" close=${close} dialog=${again}>
+    <${Again} name=${name} close=${close} /></${AskFirst}>`;
+}
+
+/** Opens at once; a dialog is there only to say why not. @param {{name: string, close: () => void}} props */
+function Again({ name, close }) {
+  const { refused, answer, begin } = useAnswer("file/open");
+  useEffect(() => {
+    begin();
+    act("file/open", [name]);
+  }, []);
+  useEffect(() => {
+    if (answer?.done) close();
+  }, [answer?.number]);
+  return html`<${Dialog} title="Open Config" close=${close} submit=${close}>
+    <p>${name}</p>
+    ${refused && html`<p class="refused" role="alert">${refused}</p>`}
+    <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
+  </${Dialog}>`;
+}
+
 /** Another recording leaves a config alone; one of nobody gives way to that of the recording.
  * @param {{close: () => void}} props */
 export function OpenRecording({ close }) {

@@ -5,11 +5,11 @@ import { html, useEffect } from "../vendor/preact.js";
 import { act, mayChange, rows } from "../wire/channel.js";
 import { show } from "../dialogs/dialog.js";
 import { ExportPage } from "../dialogs/export_page.js";
-import { OpenConfig, OpenRecording } from "../dialogs/open.js";
+import { OpenAgain, OpenConfig, OpenRecording } from "../dialogs/open.js";
 import { SaveAs } from "../dialogs/save_as.js";
 import { SaveImage } from "../dialogs/save_image.js";
 import { tell } from "./notices.js";
-import { folds, selected, unfolded, useData } from "../state.js";
+import { Cell, folds, selected, unfolded, useData } from "../state.js";
 
 /**
  * @typedef {{name?: string, own?: boolean, modified?: boolean, private?: boolean, folder?: string}}
@@ -59,6 +59,40 @@ export function openRecording() {
     takeTyped();
     show(OpenRecording);
   }
+}
+/** How many configs are kept in File > Recent. */
+const RECENT = 10;
+/** @typedef {{folder: string, name: string}} Recent */
+/** The configs that this browser has had, the newest first. @type {Cell<Recent[]>} */
+const recent = new Cell(/** @type {Recent[]} */ ([]), "recent");
+
+/** The other configs of this folder that this browser has had, the newest first.
+ * @returns {string[]} */
+export function recentNames() {
+  const { folder, name } = state();
+  const here = recent.value.filter((/** @type {Recent} */ one) => one.folder === folder);
+  return here
+    .map((/** @type {Recent} */ one) => one.name)
+    .filter((/** @type {string} */ one) => one !== name);
+}
+
+/** Note the config that is shown now as the newest. */
+function noteRecent() {
+  const { folder, name, own } = state();
+  if (!folder || !name || !own) return;
+  const [newest] = recent.value;
+  if (newest?.folder === folder && newest.name === name) return;
+  const others = recent.value.filter(
+    (/** @type {Recent} */ one) => one.folder !== folder || one.name !== name,
+  );
+  recent.set([{ folder, name }, ...others].slice(0, RECENT));
+}
+
+/** Open one of them. @param {string} name */
+export function openAgain(name) {
+  if (!hasDisk() || !mayChange()) return;
+  takeTyped();
+  show(({ close }) => html`<${OpenAgain} name=${name} close=${close} />`);
 }
 export function download() {
   takeTyped();
@@ -146,4 +180,5 @@ export function followFile() {
     shown = now;
   };
   for (const id of ["names/session", "names/document"]) rows.listen(id, look);
+  rows.listen("file/state", noteRecent);
 }

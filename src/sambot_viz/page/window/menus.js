@@ -11,7 +11,9 @@ import {
   hasDisk,
   hasRecordings,
   open,
+  openAgain,
   openRecording,
+  recentNames,
   save,
   saveAs,
   saveImage,
@@ -96,6 +98,11 @@ export const listMenus = (panels, hideAll, goTo) => [
               does: saveAs,
               ...forControl("file/save-as"),
             },
+            ...recentNames().map((/** @type {string} */ name) => ({
+              name: `Recent: ${name}`,
+              does: () => openAgain(name),
+              ...forControl("file/open"),
+            })),
           ]
         : []),
       { name: "Download Config", does: download },

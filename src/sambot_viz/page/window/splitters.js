@@ -5,6 +5,7 @@ import { html } from "../vendor/preact.js";
 import { Icon } from "./icons.js";
 import { between, fitted, HALF, MOST, SMALLEST } from "./sizes.js";
 import { Cell } from "../state.js";
+import { rows } from "../wire/channel.js";
 
 /** @typedef {import("./sizes.js").Chosen} Chosen */
 /** @typedef {import("./sizes.js").Sizes} Sizes */
@@ -17,6 +18,13 @@ export const hidden = new Cell(/** @type {Record<string, boolean>} */ ({}), "hid
 /** Hide all panels, or bring them back. */
 export function togglePanels() {
   hidden.set({ ...hidden.value, all: !hidden.value.all });
+}
+/** Hide the panels at first, where the program was asked to. */
+export function followFullscreen() {
+  const stop = rows.listen("names/fullscreen", () => {
+    if (rows.data("names/fullscreen")) hidden.set({ ...hidden.value, all: true });
+    stop();
+  });
 }
 /** Width and height of the window [px]. */
 export const room = new Cell({ width: innerWidth, height: innerHeight });

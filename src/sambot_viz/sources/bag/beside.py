@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.bag.recording import Recording
@@ -19,11 +19,13 @@ class Beside:
         bag: it, open.
         name: what it is called.
         prefix: before its topics and frames; "" for none.
+        remaps: topics with other names there (see `Prefix`).
     """
 
     bag: Bag
     name: str
     prefix: str
+    remaps: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 def beside_each_other(given: Sequence[Beside]) -> Recording:
@@ -40,10 +42,11 @@ def beside_each_other(given: Sequence[Beside]) -> Recording:
     seen: dict[str, None] = {}
     for one in given:
         shift_ns = _shift_ns(bags, one.bag)
-        bag = RenamedBag(one.bag, one.prefix, shift_ns, tuple(seen))
+        bag = RenamedBag(one.bag, one.prefix, shift_ns, tuple(seen), one.remaps)
         bags.append(bag)
         seen.update(dict.fromkeys(bag.topics))
-    whole = [(g.name, RenamedBag(g.bag, g.prefix).topics) for g in given]
+    bare = [(g, RenamedBag(g.bag, g.prefix, remaps=g.remaps)) for g in given]
+    whole = [(one.name, bag.topics) for one, bag in bare]
     return Recording(bags, hidden_topics(whole), are_beside=True)
 
 

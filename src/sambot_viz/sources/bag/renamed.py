@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.errors import Problem
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.message import Recorded, SourceTopic
-from sambot_viz.sources.prefix import Prefix
+from sambot_viz.sources.prefix import NO_NAMES, Prefix
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -23,13 +23,19 @@ class RenamedBag:
         prefix: before its topics and frames; "" for none.
         shift_ns: how much later its messages are than they were logged [ns].
         hidden: topics that are left out, by their new names.
+        remaps: topics with other names there (see `Prefix`).
     """
 
     def __init__(
-        self, bag: Bag, prefix: str, shift_ns: int = 0, hidden: Collection[str] = ()
+        self,
+        bag: Bag,
+        prefix: str,
+        shift_ns: int = 0,
+        hidden: Collection[str] = (),
+        remaps: Mapping[str, str] = NO_NAMES,
     ) -> None:
         self._bag = bag
-        self._prefix = Prefix(prefix)
+        self._prefix = Prefix(prefix, remaps)
         self._shift_ns = shift_ns
         self._hidden = frozenset(hidden)
         self._topics: tuple[object, Mapping[str, SourceTopic]] = (None, {})
