@@ -24,6 +24,7 @@ from sambot_viz.panels.rows.row import Answer, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.sent import Sent, read
+from sambot_viz.panels.sent_panel import SentPanel
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.panels.sources.recordings_panel import OtherRecordings
 from sambot_viz.panels.sources.source_panel import SourcePanel
@@ -106,6 +107,11 @@ class Window:
                     session.roles,
                     session.driven,
                     session.worker.post,
+                )
+            )
+            panels.append(
+                SentPanel(
+                    session.publisher, session.sent, session.sending, session.driven
                 )
             )
         if joints:

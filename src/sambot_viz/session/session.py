@@ -24,6 +24,8 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.options import Options
 from sambot_viz.publishing.publisher import DriveSettings, publisher_of
+from sambot_viz.publishing.sent_lines import SentLines
+from sambot_viz.publishing.sent_message import SentMessage
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
@@ -78,6 +80,7 @@ class Session:
         sources: what messages come from, and what they move.
         publisher: the way back to a live robot.
         joints_out: publishes the joints that users move.
+        sent: the last messages that went to it; sending is told with each.
         driven: who drives that robot.
 
     Raises:
@@ -150,6 +153,8 @@ class Session:
             options.publish, options.publish_log, tree, drive, is_private=private
         )
         self.publisher.name_of = self._name_of
+        self.sent, self.sending = SentLines(), Signal(change, None)
+        self.publisher.listeners.append(self._note_sent)
         self.joints_out = JointsOut(robot, self.publisher, change, worker)
         self._take_robot()
         self.clients = Clients(
@@ -373,6 +378,10 @@ class Session:
         else:
             self.publisher.take(data.moved_by, data.stamp_ns)
         self.joints_out.begin()
+
+    def _note_sent(self, sent: SentMessage) -> None:
+        with self.change(self.sending):
+            self.sent.add(sent)
 
     def _tell_driven(self) -> None:
         with self.change(self.driven):

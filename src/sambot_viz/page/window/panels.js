@@ -9,6 +9,7 @@ import { ImagesPanel } from "../panels/images.js";
 import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
+import { SentPanel } from "../panels/sent.js";
 import { TopicsPanel } from "../panels/topics.js";
 import { ViewsPanel } from "../panels/views.js";
 import { Cell, fold, wantedRow } from "../state.js";
@@ -36,6 +37,7 @@ export const TABS = {
   },
   drive: { title: "Drive", content: DrivePanel },
   live: { title: "Drive robot", short: "Drive", content: LiveDrivePanel },
+  sent: { title: "Sent", content: SentPanel },
   tool_properties: {
     title: "Tool Properties",
     short: "Tool",

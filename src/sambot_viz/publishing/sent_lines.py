@@ -1,0 +1,69 @@
+"""The last messages that were sent to a robot, as lines for people."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from sambot_viz.publishing.sent_message import SentMessage
+from sambot_viz.text import text
+
+LINES = 50
+"""So many are kept."""
+_VALUES = 160
+
+
+@dataclass(frozen=True, slots=True)
+class SentLine:
+    """What somebody has sent on a topic, one message after the other.
+
+    Attributes:
+        time: of the last one, since 1970 [s].
+        who: the user, or what else has sent it.
+        topic: where.
+        type_name: of the messages.
+        values: of the last one, in words.
+        count: how many they were.
+    """
+
+    time: float
+    who: str
+    topic: str
+    type_name: str
+    values: str
+    count: int = 1
+
+
+class SentLines:
+    """Keeps the last lines; messages of one hand on one topic are one line."""
+
+    def __init__(self) -> None:
+        self._lines: deque[SentLine] = deque(maxlen=LINES)
+
+    def add(self, sent: SentMessage) -> None:
+        """Note a message."""
+        made = SentLine(sent.time, sent.who, sent.topic, sent.type_name, _words(sent))
+        if self._lines:
+            last = self._lines[-1]
+            key = last.who, last.topic, last.type_name
+            if key == (made.who, made.topic, made.type_name):
+                self._lines.pop()
+                made = replace(made, count=last.count + 1)
+        self._lines.append(made)
+
+    @property
+    def newest_first(self) -> Sequence[SentLine]:
+        """The lines."""
+        return [*reversed(self._lines)]
+
+
+def _words(sent: SentMessage) -> str:
+    if isinstance(sent.values, Mapping):
+        parts = [f"{name} {value}" for name, value in sent.values.items()]
+    else:
+        parts = [f"{value:.4g}" for value in sent.values]
+    where = f" [{sent.frame}]" if sent.frame else ""
+    # Each part is cut by itself: a model is long.
+    said = ", ".join(text(part, 60) for part in parts[:12])
+    return text(f"{said}{where}", _VALUES)
