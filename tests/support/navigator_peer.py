@@ -90,12 +90,13 @@ def _said(goal: int, status: int) -> bytes:
     return bytes(_store().serialize_cdr(found, "action_msgs/msg/GoalStatusArray"))
 
 
-def transforms(frames: dict[str, str]) -> bytes:
-    """A TFMessage without translations, as CDR: child → parent."""
+def transforms(frames: dict[str, str], seconds: int = 0) -> bytes:
+    """A TFMessage without translations, as CDR: child → parent, at a time [s]."""
     found = blank_message(_store(), "tf2_msgs/msg/TFMessage")
     for child, parent in frames.items():
         one = blank_message(_store(), "geometry_msgs/msg/TransformStamped")
         one.header.frame_id, one.child_frame_id = parent, child
+        one.header.stamp.sec = seconds
         one.transform.rotation.w = 1.0
         found.transforms.append(one)
     return bytes(_store().serialize_cdr(found, "tf2_msgs/msg/TFMessage"))

@@ -373,3 +373,50 @@ def test_missed_updates_ask_for_all_again(peer: Peer, hand: Any) -> None:
     for _ in range(8):
         tick(page)
     eventually(lambda: tick(page) and "late" in known(page.viz))
+
+
+def test_a_bridge_that_dies_in_the_middle_of_a_drag_leaves_nothing_held(
+    peer: Peer, hand: Any
+) -> None:
+    robot = peer(lambda t: marker(t))
+    page = hand(robot)
+    page.choose("Interact")
+    begin, end = page.place(0.7, 0.0), page.place(1.2, 0.0)
+    assert page.hover(begin)
+    page.drag(begin, end, ends=False)
+    robot.stop()
+    data = session_of(page.viz).data
+    assert data is not None
+    eventually(lambda: not data.source.status.is_connected)
+    page.act("tools/drop", *begin, *end, None)
+    assert not any(one.is_held for one in known(page.viz).values())
+    assert "othing can be sent" in page.said
+
+
+def test_who_only_watches_moves_nothing(
+    peer: Peer, hand: Any, protocol: Callable[..., ProtocolClient]
+) -> None:
+    robot = peer(lambda t: marker(t))
+    page = hand(robot, presenter="a-long-word")
+    page.choose("Interact")
+    listed = page.client.row("tools/list")["value"]
+    assert not any(tool["hover"] for tool in listed)
+    begin = page.place(0.7, 0.0)
+    page.act("tools/hover", *begin)
+    page.drag(begin, page.place(1.2, 0.0))
+    page.act("tools/open_menu")
+    page.act("tools/entry", 1)
+    assert robot.events() == [] and robot.advertised() == []
+
+
+def test_nonsense_of_a_page_moves_nothing(peer: Peer, hand: Any) -> None:
+    robot = peer(lambda t: marker(t))
+    page = hand(robot)
+    page.choose("Interact")
+    begin = page.place(0.7, 0.0)
+    assert page.hover(begin)
+    for place in ((7.0, 1e300), (-1.0, 0.5)):
+        page.act("tools/drag", *begin, *place, "shift")
+    page.act("tools/drop", *begin, 9.0, 9.0, "meta")
+    assert x_of(page) == 0.0
+    assert not any(one.is_held for one in known(page.viz).values())

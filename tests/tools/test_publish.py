@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import struct
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -13,11 +14,12 @@ import pytest
 from hand import Hand
 from inside import session_of, viser_server
 from live_peers import eventually
-from navigator_peer import GOAL, NavigatorPeer
+from navigator_peer import GOAL, NavigatorPeer, transforms
 from protocol_client import ProtocolClient, wait_for_workers
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import PublishError, UsageError
+from sambot_viz.publishing.publisher import FASTEST
 
 CONFIG = """
 Visualization Manager:
@@ -374,3 +376,61 @@ def test_after_the_connection_was_lost_a_goal_goes_over_the_new_one(
         return len(peer.came()) >= 2
 
     eventually(is_sent)
+
+
+def test_a_page_that_floods_sends_no_more_than_a_hand(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="goal")
+    page.choose("2D Goal Pose")
+    eventually(lambda: peer.advertised() != [])
+    began = time.monotonic()
+    for number in range(2000):
+        page.client.edit("tools/choose", ["2D Goal Pose"])
+        page.client.edit("tools/send", [number, 0.0, 0.0])
+    page.client.settle(viser_server(page.viz), timeout=60.0)
+    took = time.monotonic() - began
+    eventually(lambda: peer.came() != [])
+    assert len(peer.came()) <= 1 + took / FASTEST
+
+
+def test_stamps_are_those_of_the_robot_whose_clock_is_an_hour_off(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    peer = navigator()
+    page = hand(peer, publish="goal")
+    hour_ago = int(time.time()) - 3600
+    peer.offer("/tf", "tf2_msgs/msg/TFMessage")
+    data = session_of(page.viz).data
+    assert data is not None
+    moved = transforms({"wheel": "base_link"}, hour_ago)
+
+    def knows_its_time() -> bool:
+        peer.log("/tf", moved)
+        return data.stamp_ns() == hour_ago * 10**9
+
+    eventually(knows_its_time)
+    page.choose("2D Goal Pose")
+    page.act("tools/send", 1.0, 0.0, 0.0)
+    eventually(lambda: len(peer.came()) == 1)
+    (came,) = peer.came()
+    assert struct.unpack_from("<iI", came.content, 4) == (hour_ago, 0)
+
+
+def test_a_type_that_the_bridge_does_not_know_is_said_in_its_words(
+    navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
+) -> None:
+    words = "failed to load type support for '/goal_pose'"
+    peer = navigator(refusal=words)
+    page = hand(peer, publish="goal")
+    page.choose("2D Goal Pose")
+    page.act("tools/send", 1.0, 0.0, 0.0)
+    eventually(lambda: len(peer.came()) == 1)
+    page.choose("2D Goal Pose")
+
+    def says_why() -> bool:
+        page.act("tools/send", 1.0, 0.0, 0.0)
+        return words in page.said
+
+    eventually(says_why)
