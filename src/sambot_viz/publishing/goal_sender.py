@@ -10,8 +10,9 @@ from threading import Event
 
 from sambot_viz.errors import PublishError, SourceError
 from sambot_viz.frames.history import FrameHistory
+from sambot_viz.publishing.goals import Goals
 from sambot_viz.publishing.outbound import GOAL_TOPIC, Goal
-from sambot_viz.publishing.outcome import GoalFollower, Outcome, status_of
+from sambot_viz.publishing.outcome import Outcome, status_of
 from sambot_viz.publishing.takers import FOUND_WITHIN, frame_fault, who_takes
 from sambot_viz.publishing.written import time_of, written
 from sambot_viz.sources.message import Recorded
@@ -40,7 +41,7 @@ class GoalSender:
         self._topic = topic
         self._status = status_of(topic)
         self._transforms = robot.transforms(FrameHistory())
-        self._follower = GoalFollower()
+        self._goals = Goals(robot, self._changed_by, with_distance=False)
         self._outgoing: Outgoing | None = None
         self._outcomes: list[Outcome] = []
         self._came: deque[tuple[Callable[[Recorded], None], Recorded]] = deque()
@@ -55,7 +56,7 @@ class GoalSender:
             SourceError: there is no robot within so many seconds [s].
         """
         self._source.open()
-        self._listen(self._status, self._take_status)
+        self._goals.follow(self._topic)
         if not self._wait(lambda: bool(self._source.topics()), seconds):
             none = "; it has no topic" if self._source.status.is_connected else ""
             raise SourceError(f"{self._source.status.sentence}{none}")
@@ -74,7 +75,7 @@ class GoalSender:
         who = who_takes(outgoing, "goal")
         self._wait(lambda: bool(outgoing.refused), DISCOVERY)
         self._require_taken()
-        self._follower.begin()
+        self._goals.begin(self._topic, self._outcomes.append)
         now_ns = time_of(self._source, self._transforms.newest_ns)
         outgoing.send(written(outgoing, goal, now_ns, self._robot.decoding.types))
         return who
@@ -121,6 +122,9 @@ class GoalSender:
     def _listen(self, topic: str, take: Callable[[Recorded], None]) -> None:
         self._source.subscribe(topic, partial(self._queue, take))
 
+    def _changed_by(self) -> None:
+        self._changed.set()
+
     def _queue(self, take: Callable[[Recorded], None], message: Recorded) -> None:
         self._came.append((take, message))
         self._changed.set()
@@ -139,11 +143,6 @@ class GoalSender:
                 return False
             self._changed.wait(min(left, _LOOKS))
             self._changed.clear()
-
-    def _take_status(self, message: Recorded) -> None:
-        outcome = self._follower.take(message, self._robot.decode)
-        if outcome is not None:
-            self._outcomes.append(outcome)
 
     # Whether it can come to something
 

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from sambot_viz.publishing.cancelling import cancel_goals
+from sambot_viz.publishing.goal_result import ask_why
 from sambot_viz.publishing.outbound import GOAL_TOPIC
-from sambot_viz.publishing.outcome import GoalFollower, Outcome, feedback_of, status_of
+from sambot_viz.publishing.outcome import (
+    GIVEN_UP,
+    GoalFollower,
+    Outcome,
+    feedback_of,
+    status_of,
+)
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import OnMessage
 from sambot_viz.text import text
@@ -23,14 +30,22 @@ class Goals:
     Args:
         robot: a live one.
         told: called when there is something new; in any thread, must only post.
+        with_distance: whether it is said again and again how far they are.
 
     Attributes:
         last: what became of the last goal; None without one.
     """
 
-    def __init__(self, robot: SourceRobot, told: Callable[[], object]) -> None:
+    def __init__(
+        self,
+        robot: SourceRobot,
+        told: Callable[[], object],
+        *,
+        with_distance: bool = True,
+    ) -> None:
         self.last: Outcome | None = None
         self._robot, self._told = robot, told
+        self._with_distance = with_distance
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
         self._tell: Callable[[Outcome], object] = lambda outcome: None
 
@@ -50,14 +65,18 @@ class Goals:
             is_feedback = message.topic == feedback
             look = follower.take_feedback if is_feedback else follower.take
             outcome = look(message, decode)
-            if outcome is not None:
+            if outcome is not None and outcome.words == GIVEN_UP:
+                # What is said of it is why.
+                types, goal = self._robot.decoding.types, follower.goal
+                ask_why(self._robot.source, topic, goal, types, self._give_up)
+            elif outcome is not None:
                 self._note(outcome)
                 self._tell(outcome)
 
         if len(self._followed) >= _TOPICS:
             self._follow_no_more(next(iter(self._followed)))
         self._followed[topic] = follower, take
-        for one in (status_of(topic), feedback):
+        for one in self._topics_of(topic):
             self._robot.source.subscribe(one, take)
 
     def begin(self, topic: str, tell: Callable[[Outcome], object]) -> None:
@@ -107,5 +126,15 @@ class Goals:
 
     def _follow_no_more(self, topic: str) -> None:
         _, take = self._followed.pop(topic)
-        for one in (status_of(topic), feedback_of(topic)):
+        for one in self._topics_of(topic):
             self._robot.source.unsubscribe(one, take)
+
+    def _topics_of(self, topic: str) -> Sequence[str]:
+        """Return where it is said what becomes of the goals of a topic."""
+        far = (feedback_of(topic),) if self._with_distance else ()
+        return (status_of(topic), *far)
+
+    def _give_up(self, why: str) -> None:
+        outcome = Outcome(f"not reached: {why}" if why else GIVEN_UP, True, False)
+        self._note(outcome)
+        self._tell(outcome)

@@ -11,7 +11,8 @@ from typing import Any
 from sambot_viz.errors import DecodeError
 from sambot_viz.sources.message import Recorded
 
-_ENDS = {4: "reached", 5: "cancelled", 6: "not reached: the robot has given it up"}
+GIVEN_UP = "not reached: the robot has given it up"
+_ENDS = {4: "reached", 5: "cancelled", 6: GIVEN_UP}
 _EXECUTES, _BETWEEN_LOOKS = 2, 0.5
 _ON_THE_WAY = {1: "accepted", 2: "on the way", 3: "being cancelled"}
 
@@ -44,6 +45,11 @@ class GoalFollower:
         self._last = 0
         self._left = ""
         self._next_look = 0.0
+
+    @property
+    def goal(self) -> bytes:
+        """The id of the goal; empty while it is not known."""
+        return self._goal or b""
 
     def begin(self) -> None:
         """Follow the next new goal: all that were told of until now are others."""
@@ -110,6 +116,11 @@ class GoalFollower:
 def cancel_of(topic: str) -> str:
     """Return the service that cancels the goals of a topic; hidden in ROS."""
     return f"{status_of(topic).removesuffix('status')}cancel_goal"
+
+
+def result_of(topic: str) -> str:
+    """Return the service that says why a goal of a topic has ended; hidden in ROS."""
+    return f"{status_of(topic).removesuffix('status')}get_result"
 
 
 def feedback_of(topic: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,11 +22,13 @@ class ServiceType:
         name: without what is behind it for the request and the response.
         request: its fields, as a .srv file has them.
         response: the same.
+        older: the response of an older version; "" where there is none.
     """
 
     name: str
     request: str
     response: str
+    older: str = ""
 
 
 CANCEL_GOAL = ServiceType(
@@ -42,6 +45,21 @@ SET_PARAMETERS = ServiceType(
     "rcl_interfaces/SetParameters",
     "rcl_interfaces/Parameter[] parameters",
     "rcl_interfaces/SetParametersResult[] results",
+)
+
+
+_RESULT = f"""\
+int8 status
+nav2_msgs/NavigateToPose_Result result
+{"=" * 80}
+MSG: nav2_msgs/NavigateToPose_Result
+uint16 error_code
+"""
+GET_RESULT = ServiceType(
+    "nav2_msgs/NavigateToPose_GetResult",
+    "unique_identifier_msgs/UUID goal_id",
+    f"{_RESULT}string error_msg",
+    _RESULT,
 )
 
 
@@ -87,11 +105,15 @@ def call_service(
         if reply.refusal:
             answered(ServiceAnswer(refusal=reply.refusal))
             return
-        try:
-            answered(ServiceAnswer(_read(reply, kind, types)))
-        except (DecodeError, TypeError, ValueError):
-            said = text(repr(bytes(reply.content[:80])), 80)
-            answered(ServiceAnswer(refusal=f"what it answers makes no sense: {said}"))
+        for response in filter(None, (kind.response, kind.older)):
+            content: Any = None
+            with suppress(DecodeError, TypeError, ValueError):
+                content = _read(reply, f"{kind.name}_Response", response, types)
+            if content is not None:
+                answered(ServiceAnswer(content))
+                return
+        said = text(repr(bytes(reply.content[:80])), 80)
+        answered(ServiceAnswer(refusal=f"what it answers makes no sense: {said}"))
 
     try:
         source.call(service, write, take)
@@ -99,9 +121,8 @@ def call_service(
         answered(ServiceAnswer(refusal=str(error)))
 
 
-def _read(reply: Reply, kind: ServiceType, types: MessageTypes) -> Any:
-    name = f"{kind.name}_Response"
+def _read(reply: Reply, name: str, response: str, types: MessageTypes) -> Any:
     if reply.is_json:
-        return types.shape(name, kind.response).filled(json.loads(reply.content))
-    schema = Schema(name, "ros2msg", kind.response)
+        return types.shape(name, response).filled(json.loads(reply.content))
+    schema = Schema(name, "ros2msg", response)
     return types.decoder(schema, "cdr").decode(reply.content)
