@@ -223,3 +223,57 @@ test("the shadow lies below the robot and is painted only when a shape has moved
   dropShadow();
   assert.equal(shadow.parent, null);
 });
+
+/** A mesh of triangles, without an index, and its normals when it is smooth, one for each corner. */
+function smoothNormals(triangles) {
+  const geometry = new Geometry();
+  geometry.attributes.position = new Values(Float32Array.from(triangles.flat(2)), 3);
+  const object = { geometry, material: { flatShading: true, needsUpdate: false } };
+  beginShapes();
+  roundOff(object);
+  assert.notEqual(object.geometry, geometry);
+  const { array } = object.geometry.attributes.normal;
+  return Array.from({ length: array.length / 3 }, (_, i) => [...array.subarray(3 * i, 3 * i + 3)]);
+}
+
+test("corners that are at other places have nothing to do with each other", () => {
+  // A thousand triangles that touch nothing, each tilted in its own way.
+  let seed = 1;
+  const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5;
+  const tilts = Array.from({ length: 1000 }, () => [random() / 2, random() / 2]);
+  const triangles = tilts.map(([a, b]) => {
+    const [x, y, z] = [100 * random(), 100 * random(), 100 * random()];
+    return [
+      [x, y, z],
+      [x + 0.1, y, z + 0.1 * a],
+      [x, y + 0.1, z + 0.1 * b],
+    ];
+  });
+  smoothNormals(triangles).forEach((normal, i) => {
+    const [a, b] = tilts[Math.floor(i / 3)];
+    const long = Math.hypot(a, b, 1);
+    const own = [-a / long, -b / long, 1 / long];
+    own.forEach((value, k) => assert.ok(Math.abs(normal[k] - value) < 1e-3, `${i}: ${normal}`));
+  });
+});
+
+test("the middle of a fan of thousands is smooth, and an edge beside it stays one", () => {
+  const sides = 3000;
+  const rim = (i) => [Math.cos((2 * Math.PI * i) / sides), Math.sin((2 * Math.PI * i) / sides)];
+  const disc = Array.from({ length: sides }, (_, i) => [
+    [0, 0, 0],
+    [...rim(i), 0],
+    [...rim(i + 1), 0],
+  ]);
+  // A wall that meets the middle.
+  const wall = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [0, 0, 1],
+  ];
+  const normals = smoothNormals([...disc, wall]);
+  const z = [0, 0, 1];
+  for (const normal of normals.slice(0, -3))
+    z.forEach((value, k) => assert.ok(Math.abs(normal[k] - value) < 1e-4));
+  for (const normal of normals.slice(-3)) assert.ok(Math.abs(normal[1] + 1) < 1e-4);
+});

@@ -7,6 +7,10 @@ const SIDES = 32;
 const FEW_SIDES = 16;
 /** Faces that meet at less than this are one smooth surface [cosine of 35°]. */
 const CREASE = 0.82;
+/** Of more faces around one corner, as in the middle of a disc, those that look alike are one. */
+const MANY = 48;
+/** Faces look alike that differ by less than this [cosine of 3°]. */
+const ALIKE = 0.9986;
 /** Meshes with more triangles stay as they are. */
 const MOST_TRIANGLES = 120000;
 /** At most so long a picture waits for meshes to be made smooth; the next one goes on [ms]. */
@@ -159,7 +163,9 @@ function welded(position, corner, count) {
     for (let k = 0; k < 3; k += 1) floats[k] = array[at + k] + 0;
     let slot = Math.imul(bits[0], 73856093) ^ Math.imul(bits[1], 19349663);
     slot = (slot ^ Math.imul(bits[2], 83492791)) >>> 0;
-    for (slot = (slot ^ (slot >>> 15)) % size; table[slot] >= 0; slot = (slot + 1) % size) {
+    // Without its sign: a negative place in the table would be none.
+    slot = ((slot ^ (slot >>> 15)) >>> 0) % size;
+    for (; table[slot] >= 0; slot = (slot + 1) % size) {
       const other = 3 * corner(table[slot]);
       if (
         array[other] === array[at] &&
@@ -172,6 +178,29 @@ function welded(position, corner, count) {
     number[i] = table[slot];
   }
   return number;
+}
+
+/** The directions of the faces around a place: of each its unit normal, and the sum of the normals
+ * of those that look so. Few faces are one each; of many, those that look alike are one.
+ * @param {number[]} around one corner of each @param {Float32Array} normal @param {Float32Array} unit
+ * @returns {number[]} */
+function directions(around, normal, unit) {
+  /** @type {number[]} */
+  const found = [];
+  for (const i of around) {
+    const f = i - (i % 3);
+    let [best, most] = [-1, around.length > MANY ? ALIKE : Infinity];
+    for (let g = 0; most < Infinity && g < found.length; g += 6) {
+      const cosine = unit[f] * found[g] + unit[f + 1] * found[g + 1] + unit[f + 2] * found[g + 2];
+      if (cosine > most) [best, most] = [g, cosine];
+    }
+    if (best < 0) {
+      best = found.length;
+      found.push(unit[f], unit[f + 1], unit[f + 2], 0, 0, 0);
+    }
+    for (let k = 0; k < 3; k += 1) found[best + 3 + k] += normal[f + k];
+  }
+  return found;
 }
 
 /** A mesh of flat triangles with a normal for each corner that is smooth over all faces around it
@@ -206,19 +235,27 @@ function smoothed(geometry) {
     first[number[i]] = i;
   }
   const normals = new Float32Array(3 * count);
-  for (let i = 0; i < count; i += 1) {
-    const f = i - (i % 3);
-    let [x, y, z] = [0, 0, 0];
-    for (let j = first[number[i]]; j >= 0; j = next[j]) {
-      const g = j - (j % 3);
-      const cosine = unit[f] * unit[g] + unit[f + 1] * unit[g + 1] + unit[f + 2] * unit[g + 2];
-      if (cosine < CREASE && f !== g) continue;
-      x += normal[g];
-      y += normal[g + 1];
-      z += normal[g + 2];
+  /** @type {number[]} */
+  const around = [];
+  for (let place = 0; place < count; place += 1) {
+    if (number[place] !== place) continue;
+    around.length = 0;
+    for (let j = first[place]; j >= 0; j = next[j]) around.push(j);
+    const faces = directions(around, normal, unit);
+    for (const i of around) {
+      const f = i - (i % 3);
+      let [x, y, z] = [0, 0, 0];
+      for (let g = 0; g < faces.length; g += 6) {
+        const cosine = unit[f] * faces[g] + unit[f + 1] * faces[g + 1] + unit[f + 2] * faces[g + 2];
+        if (cosine < CREASE) continue;
+        x += faces[g + 3];
+        y += faces[g + 4];
+        z += faces[g + 5];
+      }
+      const long = Math.hypot(x, y, z);
+      // A face without an area has no direction of its own.
+      normals.set(long ? [x / long, y / long, z / long] : [0, 0, 1], 3 * i);
     }
-    const long = Math.hypot(x, y, z) || 1;
-    normals.set([x / long, y / long, z / long], 3 * i);
   }
   return keepRest(filled(geometry, positions, normals), geometry, corner, count);
 }
