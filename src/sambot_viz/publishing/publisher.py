@@ -239,10 +239,7 @@ class Publisher:
                 PublishFrameError where another frame would be taken.
             SourceError: the robot takes nothing, or has left.
         """
-        if why := self.refusal(message.kind):
-            raise PublishError(why)
-        robot = self.robot
-        assert robot is not None
+        robot = self._allowed_robot(message.kind)
         if why := frame_fault(self._frames, message.frame, message.kind):
             raise PublishFrameError(f"nothing was sent: {why}")
         now = time.monotonic()
@@ -284,10 +281,7 @@ class Publisher:
             raise PublishError(f"nothing was sent: {error}") from error
         if name := shape.unknown_field(message.content):
             raise PublishError(f"{message.type_name} has no field '{text(name, 80)}'")
-        outgoing = self._taken(robot, topic, message.type_name)
-        told = who_takes(outgoing)
-        content = written(outgoing, message, self._now_ns(), robot.decoding.types)
-        self._send_once(robot, outgoing, content)
+        told = self._deliver(robot, message, topic, None, self._now_ns())
         self._tell_sent(message.type_name, topic, who, "", message.content)
         return told
 
@@ -305,10 +299,7 @@ class Publisher:
                 publishes the topic.
             SourceError: the robot takes nothing, or has left.
         """
-        if why := self.refusal("joints"):
-            raise PublishError(why)
-        robot = self.robot
-        assert robot is not None
+        robot = self._allowed_robot("joints")
         if others := other_publishers(robot.source, JOINTS_TOPIC):
             raise PublishError(
                 f"the joints are not published: {JOINTS_TOPIC} is that of "
@@ -317,11 +308,8 @@ class Publisher:
         names, values = [*positions], [*positions.values()]
         content = {"header": {"frame_id": ""}, "name": names, "position": values}
         message = AnyMessage("sensor_msgs/msg/JointState", content)
-        outgoing = self._taken(robot, JOINTS_TOPIC, message.type_name)
-        told = who_takes(outgoing, "joints")
         now_ns = robot.source.clock_ns()
-        types = robot.decoding.types
-        self._send_once(robot, outgoing, written(outgoing, message, now_ns, types))
+        told = self._deliver(robot, message, JOINTS_TOPIC, "joints", now_ns)
         if positions != self._joints:
             self._joints = dict(positions)
             kind, values_of = message.type_name, self._joints
@@ -340,10 +328,7 @@ class Publisher:
         Raises:
             PublishError: it is not allowed.
         """
-        if why := self.refusal("description"):
-            raise PublishError(why)
-        robot = self.robot
-        assert robot is not None
+        robot = self._allowed_robot("description")
         known = robot.source.topics().get(DESCRIPTION_TOPIC)
         nodes = () if known is None else known.publishers
         node = nodes[0] if isinstance(nodes, tuple) and nodes else DESCRIPTION_NODE
@@ -353,6 +338,28 @@ class Publisher:
         write_err(f"sambot-viz: {who}: {name} of {text(node, 80)}: {len(urdf):,} bytes")
         kind, values = "rcl_interfaces/srv/SetParameters", {name: urdf}
         self._tell_sent(kind, f"{node}/set_parameters", who, "", values)
+
+    def _allowed_robot(self, kind: Kind) -> SourceRobot:
+        """Return the robot, if something of a kind may be sent to it."""
+        if why := self.refusal(kind):
+            raise PublishError(why)
+        assert self.robot is not None
+        return self.robot
+
+    def _deliver(
+        self,
+        robot: SourceRobot,
+        message: AnyMessage,
+        topic: str,
+        kind: Kind | None,
+        now_ns: int,
+    ) -> str:
+        """Send a message, and return who takes it, in words."""
+        outgoing = self._taken(robot, topic, message.type_name)
+        told = who_takes(outgoing, kind)
+        content = written(outgoing, message, now_ns, robot.decoding.types)
+        self._send_once(robot, outgoing, content)
+        return told
 
     def _tell_sent(
         self,
