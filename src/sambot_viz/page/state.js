@@ -18,11 +18,11 @@ export class Cell {
     if (kept && kept in stored) this.value = stored[kept];
   }
 
-  /** @param {T} value */
-  set(value) {
+  /** @param {T} value @param {boolean} [keeps] else it holds for this page alone */
+  set(value, keeps = true) {
     if (this.value === value) return;
     this.value = value;
-    if (this.kept) {
+    if (this.kept && keeps) {
       stored[this.kept] = value;
       store();
     }

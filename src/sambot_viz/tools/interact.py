@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sambot_viz.displays.picking.handle import Handle, HandlePose
+from collections.abc import Iterator, Sequence
+
+from sambot_viz.displays.picking.handle import Handle, HandlePose, MenuEntry
 from sambot_viz.displays.picking.rays import Array
 from sambot_viz.displays.picking.selectable import Hit
 from sambot_viz.publishing.marker_feedback import FeedbackEvent, MarkerFeedback
@@ -75,17 +77,13 @@ class InteractTool(Tool):
 
     def aim(self, begin: Click, click: Click) -> None:
         """Take the handle under the mouse, and follow the pointer."""
-        if self._held is None and not self._take(begin):
-            return
-        held = self._held
+        held = self._holding(begin)
         if held is not None and self._follow(held, click):
             self._moved = not self._tell("POSE_UPDATE")
 
     def drop(self, begin: Click, click: Click) -> None:
         """Leave it: what is pressed acts now."""
-        if self._held is None and not self._take(begin):
-            return
-        held = self._held
+        held = self._holding(begin)
         if held is None:
             return
         self._follow(held, click)
@@ -95,20 +93,30 @@ class InteractTool(Tool):
         if held.opens_menu:
             self._show_menu(held, self._point)
 
-    def _take(self, begin: Click) -> bool:
+    def _holding(self, begin: Click) -> Handle | None:
+        """Return what is held, or what is taken now; None where that may not be."""
+        if why := self.context.publish_refusal("markers"):
+            # Control was lost in the middle of a drag.
+            if self._held is not None:
+                self._leave()
+                self.context.show_status(why)
+            return None
+        if self._held is None:
+            self._take(begin)
+        return self._held
+
+    def _take(self, begin: Click) -> None:
         handle, point = self._over, self._point
         if handle is None or point is None or not handle.is_there:
-            return False
+            return
         if not handle.grab(point, begin):
             self.context.show_status(f"{handle.marker} is in another hand.")
-            return False
+            return
         self._held = handle
         if not self._tell("POSE_UPDATE", "MOUSE_DOWN"):
             self._leave()
             # Why is shown; the rest of this drag is not tried again.
             self._over = None
-            return False
-        return True
 
     def _follow(self, held: Handle, click: Click) -> bool:
         shift, ctrl = click.modifier == "shift", click.modifier == "cmd/ctrl"
@@ -151,6 +159,8 @@ class InteractTool(Tool):
         if self._menu is None:
             return
         (handle, point), self._menu = self._menu, None
+        if number not in _choices(handle.menu):
+            return
         if handle.is_there and (pose := handle.pose(point)) is not None:
             made = _feedback(handle, pose, "MENU_SELECT", number)
             self.context.tell_program([made], handle.topic)
@@ -166,6 +176,15 @@ class InteractTool(Tool):
             return False
         made = [_feedback(held, pose, event) for event in events]
         return self.context.tell_program(made, held.topic, follows=ends)
+
+
+def _choices(entries: Sequence[MenuEntry]) -> Iterator[int]:
+    """Yield the ids of what can be chosen: neither menus nor commands for a shell."""
+    for one in entries:
+        if one.entries:
+            yield from _choices(one.entries)
+        elif one.id and not one.runs:
+            yield one.id
 
 
 def _feedback(

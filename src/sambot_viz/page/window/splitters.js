@@ -22,7 +22,7 @@ export function togglePanels() {
 /** Hide the panels at first, where the program was asked to. */
 export function followFullscreen() {
   const stop = rows.listen("names/fullscreen", () => {
-    if (rows.data("names/fullscreen")) hidden.set({ ...hidden.value, all: true });
+    if (rows.data("names/fullscreen")) hidden.set({ ...hidden.value, all: true }, false);
     stop();
   });
 }

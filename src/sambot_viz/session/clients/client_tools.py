@@ -48,6 +48,9 @@ from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
 
+NOWHERE: ScreenPoint = (-1.0, -1.0)
+"""Where the mouse is before it was over the view."""
+
 
 class ClientTools:
     """Switches tools, gives them clicks and rectangles, and keeps the selection.
@@ -98,7 +101,7 @@ class ClientTools:
         self.wants_map = False
         self.selection: Selection = {}
         self.pointed: tuple[Selectable | None, int] = (None, 0)
-        self.over: tuple[ScreenPoint, bool] = ((-1.0, -1.0), False)
+        self.over: tuple[ScreenPoint, bool] = NOWHERE, False
         self.menu: tuple[int, str, Sequence[MenuEntry]] = (0, "", ())
         self._client = client
         self._change = change
@@ -492,6 +495,7 @@ class ClientTools:
             self.current.left()
             self.current = tool
             self.status, self.wants_map = "", False
+            self.over = NOWHERE, False
             self._listen()
             tool.chosen()
 
