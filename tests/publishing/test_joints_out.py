@@ -92,11 +92,16 @@ def test_the_sliders_are_published_again_and_again(
 
 
 def test_nothing_is_published_while_messages_move_the_joints(
-    peer: NavigatorPeer, opened: Callable[..., Visualizer]
+    peer: NavigatorPeer,
+    opened: Callable[..., Visualizer],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    # What the robot publishes is known before anything is sent.
+    monkeypatch.setattr(joints_out, "KNOWN_AFTER", 1e9)
     peer.offer("/tf", "tf2_msgs/msg/TFMessage")
     viz = opened(follows=True)
     eventually(lambda: session_of(viz).robot.followed.value)
+    monkeypatch.setattr(joints_out, "KNOWN_AFTER", 0.0)
     eventually(lambda: said(viz) == "")
     assert peer.came() == []
     data = session_of(viz).data

@@ -75,7 +75,7 @@ _ROWS: dict[str, _DisplayRow] = {
     "rviz_default_plugins/InteractiveMarkers": _DisplayRow(
         "data.interactive_markers.interactive_display",
         "InteractiveMarkersDisplay",
-        "Markers with handles, which a program moves; here they are shown only.",
+        "Markers with handles of a program, which are moved by hand.",
     ),
     "rviz_default_plugins/LaserScan": _DisplayRow(
         "data.cloud.laser_scan",

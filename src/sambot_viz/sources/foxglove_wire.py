@@ -11,7 +11,7 @@ import base64
 import binascii
 import json
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar, cast
@@ -242,18 +242,6 @@ class _Op(msgspec.Struct):
     op: str
 
 
-class _Advertise(msgspec.Struct):
-    channels: tuple[msgspec.Raw, ...] = ()
-
-
-class _Services(msgspec.Struct):
-    services: tuple[msgspec.Raw, ...] = ()
-
-
-class _ParameterValues(msgspec.Struct):
-    parameters: tuple[msgspec.Raw, ...] = ()
-
-
 class Advertised(msgspec.Struct):
     """Channels that are there now."""
 
@@ -288,6 +276,13 @@ _WHOLE = {
     "unadvertiseServices": ServicesUnadvertised,
     "serviceCallFailure": ServiceFailure,
 }
+_LISTS: Mapping[str, tuple[str, type[Any], Callable[[tuple[Any, ...]], TextFrame]]] = {
+    "advertise": ("channels", ServerChannel, Advertised),
+    "parameterValues": ("parameters", ParameterValue, ParameterValues),
+    "advertiseServices": ("services", OfferedService, ServicesAdvertised),
+}
+"""Frames with a list of which each entry is read by itself: its field, the entries, and
+what is made of those that make sense."""
 _T = TypeVar("_T")
 
 
@@ -314,18 +309,13 @@ def parse_text(frame: str) -> ParsedText:
     """
     try:
         op = msgspec.json.decode(frame, type=_Op).op
-        if op == "advertise":
-            raw = msgspec.json.decode(frame, type=_Advertise).channels
-            channels = _good(raw, ServerChannel)
-            return ParsedText(op, Advertised(channels), len(raw) - len(channels))
-        if op == "parameterValues":
-            raw = msgspec.json.decode(frame, type=_ParameterValues).parameters
-            values = _good(raw, ParameterValue)
-            return ParsedText(op, ParameterValues(values), len(raw) - len(values))
-        if op == "advertiseServices":
-            raw = msgspec.json.decode(frame, type=_Services).services
-            found = _good(raw, OfferedService)
-            return ParsedText(op, ServicesAdvertised(found), len(raw) - len(found))
+        if op in _LISTS:
+            field, kind, made = _LISTS[op]
+            fields = msgspec.json.decode(frame, type=dict[str, msgspec.Raw])
+            listed = fields.get(field, msgspec.Raw(b"[]"))
+            raw = msgspec.json.decode(listed, type=tuple[msgspec.Raw, ...])
+            good = _good(raw, kind)
+            return ParsedText(op, made(good), len(raw) - len(good))
         whole = _WHOLE.get(op)
         return ParsedText(op, whole and msgspec.json.decode(frame, type=whole))
     except (msgspec.MsgspecError, RecursionError) as error:

@@ -15,7 +15,7 @@ const PLACES = 20;
 /** So near to a place that was asked about a press is there, by the size of the view. */
 const NEAR = 0.003;
 /** So long a press waits to be told whether it is a drag [ms]. */
-const PATIENCE = 500;
+const PATIENCE = 3000;
 /** A finger that rests so long on a handle asks for its menu [ms]. */
 const REST = 700;
 /** A finger that moves less has not moved [px]. */
