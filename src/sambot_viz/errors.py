@@ -17,6 +17,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   └── FrameCycleError         a transform that would form a ring
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
     ├── PublishError                a message that is not sent, or that a robot refuses
+    │   ├── PublishPaceError        a message that comes too soon
     │   └── PublishFrameError       a message in a frame that nobody takes
     ├── JointError                  an unknown joint, or a value that is not finite
     ├── DecodeError                 a message, or its definition, that cannot be read

@@ -18,8 +18,14 @@ CANCEL = "/navigate_to_pose/_action/cancel_goal"
 
 
 def reply(code: int) -> bytes:
-    """A CancelGoal_Response without goals, as CDR."""
-    return b"\0\1\0\0" + code.to_bytes(1, "little") + b"\0\0\0" + bytes(4)
+    """A CancelGoal_Response with a goal for success, else without, as CDR."""
+    goals = 0 if code else 1
+    head = b"\0\1\0\0" + code.to_bytes(1, "little") + b"\0\0\0"
+    return head + goals.to_bytes(4, "little") + bytes(24 * goals)
+
+
+NONE = b"\0\1\0\0" + bytes(8)
+"""Success, of no goal."""
 
 
 @pytest.fixture
@@ -73,6 +79,7 @@ def test_a_goal_is_cancelled(
         (reply(2), "no such goal"),
         (reply(3), "has ended already"),
         (b"\0\1", "makes no sense"),
+        (NONE, "cancels no goal"),
     ],
 )
 def test_what_is_not_cancelled_says_why_and_is_on_the_way(

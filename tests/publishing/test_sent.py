@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -20,13 +21,29 @@ def sent(who: str = "a", topic: str = "/t", values: Any = (1.0, 2.0)) -> SentMes
     return SentMessage(5.0, who, topic, "std/A", "map", values)
 
 
-def test_messages_of_one_hand_on_one_topic_are_one_line() -> None:
+def found(*made: SentMessage) -> list[tuple[str, str, int]]:
+    """The lines of messages, the oldest first: who, where and how many."""
     lines = SentLines()
-    for made in (sent(), sent(values=(3.0,)), sent("b"), sent("b", "/u")):
-        lines.add(made)
-    found = [(one.who, one.topic, one.count) for one in lines.newest_first]
-    assert found == [("b", "/u", 1), ("b", "/t", 1), ("a", "/t", 2)]
-    assert lines.newest_first[-1].values == "3 [map]"
+    for one in made:
+        lines.add(one)
+    return [(one.who, one.topic, one.count) for one in reversed(lines.newest_first)]
+
+
+def test_steps_of_one_motion_are_one_line() -> None:
+    steps = [replace(sent(who), type_name="geometry_msgs/msg/Twist") for who in "aab"]
+    assert found(*steps) == [("a", "/t", 2), ("b", "/t", 1)]
+    lines = SentLines()
+    for one in (steps[0], replace(steps[1], values=(3.0,))):
+        lines.add(one)
+    assert [one.values for one in lines.newest_first] == ["3 [map]"]
+
+
+def test_each_goal_and_what_is_chosen_has_a_line() -> None:
+    assert found(sent(), sent()) == [("a", "/t", 1)] * 2
+    kind = "visualization_msgs/msg/InteractiveMarkerFeedback"
+    step = replace(sent(), type_name=kind, values={"event": "POSE_UPDATE"})
+    chosen = replace(step, values={"event": "MENU_SELECT"})
+    assert [n for *_, n in found(step, step, chosen, chosen)] == [2, 1, 1]
 
 
 def test_only_the_last_are_kept_and_long_ones_are_cut() -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -69,12 +70,9 @@ def test_a_live_topic_has_its_new_name_for_all_directions(
         source.close()
 
 
-def test_a_recording_has_new_names_too(
-    repository: Path, opened: Callable[[str], object]
-) -> None:
-    del opened
+def test_a_recording_has_new_names_too(repository: Path) -> None:
     path = repository / "assets" / "square.mcap"
     given = given_sources([str(path)], {}, {"/wheels": "/joint_states"})
-    moved_by = open_recorded(Options(), given)
-    topics = moved_by.source.topics()
-    assert "/wheels" in topics and "/joint_states" not in topics
+    with closing(open_recorded(Options(), given)) as moved_by:
+        topics = moved_by.source.topics()
+        assert "/wheels" in topics and "/joint_states" not in topics

@@ -99,6 +99,7 @@ class LiveDrivePanel(Panel):
             "client": hand.client if hand else None,
             "name": name,
             "why": driving.why if driving else "",
+            "stops": driving.stops if driving else 0,
             "protection": driver.protection if driver else "",
         }
         found = [Data("live/state", state)]

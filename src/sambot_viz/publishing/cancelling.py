@@ -36,7 +36,10 @@ def cancel_goals(
             told(answer.refusal)
         else:
             code = int(answer.content.return_code)
-            told(_REFUSALS.get(code, f"the robot answers {code}"))
+            why = _REFUSALS.get(code, f"the robot answers {code}")
+            if not code and not len(answer.content.goals_canceling):
+                why = "the robot says that it cancels no goal"
+            told(why)
 
     # An id and a time of zeros mean every goal.
     call_service(source, cancel_of(topic), CANCEL_GOAL, {}, types, answered)

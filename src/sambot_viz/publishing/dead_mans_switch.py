@@ -134,6 +134,7 @@ class DeadMansSwitch:
                 self._end(why)
             elif at_rest and not self._is_closed:
                 self._zeros = ZEROS
+                self._changed(None, why)
                 self._begin()
 
     def close(self) -> None:

@@ -24,10 +24,12 @@ class Driving:
     Attributes:
         hand: None when nobody drives.
         why: "" where the last hand has let go.
+        stops: how often it was said why.
     """
 
     hand: Hand | None = None
     why: str = ""
+    stops: int = 0
 
 
 class Driver:
@@ -184,5 +186,5 @@ class Driver:
         who_takes(outgoing, "drive")
 
     def _change(self, hand: Hand | None, why: str) -> None:
-        self.driving = Driving(hand, why)
+        self.driving = Driving(hand, why, self.driving.stops + bool(why))
         self._told()

@@ -100,6 +100,8 @@ class Goals:
 
         What becomes of it is said with the goal.
         """
+        if self.is_on_the_way:
+            self._note(Outcome("asked to cancel", False, True))
         types = self._robot.decoding.types
         for topic in tuple(self._followed) or (GOAL_TOPIC,):
             told = partial(self._tell_cancelled, topic)

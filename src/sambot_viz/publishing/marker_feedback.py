@@ -56,6 +56,16 @@ class MarkerFeedback(Outbound):
         """The position [m], the rotation as x, y, z, w, and what was done."""
         return *self.position, *self.xyzw, _EVENTS[self.event], self.menu_entry
 
+    @property
+    def told(self) -> dict[str, Any]:
+        """What was done, with which handle, and where the marker is."""
+        x, y, z = (round(value, 6) for value in self.position)
+        qx, qy, qz, qw = (round(value, 6) for value in self.xyzw)
+        said: dict[str, Any] = {"marker": self.marker, "control": self.control}
+        said |= {"event": self.event, "position": (x, y, z)}
+        said |= {"orientation": (qx, qy, qz, qw)}
+        return said | ({"entry": self.menu_entry} if self.menu_entry else {})
+
     def fields(self, stamp: object) -> dict[str, Any]:
         """Return the fields of the message, with the time of its pose."""
         del stamp

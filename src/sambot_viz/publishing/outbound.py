@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -61,6 +62,11 @@ class Outbound:
     def numbers(self) -> tuple[float, ...]:
         """Its numbers, in the order in which they are given."""
         raise NotImplementedError
+
+    @property
+    def told(self) -> Sequence[float] | dict[str, Any]:
+        """What a list of what was sent says of it."""
+        return self.numbers
 
     def without(self, prefix: str) -> Self:
         """Return it with the name of its frame as at the robot, without a prefix."""

@@ -156,14 +156,16 @@ class Publisher:
         Args:
             who: has pressed STOP.
         """
+        name = who or "Somebody"
         if self.driver is not None:
-            self.driver.stop(f"{who or 'somebody'} pressed STOP", at_rest=True)
+            self.driver.stop(f"{name} pressed STOP", at_rest=True)
         now = time.monotonic()
         if now - self._stopped < FASTEST or not self.sends_anything:
             # A page that floods fills neither the terminal nor the robot.
             return
         self._stopped = now
-        write_err(f"sambot-viz: {who or 'Somebody'}: STOP")
+        write_err(f"sambot-viz: {name}: STOP")
+        self._drive.post(lambda: self._tell_sent("", "STOP", name, "", {}))
         if self.goals is not None:
             self.goals.cancel()
 
@@ -261,7 +263,7 @@ class Publisher:
             raise
         if message.words:
             write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
-        self._tell_sent(message.type_name, topic, who, message.frame, message.numbers)
+        self._tell_sent(message.type_name, topic, who, message.frame, message.told)
         return told
 
     def send_any(self, message: AnyMessage, topic: str, who: str) -> str:

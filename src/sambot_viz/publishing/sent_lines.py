@@ -12,11 +12,13 @@ from sambot_viz.text import text
 LINES = 50
 """So many are kept."""
 _VALUES = 160
+_STREAMS = ("/Twist", "/TwistStamped", "/JointState", "/InteractiveMarkerFeedback")
+"""Messages that come again and again while a hand moves something."""
 
 
 @dataclass(frozen=True, slots=True)
 class SentLine:
-    """What somebody has sent on a topic, one message after the other.
+    """What somebody has sent on a topic, or the steps of one motion.
 
     Attributes:
         time: of the last one, since 1970 [s].
@@ -36,7 +38,7 @@ class SentLine:
 
 
 class SentLines:
-    """Keeps the last lines; messages of one hand on one topic are one line."""
+    """Keeps the last lines; steps of one motion on one topic are one line."""
 
     def __init__(self) -> None:
         self._lines: deque[SentLine] = deque(maxlen=LINES)
@@ -47,7 +49,8 @@ class SentLines:
         if self._lines:
             last = self._lines[-1]
             key = last.who, last.topic, last.type_name
-            if key == (made.who, made.topic, made.type_name):
+            is_next = key == (made.who, made.topic, made.type_name)
+            if is_next and made.type_name.endswith(_STREAMS) and not _is_meant(sent):
                 self._lines.pop()
                 made = replace(made, count=last.count + 1)
         self._lines.append(made)
@@ -56,6 +59,13 @@ class SentLines:
     def newest_first(self) -> Sequence[SentLine]:
         """The lines."""
         return [*reversed(self._lines)]
+
+
+def _is_meant(sent: SentMessage) -> bool:
+    """Whether a message was meant by itself, and is no step of a motion."""
+    values = sent.values
+    event = values.get("event") if isinstance(values, Mapping) else None
+    return event in ("MENU_SELECT", "BUTTON_CLICK")
 
 
 def _words(sent: SentMessage) -> str:

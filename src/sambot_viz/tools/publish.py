@@ -34,6 +34,8 @@ from sambot_viz.tools.tool import Click, Tool, ToolContext
 SHAFT, HEAD = (2.0, 0.2), (0.5, 0.35)
 """Length and diameter of the parts of RViz's arrow [m]."""
 GREEN = (0, 255, 0)
+FLATTEST = 0.0175
+"""Where the ground is seen at a smaller angle than this [rad] nobody means a place."""
 SHORTEST = 0.01
 """A drag that ends as near to its begin as this part of the camera's distance has no
 heading."""
@@ -256,7 +258,7 @@ class PublishPointTool(PublishTool):
 def _on_ground(click: Click) -> Array | None:
     """Return where a ray meets z = 0, (3,) [m]; None where it does not."""
     down = float(click.direction[2])
-    if abs(down) < 1e-6:
+    if abs(down) < FLATTEST:
         return None
     reach = -float(click.origin[2]) / down
     return click.origin + reach * click.direction if reach > 0.0 else None

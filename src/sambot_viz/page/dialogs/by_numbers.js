@@ -6,20 +6,21 @@ import { act, newGesture, rows, send } from "../wire/channel.js";
 import { parseNumber } from "../cells/numbers.js";
 import { useData } from "../state.js";
 import { isTyping } from "../window/keys.js";
-import { Dialog, show } from "./dialog.js";
+import { focusView } from "../view/pointer.js";
+import { Dialog, leaveFor, show } from "./dialog.js";
 
 /** The tool that is current, if it sends poses. @returns {{name: string} | undefined} */
 const poseTool = () =>
   (rows.data("tools/list") || []).find((/** @type {any} */ tool) => tool.current && tool.poses);
 
-/** What was typed last, for the next pose. */
-let last = ["0", "0", "0"];
+/** What was typed last, for the next pose of each tool. @type {Record<string, string[]>} */
+const last = {};
 
 /** @param {{close: () => void}} props */
 function ByNumbers({ close }) {
   const name = useRef(poseTool()?.name).current;
   const frame = useData("tools/frame");
-  const [typed, setTyped] = useState(last);
+  const [typed, setTyped] = useState(last[name ?? ""] || ["0", "0", "0"]);
   const gesture = useRef(newGesture()).current;
   const sent = useRef(false);
   const read = typed.map((text, n) => parseNumber(text, n === 2 ? "rad" : "m"));
@@ -37,8 +38,9 @@ function ByNumbers({ close }) {
   );
   const submit = () => {
     if (!isWhole) return;
-    last = typed;
+    last[name ?? ""] = typed;
     sent.current = true;
+    leaveFor(focusView);
     act("tools/send", values);
     close();
   };

@@ -2,6 +2,7 @@
 /* The dialogs of the page: one at a time, over everything else, closed by Esc. */
 
 import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
+import { StopRobot } from "../panels/live_drive.js";
 import { Cell, useData } from "../state.js";
 
 /** @typedef {(props: {close: () => void}) => any} Content */
@@ -88,6 +89,7 @@ export function Dialog({ title, close, submit, wide, look = "", children }) {
       <h2 id=${label}>${title}</h2>
       ${children}
     </form>
+    <${StopRobot} />
   </dialog>`;
 }
 

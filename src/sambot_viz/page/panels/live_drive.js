@@ -2,7 +2,7 @@
 /* Drives a live robot, as long as a key, a button or the stick is held. The page says so ten times
  * a second; what stops the robot when it does not is in the server (dead_mans_switch.py). */
 
-import { html, useEffect, useRef } from "../vendor/preact.js";
+import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { Tree } from "../tree/tree.js";
 import { act, CUT, rows } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
@@ -11,6 +11,8 @@ import { CutText } from "../window/cut_text.js";
 import { useData } from "../state.js";
 import { HoldButton } from "./drive.js";
 
+/** How long it is said why the robot was stopped [ms]. */
+const SAID = 10000;
 /** How often a page that drives says so [ms]. */
 const PERIOD = 100;
 /** What is held and where to: parts of the highest speed, forwards and to the left.
@@ -76,7 +78,11 @@ function key(event) {
   if (event.type === "keyup") return letGo(name);
   if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey) return;
   const { target } = event;
-  const isHere = target instanceof Element && target.closest(HERE);
+  // While the panel is shown they drive from the view too, where a click has led the keys.
+  const inView = target === document.body || (target instanceof Element && target.closest("#root"));
+  const isHere =
+    (target instanceof Element && target.closest(HERE)) ||
+    (inView && document.querySelector(".pad.live"));
   if (!isHere || isTyping(target) || rows.data("live/state")?.refusal) return;
   event.preventDefault();
   if (!event.repeat) start(name, way(name));
@@ -152,9 +158,14 @@ function Stick() {
     show(0, 0);
     letGo(STICK);
   };
+  const state = useData("live/state");
+  // What was ended is let go of: the next press begins in the middle again.
+  useEffect(() => {
+    if (!held.has(STICK)) show(0, 0);
+  }, [state]);
   return html`<div class="stick" ref=${element} title="Draw it to where the robot is to go"
     onPointerDown=${(/** @type {Press} */ e) => {
-      if (e.button !== 0) return;
+      if (e.button !== 0 || e.buttons !== 1) return;
       element.current.setPointerCapture(e.pointerId);
       draw(e);
     }}
@@ -184,7 +195,14 @@ export function LiveGoal() {
 /** Who drives the robot, or why it was stopped. */
 export function LiveDriving() {
   const state = useData("live/state");
-  if (!state || (state.client == null && !state.why)) return null;
+  const stops = state?.stops || 0;
+  const [old, setOld] = useState(stops);
+  useEffect(() => {
+    if (stops === old) return undefined;
+    const timer = setTimeout(() => setOld(stops), SAID);
+    return () => clearTimeout(timer);
+  }, [stops]);
+  if (!state || (state.client == null && (!state.why || stops === old))) return null;
   const text =
     state.client == null
       ? `The robot was stopped: ${state.why}`

@@ -5,6 +5,7 @@ import { html, useEffect, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
 import { actAtOnce, newTool } from "../view/new_tool.js";
 import { Icon } from "./icons.js";
+import { focusView } from "../view/pointer.js";
 import { useData } from "../state.js";
 import { togglePanels } from "./splitters.js";
 
@@ -65,7 +66,11 @@ function move(event) {
 function ToolButton({ tool: { name, key, help }, on }) {
   return html`<button class="tool" aria-label=${name} aria-pressed=${String(on)}
     aria-keyshortcuts=${key.toUpperCase()} title=${`${name} (${key.toUpperCase()}): ${help}`}
-    onClick=${() => actAtOnce("tools/choose", [name])}><${Icon} name=${name} /> <span class="word">${name}
+    onClick=${(/** @type {MouseEvent} */ e) => {
+      actAtOnce("tools/choose", [name]);
+      // Who came with the mouse goes on in the view; who came by keys stays in the toolbar.
+      if (e.detail) focusView();
+    }}><${Icon} name=${name} /> <span class="word">${name}
       </span></button>`;
 }
 

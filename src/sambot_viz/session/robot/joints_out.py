@@ -51,9 +51,11 @@ class JointsOut:
 
     @property
     def _is_wanted(self) -> bool:
-        robot = self._robot
-        moved = robot.joints is not None and not robot.followed.value
-        return moved and not self._publisher.refusal("joints")
+        robot, model = self._robot, self._robot.model
+        # What stands in for a robot that is still to come has no joints.
+        has_joints = robot.joints is not None and bool(robot.joints.all_positions())
+        is_free = has_joints and model is not None and not robot.followed.value
+        return is_free and not self._publisher.refusal("joints")
 
     def begin(self) -> None:
         """Begin to publish, if there is something to publish now."""
