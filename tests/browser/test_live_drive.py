@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -79,7 +80,9 @@ def test_stick_button_and_key_drive_while_they_are_held(
     eventually(peer.rests)
 
 
-@pytest.mark.parametrize("by", ["space", "button of another page", "escape", "hidden"])
+@pytest.mark.parametrize(
+    "by", ["space", "button of another page", "button in a dialog", "escape", "hidden"]
+)
 def test_what_stops_a_robot_that_is_driven(
     peer: BasePeer, viz: Visualizer, open_viewer: Open, by: str
 ) -> None:
@@ -94,8 +97,14 @@ def test_what_stops_a_robot_that_is_driven(
     elif by == "hidden":
         viewer.minimize()
     else:
+        if by == "button in a dialog":
+            other.user.click("menuitem", "Menu")
+            other.user.click("menuitem", "Keys")
+            other.user.find("dialog", re.compile("Keys"))
         other.user.click("button", "STOP")
     eventually(peer.rests)
+    if by == "button in a dialog":
+        other.user.keys("Escape")
     if by != "hidden":
         other.user.reads("pressed STOP")
     # The key that is still held drives no longer.

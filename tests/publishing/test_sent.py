@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from base_peer import BasePeer
 from inside import session_of
 from live_peers import eventually
 from navigator_peer import NavigatorPeer
@@ -96,3 +97,25 @@ def test_without_leave_there_is_no_panel(
         client = protocol(viz.viser.get_port())
         client.settle(viz.viser)
         assert not [name for name in client.rows if name.startswith("sent/")]
+
+
+def test_stop_at_rest_is_said_and_has_a_line(
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    peer = BasePeer()
+    try:
+        with opened(peer, publish="drive") as viz:
+            client = protocol(viz.viser.get_port())
+            client.settle(viz.viser)
+            client.act("live/stop")
+
+            def said() -> bool:
+                client.settle(viz.viser)
+                (line,) = client.row("sent/lines")["value"][-1:]
+                state = client.row("live/state")["value"]
+                assert (line["topic"], line["who"]) == ("STOP", "Viewer 1")
+                return bool(state["why"] == "Viewer 1 pressed STOP" and state["stops"])
+
+            eventually(said)
+    finally:
+        peer.stop()

@@ -18,10 +18,18 @@ class Hand:
     def __init__(self, viz: Visualizer, client: ProtocolClient) -> None:
         self.viz, self.client = viz, client
         client.settle(viser_server(viz))
-        client.send(
+        self.look((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 5.0))
+
+    def look(
+        self,
+        wxyz: tuple[float, float, float, float],
+        position: tuple[float, float, float],
+    ) -> None:
+        """Turn the camera, which has x to the right and z forward."""
+        self.client.send(
             "ViewerCameraMessage",
-            wxyz=(0.0, 1.0, 0.0, 0.0),
-            position=(0.0, 0.0, 5.0),
+            wxyz=wxyz,
+            position=position,
             fov=0.785,
             near=0.01,
             far=1000.0,
@@ -30,7 +38,7 @@ class Hand:
             look_at=(0.0, 0.0, 0.0),
             up_direction=(0.0, 1.0, 0.0),
         )
-        client.settle(viser_server(viz))
+        self.client.settle(viser_server(self.viz))
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Where a point of the ground is in the picture [m]."""

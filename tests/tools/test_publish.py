@@ -260,6 +260,16 @@ def test_without_a_heading_with_esc_and_beside_the_ground_nothing_is_sent(
     assert not page.draws()
     page.act("tools/drop", 0.5, 0.5, 0.7, 0.5, None)
     page.choose("2D Goal Pose")
+    # Along the ground nobody means a place, however far it is.
+    page.look((0.5, -0.5, 0.5, -0.5), (0.0, 0.0, 1.0))
+    for y in (0.4, 0.51):
+        page.drag((0.5, y), (0.6, y))
+        assert page.said.startswith("There is no ground")
+    page.drag((0.5, 0.6), (0.6, 0.6), ends=False)
+    assert page.draws()
+    page.act("tools/escape")
+    page.look((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 5.0))
+    page.choose("2D Goal Pose")
     # What is left of the last gesture is not taken for this one.
     page.drag((0.2, 0.2))
     page.client.edit("tools/drag", [7.0, float("1e300"), 0.5, 0.5, None])
