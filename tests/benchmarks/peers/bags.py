@@ -10,9 +10,11 @@ import json
 import os
 import re
 import select
+import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from large_recording import MOVING as TOPICS
@@ -96,13 +98,16 @@ def measure_program(
         stderr=subprocess.STDOUT,
         bufsize=0,
         env={**os.environ, "RERUN_ANALYTICS_ENABLED": "false"},
+        start_new_session=True,
     )
     try:
         _wait_for_address(process)
         found.add("page", time.perf_counter() - began)
         found.add("memory", _settled_memory(process.pid))
     finally:
-        process.terminate()
+        # The program is what a script in Python has started.
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGTERM)
         end(process)
 
 
