@@ -10,7 +10,7 @@ from sambot_viz.publishing.services import GET_RESULT, ServiceAnswer, call_servi
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
-_NO_WAY, _FRAMES = "there is no way", "a transform is missing or too old"
+_FRAMES = "a transform is missing or too old"
 _CODES = {
     101: "there is no such controller",
     102: _FRAMES,
@@ -26,7 +26,7 @@ _CODES = {
     205: "something is where the robot is",
     206: "something is where the goal is",
     207: "the planner takes too long",
-    208: _NO_WAY,
+    208: "there is no way",
     9001: "the behaviour tree cannot be loaded",
     9002: _FRAMES,
     9003: "it took too long",

@@ -41,11 +41,11 @@ class GoalSender:
         self._topic = topic
         self._status = status_of(topic)
         self._transforms = robot.transforms(FrameHistory())
-        self._goals = Goals(robot, self._changed_by, with_distance=False)
+        self._changed = Event()
+        self._goals = Goals(robot, self._changed.set, with_distance=False)
         self._outgoing: Outgoing | None = None
         self._outcomes: list[Outcome] = []
         self._came: deque[tuple[Callable[[Recorded], None], Recorded]] = deque()
-        self._changed = Event()
         robot.on_topics.append(self._changed.set)
         robot.on_status.append(self._changed.set)
 
@@ -121,9 +121,6 @@ class GoalSender:
 
     def _listen(self, topic: str, take: Callable[[Recorded], None]) -> None:
         self._source.subscribe(topic, partial(self._queue, take))
-
-    def _changed_by(self) -> None:
-        self._changed.set()
 
     def _queue(self, take: Callable[[Recorded], None], message: Recorded) -> None:
         self._came.append((take, message))

@@ -70,8 +70,7 @@ class Goals:
                 types, goal = self._robot.decoding.types, follower.goal
                 ask_why(self._robot.source, topic, goal, types, self._give_up)
             elif outcome is not None:
-                self._note(outcome)
-                self._tell(outcome)
+                self._pass_on(outcome)
 
         if len(self._followed) >= _TOPICS:
             self._follow_no_more(next(iter(self._followed)))
@@ -137,6 +136,10 @@ class Goals:
         return (status_of(topic), *far)
 
     def _give_up(self, why: str) -> None:
-        outcome = Outcome(f"not reached: {why}" if why else GIVEN_UP, True, False)
+        words = f"not reached: {why}" if why else GIVEN_UP
+        self._pass_on(Outcome(words, True, False))
+
+    def _pass_on(self, outcome: Outcome) -> None:
+        """Keep what the robot has said of a goal, and tell who has sent it."""
         self._note(outcome)
         self._tell(outcome)
