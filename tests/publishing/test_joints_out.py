@@ -17,6 +17,7 @@ from sambot_viz import Visualizer
 from sambot_viz.session.robot import joints_out
 
 TOPIC = "/joint_states"
+TAKEN = f"Published on {TOPIC}, which /robot_state_publisher takes"
 MODEL = """
 <robot name="a">
   <link name="base"/><link name="arm"/><link name="hand"/>
@@ -80,7 +81,8 @@ def test_the_sliders_are_published_again_and_again(
 ) -> None:
     viz = opened()
     eventually(lambda: len(peer.came()) > 2)
-    assert said(viz) == f"Published on {TOPIC}, which /robot_state_publisher takes"
+    # The peer tells its graph and its channels one after the other.
+    eventually(lambda: said(viz) == TAKEN)
     session_of(viz).robot.set_positions({"turn": 0.5})
     eventually(lambda: positions(peer.came()[-1].content) == (0.5, 1.0))
     assert {one.topic for one in peer.came()} == {TOPIC}
@@ -158,6 +160,5 @@ def test_the_panel_says_it(
 ) -> None:
     viz = opened()
     client = protocol(viz.viser.get_port())
-    eventually(lambda: said(viz).startswith("Published"))
-    client.settle(viz.viser)
-    assert client.row("joints/out")["value"] == said(viz)
+    eventually(lambda: said(viz) == TAKEN)
+    eventually(lambda: client.row("joints/out")["value"] == TAKEN)
