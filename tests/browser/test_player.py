@@ -138,6 +138,22 @@ def test_a_press_on_a_slider_that_a_recording_moves_says_what_moves_it(
     user.until(lambda: said not in alerts(user))
 
 
+def test_frames_are_drawn_at_the_time_of_a_display_that_is_chosen(
+    tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    moved = [("/tf", tenth / 10, {"base": "odom"}) for tenth in range(41)]
+    path = write_recording(tmp_path / "late.mcap", {}, moved, scans=[(1.5, 2.0)])
+    with Visualizer(path, port=0) as viz:
+        viz.player.pause()
+        viz.player.jump(2.2)
+        user = open_viewer(viz.url).user
+        user.click("button", re.compile("^Time: "))
+        user.reads("ROS Elapsed 2.20")
+        user.choose(user.find("combobox", "Synchronization"), "Exact")
+        user.reads("ROS Elapsed 1.50")
+        assert user.find("combobox", "Source").value == "LaserScan /scan"
+
+
 def test_on_a_phone_the_time_bar_is_as_wide_as_the_screen_and_its_times_cover_nothing(
     viz: Visualizer, chromium: Chromium
 ) -> None:

@@ -37,6 +37,7 @@ from sambot_viz.displays.scene.solids import Rgb
 from sambot_viz.displays.scene_size import SceneSize
 from sambot_viz.displays.topic_messages import TopicMessages
 from sambot_viz.frames import FrameTree, LookupRefused
+from sambot_viz.frames.display_time import DisplayTime
 from sambot_viz.geometry import Matrix
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import FIXED_FRAME, DisplayConfig, EntryItem, Property
@@ -170,6 +171,7 @@ class DisplayContext:
         highlighted: links of that robot that a program highlights.
         messages: those that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
+        time: when frames are drawn; None where no messages come.
         is_paced: whether the time of a frame is another one, such as that of a
             recording beside a live robot: it does not grow old.
         pictures: those that panels show beside the view.
@@ -194,6 +196,7 @@ class DisplayContext:
     highlighted: set[str] = field(default_factory=set[str])
     messages: TopicMessages | None = None
     now: Callable[[], float] | None = None
+    time: DisplayTime | None = None
     is_paced: Callable[[str], bool] = lambda frame: False
     pictures: Pictures = field(default_factory=Pictures)
     displays: Callable[[], Sequence[Display]] = tuple
@@ -278,6 +281,8 @@ class Display:
     Attributes:
         kind: the ROS 2 class id, such as "rviz_default_plugins/Grid".
         is_data: whether it draws what messages bring.
+        tells_time: whether frames can be drawn where they were at the stamps of its
+            messages.
         differs: what RViz draws otherwise, for docs/displays.md.
         properties: the declaration of everything a user can set.
         config: this display in the document: name, enabled, values.
@@ -288,6 +293,7 @@ class Display:
     kind: ClassVar[str]
     differs: ClassVar[str] = ""
     is_data: ClassVar[bool] = False
+    tells_time: ClassVar[bool] = False
     properties: ClassVar[tuple[Property, ...]]
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):

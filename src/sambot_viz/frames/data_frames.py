@@ -49,6 +49,7 @@ class DataFrames:
         self._history = tree.history
         self._left_out = frozenset[str]()
         self._known: dict[str, None] = {}
+        self._set_at: int | None = None
 
     def __contains__(self, frame: object) -> bool:
         return frame in self._known and frame not in self._left_out
@@ -86,6 +87,11 @@ class DataFrames:
         """
         self.waiting = False
         changed = self.changed()
+        at = None if self._history is None else self._history.shown_at
+        if at != self._set_at:
+            # All that moves is somewhere else at another time.
+            self._set_at = at
+            changed = {**dict.fromkeys(changed), **self._known}.keys()
         self._set(changed)
         return changed
 
@@ -131,7 +137,7 @@ class DataFrames:
         if history is None:
             return
         for child in frames:
-            sample = history.latest(child)
+            sample = history.shown(child)
             if sample is None:
                 continue
             if child in self._left_out:

@@ -62,9 +62,14 @@ class FrameHistory:
 
     Args:
         duration: how long a transform is kept after the newest of its frame [s].
+
+    Attributes:
+        shown_at: the time that is meant where none is asked for, as far as all is known
+            by then [ns]; None for the latest.
     """
 
     def __init__(self, duration: float = DURATION) -> None:
+        self.shown_at: int | None = None
         self._duration = round(duration * 1e9)
         self._samples = Samples(self._duration)
         self._static: dict[str, Sample] = {}
@@ -150,7 +155,7 @@ class FrameHistory:
         Args:
             target: the frame in which the pose is wanted.
             source: the frame whose pose is wanted.
-            time_ns: the time [ns]; None is the latest common time.
+            time_ns: the time [ns]; None is the latest common time, or `shown_at`.
             beside: frames whose latest value holds at all times.
 
         Returns:
@@ -166,6 +171,8 @@ class FrameHistory:
             return Transform.identity()
         if time_ns is None:
             time_ns = self.latest_common_time(target, source, beside) or 0
+            if self.shown_at is not None:
+                time_ns = min(time_ns, self.shown_at)
         else:
             self._require(target, source, beside)
         way = _Way(target, source, time_ns)
@@ -223,6 +230,20 @@ class FrameHistory:
         if child in self._samples:
             return self._samples.latest(child)
         return self._static.get(child)
+
+    def shown(self, child: str) -> Sample | None:
+        """Return where a frame is drawn: at `shown_at`, or at the sample next to it.
+
+        Returns:
+            None for a root and for an unknown frame.
+        """
+        latest, at = self.latest(child), self.shown_at
+        if at is None or latest is None or child not in self._samples:
+            return latest
+        found = self._samples.at(child, min(at, latest.stamp))
+        if isinstance(found, Gap):
+            found = self._samples.at(child, found.stamp)
+        return found if isinstance(found, Sample) else latest
 
     def stamps(self, child: str) -> Sequence[int]:
         """Return the stamps of the samples that are kept of a frame [ns], ascending."""

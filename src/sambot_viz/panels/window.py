@@ -28,6 +28,7 @@ from sambot_viz.panels.sent_panel import SentPanel
 from sambot_viz.panels.session_info import SessionInfoPanel, StatusBarPanel
 from sambot_viz.panels.sources.recordings_panel import OtherRecordings
 from sambot_viz.panels.sources.source_panel import SourcePanel
+from sambot_viz.panels.sources.time_panel import TimePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.scene.joint_arrow import JointArrow
@@ -101,6 +102,7 @@ class Window:
         ]
         if session.data is not None:
             panels.append(SourcePanel(session.sources, not session.private))
+            panels.append(TimePanel(session.document, scene, session.sources))
             panels.append(
                 LiveDrivePanel(
                     session.publisher,

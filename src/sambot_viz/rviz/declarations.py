@@ -14,7 +14,7 @@ from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.rviz.properties.color import ColorProperty
 from sambot_viz.rviz.properties.numbers import BoolProperty, IntProperty, VectorProperty
 from sambot_viz.rviz.properties.property import Property
-from sambot_viz.rviz.properties.texts import TfFrameProperty
+from sambot_viz.rviz.properties.texts import StringProperty, TfFrameProperty
 from sambot_viz.rviz.yaml.yaml_nodes import Map
 
 GROUP = "rviz_common/Group"
@@ -152,6 +152,27 @@ GLOBAL_OPTIONS: tuple[Property, ...] = (
         help="The light at the camera; RViz for ROS 2 always has it.",
     ),
 )
+
+TIME: tuple[Property, ...] = (
+    BoolProperty(
+        "Experimental",
+        default=False,
+        help="Whether RViz shows its controls of synchronization, and they act.",
+    ),
+    IntProperty(
+        "SyncMode",
+        default=0,
+        minimum=0,
+        maximum=2,
+        help="When frames are drawn: now with 0, at the stamp of the source's last "
+        "message with 1, as long ago as its messages take to come with 2.",
+    ),
+    StringProperty(
+        "SyncSource",
+        help="The name of the display by whose messages frames are drawn.",
+    ),
+)
+"""Of RViz's Time panel."""
 
 Classes: TypeAlias = Mapping[str, Sequence[Property]]
 """ROS 2 class id, such as "rviz_default_plugins/Grid", → its properties."""

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 
 from sambot_viz.errors import Problem
 from sambot_viz.rviz.class_items import DisplayConfig, GlobalOptions, ToolConfig
-from sambot_viz.rviz.declarations import Declarations, kind_of, short_name
+from sambot_viz.rviz.declarations import TIME, Declarations, kind_of, short_name
 from sambot_viz.rviz.display_list import DisplayList
 from sambot_viz.rviz.item import ConfigItem
+from sambot_viz.rviz.undo_log import FinishChange, note
 from sambot_viz.rviz.view_list import ViewList
 from sambot_viz.rviz.visualization_manager import MANAGER
 from sambot_viz.rviz.yaml.yaml_document import ConfigFindings, Document
@@ -25,7 +26,8 @@ from sambot_viz.rviz.yaml.yaml_nodes import (
 )
 
 _PANELS, _TREE, _EXPANDED = "Panels", "Property Tree Widget", "Expanded"
-_PANEL_CLASS = "Displays"
+_DISPLAYS, _TIME = "Displays", "Time"
+"""Classes of panels."""
 
 
 class RvizConfig(DisplayList, ViewList):
@@ -37,6 +39,7 @@ class RvizConfig(DisplayList, ViewList):
     Attributes:
         global_options: Fixed Frame, Background Color, Frame Rate.
         tools: the tools of the toolbar.
+        time: what RViz's Time panel says of synchronization.
         fits_robot: whether its sizes are to be those of the robot that is shown,
             because it is no user's; it is not saved.
         fits_frames: the same where frames are shown that have no robot.
@@ -66,6 +69,8 @@ class RvizConfig(DisplayList, ViewList):
             ToolConfig(node, declarations.tools.get(_kind(node)), self._findings)
             for _, node in items_of(self._manager.get("Tools"))
         )
+        time = self._panel(_TIME) or self._new_panel(_TIME)
+        self.time = ConfigItem(time, TIME, self._findings)
 
     @classmethod
     def load(
@@ -116,7 +121,7 @@ class RvizConfig(DisplayList, ViewList):
 
     @property
     def panels(self) -> Plain:
-        """RViz's panels as text; kept, and only `expanded` is used."""
+        """RViz's panels as text; kept, and only `expanded` and `time` are used."""
         return plain(self._document.root.get(_PANELS))
 
     @property
@@ -125,7 +130,7 @@ class RvizConfig(DisplayList, ViewList):
 
         None when the file does not say which.
         """
-        panel = self._displays_panel()
+        panel = self._panel(_DISPLAYS)
         tree = panel.get(_TREE) if panel is not None else None
         if not isinstance(tree, Map) or tree.entry(_EXPANDED) is None:
             return None
@@ -136,13 +141,10 @@ class RvizConfig(DisplayList, ViewList):
     @expanded.setter
     def expanded(self, paths: Iterable[str]) -> None:
         """Write which rows are unfolded, with the panel that RViz writes it in."""
-        panel = self._displays_panel()
+        panel = self._panel(_DISPLAYS)
         if panel is None:
-            panel = Map()
-            panel.put("Class", Scalar(f"{self._panel_package()}/{_PANEL_CLASS}"))
-            panel.put("Name", Scalar(_PANEL_CLASS))
-            panels = self._document.root.made(_PANELS, List)
-            panels.entries.append(Entry(None, panel))
+            panel = self._new_panel(_DISPLAYS)
+            _NewPanel(self._document.root, panel).put()
         tree = panel.get(_TREE)
         if not isinstance(tree, Map):
             tree = Map()
@@ -150,14 +152,31 @@ class RvizConfig(DisplayList, ViewList):
             panel.put(_TREE, tree)
         tree.put(_EXPANDED, List([Entry(None, Scalar(path)) for path in paths]))
 
-    def _displays_panel(self) -> Map | None:
+    def _panel(self, name: str) -> Map | None:
+        """Return RViz's panel of a class; None where the file has none."""
         for _, panel in items_of(self._document.root.get(_PANELS)):
-            if short_name(panel.text("Class") or "") == _PANEL_CLASS:
+            if short_name(panel.text("Class") or "") == name:
                 return panel
         return None
 
-    def _panel_package(self) -> str:
-        return "rviz" if self.ros1 else "rviz_common"
+    def _new_panel(self, name: str) -> Map:
+        package = "rviz" if self.ros1 else "rviz_common"
+        panel = Map()
+        panel.put("Class", Scalar(f"{package}/{name}"))
+        panel.put("Name", Scalar(name))
+        return panel
+
+    def set_time(self, path: str, value: object) -> None:
+        """Set a property of the Time panel, which is written if the file has none.
+
+        Raises:
+            UsageError: there is no such property, or the value cannot be meant.
+        """
+        if self._panel(_TIME) is None:
+            panel = _NewPanel(self._document.root, self.time.node)
+            note(panel, _TIME)
+            panel.put()
+        self.time.set(path, value)
 
     @property
     def raw(self) -> Plain:
@@ -185,6 +204,34 @@ class RvizConfig(DisplayList, ViewList):
             ConfigError: it cannot be written; an old file is untouched.
         """
         self._document.save(path)
+
+
+class _NewPanel:
+    """A panel that a file has not had, and that an undo takes out of it again.
+
+    Args:
+        root: the map of the document.
+        panel: of RViz.
+    """
+
+    def __init__(self, root: Map, panel: Map) -> None:
+        self._root = root
+        self._entry = Entry(None, panel)
+        self._is_first = root.entry(_PANELS) is None
+
+    def put(self) -> None:
+        """Write it after the other panels."""
+        self._root.made(_PANELS, List).entries.append(self._entry)
+
+    def begin_change(self, path: str) -> FinishChange:
+        """Keep that it is not there."""
+        del path
+        return lambda: (self._remove, self.put)
+
+    def _remove(self) -> None:
+        self._root.made(_PANELS, List).entries.remove(self._entry)
+        if self._is_first:
+            self._root.remove(_PANELS)
 
 
 def _report_duplicates(node: Collection, findings: ConfigFindings) -> None:

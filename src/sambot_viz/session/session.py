@@ -175,6 +175,8 @@ class Session:
         self._open, self._closed = threading.Semaphore(), False
         connect([document.options, document.replaced], self._take_period)
         self._take_period()
+        connect([document.time, self.sources.replaced], self._synchronize)
+        self._synchronize()
         for frame in options.transforms:
             self.frames.add(frame.parent, frame.child, frame.transform)
 
@@ -390,6 +392,10 @@ class Session:
     def _name_of(self, client_id: int) -> str:
         person = self.roles.people.get(client_id)
         return "" if person is None else person.name
+
+    def _synchronize(self) -> None:
+        if self.data is not None:
+            self.data.synchronize(*self.document.synchronization)
 
     def _take_period(self) -> None:
         self.robot.set_period(self.document.period)

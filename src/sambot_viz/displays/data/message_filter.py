@@ -50,6 +50,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
         kept: what was read of those that are shown, the newest last.
     """
 
+    tells_time = True
     length: ClassVar[str] = ""
     """The property that says how many messages are shown; the newest alone without."""
 
@@ -218,6 +219,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
                 T_fixed_frame = self.place(one.message)
                 self.say_placed()
                 self.process(one.message, T_fixed_frame, one.recorded)
+                self.tell_time(one.message)
                 self.nothing = content_reason(one.message)
         except LookupRefused as refused:
             one.refused = refused

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from sambot_viz import limits
 from sambot_viz.displays.data.display_node import nodes_of
@@ -22,6 +22,7 @@ from sambot_viz.displays.topic_messages import (
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.rviz import FILTER_SIZE, QOS_PROPERTIES, DisplayConfig, TopicProperty
 from sambot_viz.text import capitalized
+from sambot_viz.topics.decoding import frame_and_stamp
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.subscription import Subscription
 
@@ -151,6 +152,14 @@ class TopicDisplay(Display):
     def other_topics(self) -> Sequence[str]:
         """Return what it listens to beside its topic."""
         return ()
+
+    def tell_time(self, message: Any) -> None:
+        """Say of which time a message is that is drawn, to those that wait for it."""
+        time = self.context.time
+        if time is not None and self.tells_time:
+            _, stamp_ns = frame_and_stamp(message)
+            if stamp_ns is not None:
+                time.told(self.config.name, stamp_ns)
 
     # What the others call
 

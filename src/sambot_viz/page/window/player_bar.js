@@ -244,6 +244,21 @@ const OPENED = Date.now() / 1000;
 /** The time of a live robot when the page first had it, or that of a reset before it [s]. */
 let firstRos = Infinity;
 
+/** A setting with a few values to choose from. @param {{row: any}} props */
+const Choice = ({ row }) => html`<label>${row.name} <select class="needs-control" title=${row.help}
+  value=${row.value} onChange=${(/** @type {any} */ event) => send(row.id, event.currentTarget.value)}>
+  ${[...new Set([row.value, ...row.options])].map(
+    (one) => html`<option value=${one} selected=${one === row.value}>${one || "none"}</option>`,
+  )}</select></label>`;
+
+/** At which display's times frames are drawn, as RViz's Time panel sets it. */
+function Synchronization() {
+  const [mode, source] = [useRow("time/mode"), useRow("time/source")];
+  if (!mode || !source) return null;
+  return html`<div class="synchronization"><${Choice} row=${mode} />
+    ${mode.value !== "Off" && html`<${Choice} row=${source} />`}</div>`;
+}
+
 /** What RViz's Time panel shows: seconds since 1970 and since the first of them, of the messages
  * and of the wall. @param {number} ros @param {number} wall
  * @param {number} first the begin of a recording, so that what elapsed is the time of the player
@@ -281,15 +296,17 @@ function GoTo({ begin, most, close }) {
 
 /** @param {{ros: () => number, first: () => number}} props */
 function Times({ ros, first }) {
+  // Where frames are drawn at another time than the latest, that is RViz's ROS time.
+  const behind = useData("time/behind") || 0;
   const [, again] = useReducer((/** @type {number} */ n) => n + 1, 0);
   useEffect(() => {
     const timer = setInterval(() => again(0), 100);
     return () => clearInterval(timer);
   }, []);
-  return html`<table class="times">${times(ros(), Date.now() / 1000, first()).map(
+  return html`<table class="times">${times(ros() - behind, Date.now() / 1000, first()).map(
     ([name, seconds]) =>
       html`<tr key=${name}><th scope="row">${name}</th><td>${seconds} s</td></tr>`,
-  )}</table>`;
+  )}</table><${Synchronization} />`;
 }
 
 /** Whose messages the steps go to. A recording may have hundreds of topics, and each choice is seven

@@ -8,6 +8,7 @@ from functools import partial
 
 from sambot_viz.errors import Problem
 from sambot_viz.frames.data_frames import DataFrames
+from sambot_viz.frames.display_time import DisplayTime, SyncMode
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.frames.history import FrameHistory
 from sambot_viz.frames.samples import Sample
@@ -66,6 +67,7 @@ class RobotData:
         messages: those that displays draw.
         status: told when a live source is doing otherwise.
         clock: the time of a live robot.
+        time: when frames are drawn.
         doubt: what is wrong with that time.
     """
 
@@ -109,6 +111,8 @@ class RobotData:
             worker, self._look_back, self._take, partial(self._draw, False)
         )
         self.clock = LiveClock(source, change)
+        self.time = DisplayTime(history, source.clock_ns)
+        self._history = history
         self._feed = Feed(source, self.player)
         placement = Placement(moved_by, self.transforms)
         messages = self.messages = DisplayTopics(
@@ -223,6 +227,12 @@ class RobotData:
         if self.player is not None:
             self.player.resume()
 
+    def synchronize(self, mode: int, source: str) -> None:
+        """Draw frames by the times of a display's messages; see `DisplayTime`."""
+        with self._change():
+            self.time.synchronize(SyncMode(mode), source)
+            self._draw_at_time()
+
     def follow(self, follow: bool) -> None:
         """Let the messages move the joints, or users; frames such as odom move on."""
         self._robot.set_followed(self.name if follow else "")
@@ -314,6 +324,10 @@ class RobotData:
             self._tell_problems()
         is_renamed, self._named = self._is_named_otherwise, self._names
         jumped = jumped or is_renamed
+        if jumped:
+            self.time.forget()
+        self.time.step()
+        at_ns = self._history.shown_at
         self._note_joints(jumped)
         self._frames.waiting = True
         # One picture is one change.
@@ -325,7 +339,13 @@ class RobotData:
             else:
                 self._robot.draw_moved()
             self._robot.messages_came()
+            if self._history.shown_at != at_ns:
+                self._draw_at_time()
         self._look_at_time(jumped)
+
+    def _draw_at_time(self) -> None:
+        self._frames.waiting = True
+        self._robot.draw_moved()
 
     @property
     def _names(self) -> tuple[int, str | None]:

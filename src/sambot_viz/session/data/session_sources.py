@@ -91,7 +91,7 @@ class SessionSources:
             self.problems,
         )
         context.now, context.is_paced = data.time_s, data.is_paced
-        context.messages = data.messages
+        context.messages, context.time = data.messages, data.time
         redraw: Callable[[], None] = lambda: context.apply(scene.redraw)  # noqa: E731
         topics = data.topics
         self._descriptions = SourceDescriptions(

@@ -27,6 +27,7 @@ class ShownDocument:
         displays: which displays there are, in which order, and their values.
         values: numbers and colours of displays, on which nothing else depends.
         tools: the settings of tools.
+        time: which display's messages say when frames are drawn.
         views: the saved views.
         file: the file of the document; None when it was never in one.
         period: shortest time between two pictures of a stream [s].
@@ -42,6 +43,7 @@ class ShownDocument:
         self.values = Signal(change, None)
         self.tools = Signal(change, None)
         self.views = Signal(change, None)
+        self.time = Signal(change, None)
         self.file = Signal(change, config.file)
         self._scene = scene
         self._history = history
@@ -65,7 +67,8 @@ class ShownDocument:
             trusted: False when a client has chosen or written its file: the models
                 that it names are then read as those that a client names.
         """
-        with self._change(self.replaced, self.options, self.views, self.tools):
+        told = (self.replaced, self.options, self.views, self.tools, self.time)
+        with self._change(*told):
             self._history.clear()
             self._take(config, trusted)
             context = self._scene.context
@@ -79,9 +82,12 @@ class ShownDocument:
         Raises:
             UsageError: an unknown option, or a value that it cannot have.
         """
-        label = f"Global Options: {name}"
-        with self._history.setting(label, self._apply_options, merge=("option", name)):
-            self._apply_options(lambda: self.config.global_options.set(name, value))
+        self._set(
+            f"Global Options: {name}",
+            self._apply_options,
+            lambda: self.config.global_options.set(name, value),
+            ("option", name),
+        )
 
     def set_tool_property(self, kind: str, path: str, value: Any) -> None:
         """Set a property of a tool that the document lists, for all clients.
@@ -94,13 +100,57 @@ class ShownDocument:
         if config is None:
             raise UsageError(f"the config has no tool '{kind}'")
 
+        self._set(
+            f"{short_name(kind)}: {path}",
+            self._telling(self.tools),
+            lambda: config.set(path, value),
+            ("tool", kind, path),
+        )
+
+    def synchronize(self, mode: int, source: str) -> None:
+        """Draw frames where they were at the times of a display's messages.
+
+        Args:
+            mode: RViz's SyncMode: 0 off, 1 exact, 2 approximate.
+            source: the name of the display.
+
+        Raises:
+            UsageError: there is no such mode.
+        """
+
+        def set_all() -> None:
+            set_time = self.config.set_time
+            set_time("SyncMode", mode)
+            set_time("SyncSource", source)
+            if mode:
+                # RViz takes no notice of the others without it.
+                set_time("Experimental", True)
+
+        self._set("Synchronization", self._telling(self.time), set_all, ("time",))
+
+    @property
+    def synchronization(self) -> tuple[int, str]:
+        """RViz's SyncMode as it acts, and the name of its display."""
+        get = self.config.time.get
+        return int(get("SyncMode")) * bool(get("Experimental")), str(get("SyncSource"))
+
+    def _set(
+        self,
+        label: str,
+        apply: Callable[[Callable[[], object]], None],
+        action: Callable[[], object],
+        merge: tuple[str, ...],
+    ) -> None:
+        """Set something in the document, as an edit that can be undone."""
+        with self._history.setting(label, apply, merge=merge):
+            apply(action)
+
+    def _telling(self, signal: Signal[None]) -> Callable[[Callable[[], object]], None]:
         def apply(action: Callable[[], object]) -> None:
-            with self._change(self.tools):
+            with self._change(signal):
                 action()
 
-        label = f"{short_name(kind)}: {path}"
-        with self._history.setting(label, apply, merge=("tool", kind, path)):
-            apply(lambda: config.set(path, value))
+        return apply
 
     def save(self, file: Path) -> None:
         """Write the document into a file, which is its own from then on.

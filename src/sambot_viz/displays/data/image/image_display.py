@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 from sambot_viz import limits
@@ -23,6 +24,7 @@ from sambot_viz.displays.data.image.transports import (
 from sambot_viz.displays.data.refused_messages import MessageRefused, refusing
 from sambot_viz.displays.data.topic_display import TopicDisplay, topic_property
 from sambot_viz.displays.display import DisplayContext
+from sambot_viz.errors import DecodeError
 from sambot_viz.meanings import Meaning
 from sambot_viz.rviz import (
     BoolProperty,
@@ -48,6 +50,7 @@ class ImageDisplay(TopicDisplay):
         "it; nor has RViz's File > Save Image, unless it saves the whole window."
     )
     meanings = frozenset({Meaning.IMAGE, Meaning.IMAGE_FILE})
+    tells_time = True
     properties = (
         topic_property(is_filtered=False, ros1=ROS1_TOPIC),
         hint_property(),
@@ -113,6 +116,10 @@ class ImageDisplay(TopicDisplay):
             return
         if came := self.subscription.drain():
             self._newest = came[-1]
+            time = self.context.time
+            if time is not None and time.is_told_by(self.config.name):
+                with suppress(DecodeError):
+                    self.tell_time(self.subscription.decode(came[-1]))
         self.redraw()
 
     def forget(self) -> None:

@@ -267,6 +267,7 @@ class MarkerArrayDisplay(MarkerDisplay):
 
     kind = "rviz_default_plugins/MarkerArray"
     meanings = frozenset({Meaning.MARKERS})
+    tells_time = False
     properties = (
         topic_property(
             is_filtered=False, default="visualization_marker_array", ros1=ROS1_TOPIC
