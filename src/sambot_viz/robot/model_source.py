@@ -206,7 +206,7 @@ def _models_in(folder: Path) -> str:
 
 def _nearest(path: Path) -> str:
     try:
-        names = os.listdir(path.parent)
+        names = sorted(os.listdir(path.parent))
     except OSError:
         return f"the folder {path.parent} does not exist either"
     models = [n for n in names if n.endswith((".urdf", ".xacro", ".xml", ".sdf"))]

@@ -190,6 +190,24 @@ def test_a_library_names_its_macros_and_the_file_that_includes_it(tmp_path: Path
     assert problem.hint == "open a file that includes it: robot.xacro"
 
 
+def test_the_files_that_include_one_are_named_in_the_order_of_their_names(
+    tmp_path: Path,
+):
+    part = tmp_path / "part.xacro"
+    part.write_text('<robot xmlns:xacro="http://ros.org/wiki/xacro"/>')
+    for name in ("e", "b", "d", "c"):
+        (tmp_path / f"{name}.xacro").write_text(
+            '<xacro:include filename="part.xacro"/>'
+        )
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "a.xacro").write_text('<xacro:include filename="part.xacro"/>')
+
+    with pytest.raises(RobotError) as caught:
+        load_robot(part)
+    hint = caught.value.problems[0].hint
+    assert hint == "open a file that includes it: b.xacro, c.xacro, d.xacro"
+
+
 def test_broken_xml_in_an_included_file_is_explained_in_that_file(tmp_path: Path):
     part = tmp_path / "part.xacro"
     part.write_text('<robot>\n<link name="a">\n</robot>\n')

@@ -7,6 +7,7 @@ the output, where they mean nothing.
 from __future__ import annotations
 
 import dataclasses
+import os
 import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
@@ -16,6 +17,8 @@ from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.xml.element import Element
+
+_ENDINGS = (".xacro", ".urdf", ".sdf")
 
 
 def explain_without_links(
@@ -71,12 +74,17 @@ def _includers(path: Path) -> Iterator[str]:
         r"<xacro:include\b[^>]*[/\"']" + re.escape(path.name) + r"[\"']"
     )
     root = PackageIndex(path.absolute().parent).own_roots()[-1]
-    files = (
-        file for file in root.rglob("*") if file.suffix in (".xacro", ".urdf", ".sdf")
-    )
+    files = (file for file in _files(root) if file.suffix in _ENDINGS)
     for file in islice(files, limits.XACRO_NEIGHBOURS.value):
         if file.name != path.name and pattern.search(_text(file)):
             yield str(file.relative_to(root))
+
+
+def _files(root: Path) -> Iterator[Path]:
+    """Yield the files of a folder, in the same order on every file system."""
+    for folder, inner, names in os.walk(root):
+        inner.sort()
+        yield from (Path(folder, name) for name in sorted(names))
 
 
 def _text(file: Path) -> str:
