@@ -1,40 +1,23 @@
 """Real robots: each ends as the collection's index expects, none crashes or hangs."""
 
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import pytest
-import yaml
+from real_robots import RealRobot, real_robots
 
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import load_robot
-
-ARGUMENTS = {
-    "vehicle_model": "sample_vehicle",
-    "sensor_model": "sample_sensor_kit",
-    "DEBUG": "false",
-    "namespace": "",
-    "enable_mavlink_interface": "false",
-    "enable_ground_truth": "false",
-    "enable_logging": "false",
-    "enable_cameras": "false",
-    "enable_depth": "false",
-}
-
 
 # The index has what xacro says; the nodes of ROS read this finished URDF without it.
 DRAWN_BY_ROS = ("ros2__urdf/urdf/test/pr2_desc.urdf",)
 
 
-def ending(folder: Path, entry: Mapping[str, Any]) -> str:
+def ending(folder: Path, real: RealRobot) -> str:
     """How a robot of the collection ended, or "" when that is as expected."""
-    expected: str = entry["expected"]
-    wanted = expected.partition(" with args ")[2].split("|")
-    arguments = {name: ARGUMENTS[name] for name in wanted if name in ARGUMENTS}
+    expected = real.expected
     try:
-        robot = load_robot(folder / entry["path"], xacro_args=arguments)
+        robot = load_robot(folder / real.path, xacro_args=real.arguments)
     except RobotError as error:
         if not expected.startswith("render"):
             reported = all(p.file and p.hint for p in error.problems)
@@ -42,7 +25,7 @@ def ending(folder: Path, entry: Mapping[str, Any]) -> str:
         return f"refused: {error}"
     errors = [str(p) for p in robot.problems if p.severity == "error"]
     if expected.startswith("clear"):
-        return "" if entry["path"] in DRAWN_BY_ROS else "drawn"
+        return "" if real.path in DRAWN_BY_ROS else "drawn"
     if expected == "render" and errors:
         return f"drawn with errors: {errors}"
     return ""
@@ -50,12 +33,11 @@ def ending(folder: Path, entry: Mapping[str, Any]) -> str:
 
 def test_every_real_robot_ends_as_expected(shared: Path):
     folder = shared / "data" / "robots"
-    index = yaml.safe_load((folder / "index.yaml").read_text("utf-8"))
-    entries: list[dict[str, Any]] = index["robots"]
+    robots = real_robots(folder)
     with ThreadPoolExecutor(4) as pool:
-        endings = list(pool.map(lambda entry: ending(folder, entry), entries))
+        endings = list(pool.map(lambda robot: ending(folder, robot), robots))
     assert len(endings) > 100
-    odd = {e["path"]: end for e, end in zip(entries, endings, strict=True) if end}
+    odd = {each.path: end for each, end in zip(robots, endings, strict=True) if end}
     assert odd == {}
 
 
