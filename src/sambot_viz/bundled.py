@@ -152,7 +152,7 @@ def find(model: Path | None, config: Path | None = None) -> Found:
     if not model.is_dir():
         return Found(model, config)
     found = _model_in(model)
-    return Found(found, config or _config_in(model))
+    return Found(found, config or config_in(model))
 
 
 def _model_in(folder: Path) -> Path:
@@ -161,16 +161,27 @@ def _model_in(folder: Path) -> Path:
     chosen = choose_model(folder, models)
     if chosen is not None:
         return chosen
+    raise UsageError(no_model_chosen(folder, models, walk))
+
+
+def no_model_chosen(folder: Path, models: Sequence[Path], walk: ModelWalk) -> str:
+    """Say why no model of a folder is the one that is meant.
+
+    Args:
+        folder: was searched.
+        models: those in it.
+        walk: has searched it.
+    """
     if not models:
         endings = ", ".join(f"*{ending}" for ending in MODEL_ENDINGS)
         meant = _recordings_below(folder) or "give the model file itself"
         found = f"no {endings} in it has a link"
         if walk.left_out:
             found = f"no {endings} that was found has a link, and {walk.left_out}"
-        raise UsageError(f"no model in the folder '{folder}': {found}; {meant}")
+        return f"no model in the folder '{folder}': {found}; {meant}"
     names = ", ".join(str(path.relative_to(folder)) for path in models[:8])
     more = f" and {len(models) - 8} more" if len(models) > 8 else ""
-    raise UsageError(
+    return (
         f"several models in the folder '{folder}' ({names}{more}); give the one to show"
     )
 
@@ -185,7 +196,8 @@ def _recordings_below(folder: Path) -> str:
     return f"there are recordings in its folders {names}{more}; give one of them"
 
 
-def _config_in(folder: Path) -> Path | None:
+def config_in(folder: Path) -> Path | None:
+    """Return the .rviz file that belongs to the model of a package, or None."""
     for name in _CONFIG_FOLDERS:
         files = _files(folder / name, (_CONFIG_ENDING,))
         for path in files:

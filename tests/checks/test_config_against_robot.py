@@ -6,11 +6,6 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks.config_against_robot import check_config
-from sambot_viz.checks.launch_files import (
-    check_launch_file,
-    check_package,
-    check_setup_py,
-)
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.rviz import Declarations, RvizConfig
@@ -149,62 +144,3 @@ def test_the_bad_configs_of_the_collection_are_explained(
     assert problem.line is not None
     assert abs(problem.line - line) <= 1
     assert word in problem.message
-
-
-def test_a_launch_file_in_which_no_node_publishes_joints_is_explained(
-    shared: Path, robot: Robot
-) -> None:
-    folder = shared / "data" / "bad-models" / "launch"
-
-    (problem,) = check_launch_file(
-        folder / "gui-true-but-no-gui-node.launch.py", "mini_bot", robot
-    )
-
-    assert problem.severity == "warning"
-    assert problem.line == 20
-    assert "wheel_joint stays without a transform" in problem.message
-
-
-def test_a_launch_file_with_the_gui_node_is_fine(shared: Path, tmp_path: Path) -> None:
-    bad = (
-        shared / "data" / "bad-models" / "launch" / "gui-true-but-no-gui-node.launch.py"
-    )
-    good = tmp_path / "good.launch.py"
-    added = (
-        "Node(executable='joint_state_publisher_gui'),\n        Node(package='rviz2'"
-    )
-    good.write_text(bad.read_text().replace("Node(package='rviz2'", added))
-
-    assert check_launch_file(good) == []
-
-
-def test_a_launch_file_that_asks_for_a_nearly_right_package_is_explained(
-    shared: Path,
-) -> None:
-    file = shared / "data" / "bad-models" / "launch" / "package-not-found.launch.py"
-
-    (problem,) = check_launch_file(file, "mbot_pkg")
-
-    assert problem.severity == "error"
-    assert problem.line == 8
-    assert problem.hint == "write mbot_pkg"
-    assert check_launch_file(file, "turtlebot3_gazebo") == []
-
-
-def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:
-    folder = shared / "data" / "bad-models" / "launch" / "setup-py-name-mismatch"
-
-    (problem,) = check_setup_py(folder / "setup.py")
-
-    assert problem.severity == "error"
-    assert problem.line == 3
-    assert "mbot_code" in problem.message
-    assert check_package(folder) == [problem]
-
-
-def test_a_launch_file_that_is_not_python_has_no_problems(tmp_path: Path) -> None:
-    file = tmp_path / "x.launch.py"
-    file.write_text("def (")
-
-    assert check_launch_file(file, "x") == []
-    assert check_setup_py(tmp_path / "setup.py") == []

@@ -34,7 +34,8 @@ from real_robots import real_robots
 from xacro_memory import XacroMemory
 
 from sambot_viz import bundled
-from sambot_viz.checks import check, check_folder
+from sambot_viz.checks import check
+from sambot_viz.checks.checked import check_all
 from sambot_viz.checks.mesh_files import MeshFiles
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.robot.packages.package_model import MODEL_ENDINGS
@@ -130,7 +131,7 @@ def _alone() -> Iterator[None]:
     with ExitStack() as stack:
         stack.enter_context(patch.dict(os.environ, environment, clear=True))
         patient = partial(MeshFiles, longest=math.inf)
-        stack.enter_context(patch("sambot_viz.checks.MeshFiles", patient))
+        stack.enter_context(patch("sambot_viz.checks.model_rules.MeshFiles", patient))
         yield
 
 
@@ -161,10 +162,7 @@ def _without_folder(text: str, folder: Path | None) -> str:
 
 def _check(path: Path, arguments: Mapping[str, str] | None = None) -> list[Problem]:
     """Check a model or a folder as the command does."""
-    if not path.is_dir():
-        return check(path, xacro_args=arguments)
-    found = bundled.find(path)
-    return check_folder(path, found.model, found.config)
+    return list(check_all(path, xacro_args=arguments).problems)
 
 
 def _input(path: Path, folder: Path, **options: Any) -> Input:

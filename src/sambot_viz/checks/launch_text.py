@@ -2,7 +2,7 @@
 
 A launch file that passes Command([…]) straight as robot_description has the whole text
 read as YAML. xacro keeps comments, so a harmless "TODO: …" is enough to stop it. The
-rule says nothing unless the model's package has such a launch file.
+rule says nothing unless a launch file of the robot does so.
 """
 
 from __future__ import annotations
@@ -12,16 +12,14 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from sambot_viz.checks.launch_files import call_name, calls_in, launch_files
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Place, Problem
-from sambot_viz.robot.packages.package_index import package_name
 
 _DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
 _MODEL_FILE = re.compile(r"[\w.-]+\.(?:urdf|xacro)\b(?!\.)")
 _BETWEEN_TAGS = re.compile(r">\s+<")
-_MOST_FOLDERS_UP = 4
 _SHORTEST_WORDS = 4
 
 
@@ -34,7 +32,7 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
     if trap is None or not subject.files:
         return
     model = Path(subject.files[0])
-    launch = next(_bare_launch_files(model.absolute().parent, model.name), None)
+    launch = next(_bare_launch_files(subject, model), None)
     if launch is None or _is_text_in_yaml(model_text):
         return
     text = _text_around(model_text, trap.start())
@@ -42,43 +40,46 @@ def launch_text_as_yaml(subject: Subject) -> Iterator[Problem]:
         _place(subject.files, text) or str(model),
         "warning",
         "launch-text-as-yaml",
-        f"the model is fine, but {launch[0].name} line {launch[1]} passes its text to "
+        f"the model is fine, but {launch[0]} line {launch[1]} passes its text to "
         'robot_state_publisher as YAML, where a ": ", a " #" or a tab at the start of '
         f"a line is an error: “{text[:60]}”; nothing starts",
         "in the launch file write ParameterValue(Command([…]), value_type=str)",
     )
 
 
-def _bare_launch_files(folder: Path, model: str) -> Iterator[tuple[Path, int]]:
-    """Launch files of the model's package with a bare Command, and the line of it.
+def _bare_launch_files(subject: Subject, model: Path) -> Iterator[tuple[str, int]]:
+    """Give launch files with a bare Command, by name, and the line of it.
 
-    The package is the nearest folder with a package.xml; without one, the folder of
-    the model and the folder above it are searched. A Command that names other models
-    is left out.
+    Without a package, those beside the model and beside the folder of the model count.
+    A Command that names other models is left out.
     """
-    above = [folder, *folder.parents][: _MOST_FOLDERS_UP + 1]
-    package = next((n for n, f in enumerate(above) if package_name(f)), 1)
-    for root in above[: package + 1]:
-        for file in launch_files(root):
-            for line in bare_commands(file, model):
-                yield file, line
+    from sambot_viz.checks.around.workspace import Package
+
+    above = model.absolute().parents[:2]
+    trusted = subject.robot.file_roots is None
+    packages = subject.packages or tuple(
+        Package(folder / "launch", "", False, trusted, set()) for folder in above
+    )
+    for package in packages:
+        for launch in package.launches:
+            for line in bare_commands(launch.tree, model.name):
+                yield launch.path.rpartition("/")[2], line
 
 
-def bare_commands(launch_file: Path, model: str) -> list[int]:
+def bare_commands(tree: ast.Module, model: str) -> list[int]:
     """Lines where robot_description is a Command without a ParameterValue around it.
 
     Args:
-        launch_file: the file.
+        tree: the launch file.
         model: the name of the model's file; a Command that names others is left out.
     """
-    tree, _ = calls_in(launch_file)
     values: dict[str, ast.expr] = {}
     found: list[ast.expr] = []
-    for node in ast.walk(tree) if tree is not None else ():
+    for node in ast.walk(tree):
         if isinstance(node, ast.Assign):
             names = (t.id for t in node.targets if isinstance(t, ast.Name))
             values.update(dict.fromkeys(names, node.value))
-    for node in ast.walk(tree) if tree is not None else ():
+    for node in ast.walk(tree):
         if not isinstance(node, ast.Dict):
             continue
         for key, value in zip(node.keys, node.values, strict=True):

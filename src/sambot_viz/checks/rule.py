@@ -7,7 +7,7 @@ files, and the text it came from.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Language, Link, Shape
 
 if TYPE_CHECKING:
+    from sambot_viz.checks.around.workspace import Package
     from sambot_viz.meshes.mesh import Mesh
 
 
@@ -29,13 +30,13 @@ class Subject:
             first; empty for a model given as text.
         mesh: reads a mesh file; a Problem says why it cannot be drawn, None that it
             was not read.
-        read: the files around the model that rules have looked for; they add to it.
+        packages: those that belong to the robot, that of the model first.
     """
 
     robot: Robot
     files: tuple[str, ...]
     mesh: Callable[[Path], Mesh | Problem | None]
-    read: set[Path] = field(default_factory=set[Path])
+    packages: tuple[Package, ...] = ()
 
     def shapes(self) -> Iterator[tuple[Link, Shape]]:
         """Give the visuals and collisions of all links, each with its link."""

@@ -2,28 +2,44 @@
 
 from __future__ import annotations
 
-from sambot_viz.bundled import Found, find
-from sambot_viz.checks import check, check_folder
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sambot_viz import bundled
 from sambot_viz.commands.command_line import Parser, model_path, parse
-from sambot_viz.errors import Problem
-from sambot_viz.options import Options
+from sambot_viz.errors import UsageError
+from sambot_viz.flags import AGAIN
 from sambot_viz.outlet import write_json, write_out
 from sambot_viz.problems import group_problems, write_problems
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.checked import Checked
 
 
 def run(words: list[str]) -> int:
     """Check a model; 0 when it has no errors (it may have warnings), else 1."""
     given, options = parse(parser(), words)
-    found = find(model_path(options))
-    model, problems = found.model, _problems(options, found)
+    # The import is late: completion and --help need no rules.
+    from sambot_viz.checks.checked import check_all
+
+    path = model_path(options)
+    if path is None:
+        path = bundled.model_path()
+    elif not os.path.exists(path):
+        raise UsageError(bundled.missing("model", path))
+    found = check_all(
+        path,
+        xacro_args=options.xacro_args,
+        package_path=options.package_path,
+        workspace=given.workspace,
+        trusted=options.trusted,
+    )
     if given.format == "json":
-        listed = [group.as_json() for group in group_problems(problems)]
-        write_json({"model": str(model), "problems": listed})
-    elif problems:
-        write_problems(problems, write_out, most=None)
+        write_json(_as_json(found))
     else:
-        write_out(f"{model}: no problems found")
-    return int(any(problem.severity == "error" for problem in problems))
+        _write(path, found)
+    return int(any(problem.severity == "error" for problem in found.problems))
 
 
 def parser() -> Parser:
@@ -31,29 +47,43 @@ def parser() -> Parser:
     made = Parser(
         prog="sambot-viz check",
         groups=("model",),
+        model="model file, package folder, or folder of packages",
         description="List what is wrong with a model and its mesh files, where, and "
-        "how to fix it, and names that differ between it and the other files of its "
-        "package; of a package folder also what is wrong with its .rviz, launch files "
-        "and setup.py. "
+        "how to fix it, and with its package: names that differ between it and other "
+        "files, its .rviz, launch files and build files. Of a package without a model, "
+        "those that its launch files open are checked. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
+    )
+    made.add_argument(
+        "--workspace",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="a folder of packages, of which those that start the robot or have its "
+        f"parameters are checked with it{AGAIN}",
     )
     made.add_format()
     return made
 
 
-def _problems(options: Options, found: Found) -> list[Problem]:
-    """Return the findings about a model, or about all files of a package folder."""
-    args, packages = options.xacro_args, options.package_path
-    folder = model_path(options)
-    if folder is None or not folder.is_dir():
-        return check(
-            found.model, xacro_args=args, package_path=packages, trusted=options.trusted
-        )
-    return check_folder(
-        folder,
-        found.model,
-        found.config,
-        xacro_args=args,
-        package_path=packages,
-        trusted=options.trusted,
-    )
+def _as_json(found: Checked) -> dict[str, object]:
+    models = [
+        {"model": str(one.model), "opened_by": one.opened_by or None}
+        for one in found.models
+    ]
+    return {
+        "model": models[0]["model"] if models else None,
+        "models": models,
+        "problems": [group.as_json() for group in group_problems(found.problems)],
+    }
+
+
+def _write(path: Path, found: Checked) -> None:
+    for one in found.models:
+        if one.opened_by:
+            write_out(f"model: {one.model}, which {one.opened_by} opens")
+    if found.problems:
+        write_problems(found.problems, write_out, most=None)
+    else:
+        model = found.models[0].model if found.models else path
+        write_out(f"{model}: no problems found")

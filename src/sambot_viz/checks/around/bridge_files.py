@@ -146,11 +146,11 @@ def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
 
 def second_documents(around: Surroundings) -> Iterator[Problem]:
     """Report a second YAML document in a file of which only the first is read."""
-    for path, _user in parameter_files(around):
-        line = _second_document(around.files.text(path) or "")
+    for package, path, _user in parameter_files(around):
+        line = _second_document(package.text(path) or "")
         if line is not None:
             yield Problem.at(
-                Place(around.files.shown(path), line),
+                Place(package.shown(path), line),
                 "error",
                 "parameters-yaml",
                 "this --- begins a second document: what is below it is not read",
@@ -178,13 +178,12 @@ def empty_parameters(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         for node in launch.nodes:
             for fact in node.files:
-                path = around.own(fact.value)
-                text = around.files.text(path) if path else None
-                if path is None or text is None or not _is_empty(text):
+                text, shown = around.text(fact.value), around.shown(fact.value)
+                if shown is None or text is None or not _is_empty(text):
                     continue
                 name = node.name or node.executable
                 yield Problem.at(
-                    Place(around.files.shown(path), 1),
+                    Place(shown, 1),
                     "warning",
                     "parameters-empty",
                     f"this file is empty, but {launch.shown.rpartition('/')[2]} line "

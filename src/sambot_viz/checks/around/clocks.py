@@ -53,17 +53,18 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
     ):
         return
     bridges = [
-        file
-        for file in around.yaml_files
+        (package, file)
+        for package in around.packages
+        for file in package.yaml_files
         if any("ros_type_name" in entry for entry in file.entries())
     ]
-    texts = [fact.value for f in bridges for e in f.entries() for fact in e.values()]
+    texts = [v.value for _, f in bridges for e in f.entries() for v in e.values()]
     if any("clock" in text for text in texts):
         return
     place: Place | None = None
     if bridges:
-        lines = (around.files.text(bridges[0].path) or "").splitlines()
-        place = Place(bridges[0].shown, len(lines))
+        package, file = bridges[0]
+        place = Place(file.shown, len((package.text(file.path) or "").splitlines()))
         hint = f"add - {_ENTRY} at the end of the file"
     else:
         hint = f"add '{_ARGUMENT}' to the arguments of parameter_bridge"
@@ -104,5 +105,5 @@ def _may_bring_clock(launch: LaunchFile, around: Surroundings) -> bool:
 def _is_foreign(fact: Fact, around: Surroundings) -> bool:
     """True for a launch file of a package whose content is not known."""
     package = fact.value.removeprefix(SHARE).partition("/")[0]
-    ours = package in (around.files.name, *_WITHOUT_CLOCK)
+    ours = package in around.names or package in _WITHOUT_CLOCK
     return fact.value.endswith("launch.py") and not ours

@@ -12,7 +12,7 @@ from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name, parse_python
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.parts import MeshFile
@@ -105,7 +105,7 @@ def _used_folders(around: Surroundings) -> Iterator[tuple[str, Place]]:
         if slash and folder not in _NOT_INSTALLED:
             yield folder, Place(launch.shown, 1)
     facts = [fact for launch in around.launches for fact in launch.paths]
-    for link in around.robot.links.values():
+    for link in around.links.values():
         for shape in (*link.visuals, *link.collisions):
             mesh, place = shape.geometry, shape.geometry_place or shape.place
             if isinstance(mesh, MeshFile) and place is not None:
@@ -122,7 +122,7 @@ def _installed(around: Surroundings) -> Installed | None:
     """What is installed; None when that is not certain."""
     if around.files.text("CMakeLists.txt") is not None:
         return None if around.cmake is None else _by_cmake(around.cmake, around)
-    setup = around.files.text("setup.py")
+    setup = around.files.setup
     return None if setup is None else _by_setup(setup, around.files.shown("setup.py"))
 
 
@@ -206,10 +206,7 @@ def _inside(folder: str, around: Surroundings) -> set[str]:
     return {path.partition("/")[0] for path in paths if "/" in path}
 
 
-def _by_setup(text: str, shown: str) -> Installed | None:
-    tree = parse_python(text)
-    if tree is None:
-        return None
+def _by_setup(tree: ast.Module, shown: str) -> Installed | None:
     place: Place | None = None
     parts: set[str] = set()
     for node in ast.walk(tree):

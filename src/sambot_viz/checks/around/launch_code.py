@@ -46,17 +46,18 @@ _PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
 
 def empty_launch_files(around: Surroundings) -> Iterator[Problem]:
     """Report launch files without content."""
-    for path in around.files.ending("launch.py"):
-        text = around.files.text(path)
-        if text is not None and not text.strip():
-            yield Problem.at(
-                Place(around.files.shown(path), 1),
-                "error",
-                _CODE,
-                f"this launch file is empty: ros2 launch stops with it, because it "
-                f"looks for {_ENTRY}",
-                "delete the file, or write that function into it",
-            )
+    for package in around.packages:
+        for path in package.ending("launch.py"):
+            text = package.text(path)
+            if text is not None and not text.strip():
+                yield Problem.at(
+                    Place(package.shown(path), 1),
+                    "error",
+                    _CODE,
+                    f"this launch file is empty: ros2 launch stops with it, because it "
+                    f"looks for {_ENTRY}",
+                    "delete the file, or write that function into it",
+                )
 
 
 def missing_entries(around: Surroundings) -> Iterator[Problem]:

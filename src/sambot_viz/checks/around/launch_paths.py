@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.errors import Place, Problem, nearest
 
 _OWN_NAMES = {
@@ -31,54 +32,59 @@ _MODELS = (".urdf", ".xacro", ".sdf")
 
 def missing_files(around: Surroundings) -> Iterator[Problem]:
     """Report files that a launch file names otherwise than they are called."""
-    paths = frozenset(around.files.paths)
     for launch in around.launches:
         known: set[str] = set()
         for fact in launch.paths:
-            below = around.own(fact.value)
-            if below is None or below in known or "*" in below:
+            package, below = around.named(fact.value) or (None, "")
+            if package is None or fact.value in known or "*" in below:
                 continue
-            known.add(below)
+            known.add(fact.value)
             near = None
-            if _is_missing(below, paths, around):
-                near = _read_by(launch, fact, around) or _near(below, paths)
+            if _is_missing(below, package):
+                near = _read_by(launch, fact, package) or _near(below, package.paths)
             if near is not None:
                 yield Problem.at(
                     fact.place,
                     "warning",
                     "launch-file-missing",
-                    f"the launch file uses {below}, which the package does not have; "
-                    f"it has {near}",
+                    f"the launch file uses {below}, which {_whose(package, launch)} "
+                    f"does not have; it has {near}",
                     f"write {near}",
                 )
 
 
-def _is_missing(below: str, paths: frozenset[str], around: Surroundings) -> bool:
+def _whose(package: Package, launch: LaunchFile) -> str:
+    own = any(launch is other for other in package.launches)
+    return "the package" if own else f"the package {package.name}"
+
+
+def _is_missing(below: str, package: Package) -> bool:
     folder, slash, _ = below.partition("/")
+    paths = package.paths
     if not slash or below in paths or any(p.startswith(f"{below}/") for p in paths):
         return False
-    if (around.files.folder / below).exists():
+    if (package.folder / below).exists():
         # Such as a mesh or a test, which are not listed.
         return False
     if any(path.startswith(f"{folder}/") for path in paths):
         return True
     # The build may give a folder another name.
-    build = (around.files.text(name) for name in ("CMakeLists.txt", "setup.py"))
+    build = (package.text(name) for name in ("CMakeLists.txt", "setup.py"))
     return not any(text is not None and folder in text for text in build)
 
 
-def _read_by(launch: LaunchFile, fact: Fact, around: Surroundings) -> str | None:
+def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
     """The one file with parameters for the node that is given a missing one."""
     for node in launch.nodes:
         name = node.name or _OWN_NAMES.get(node.executable)
         if name and any(given.value == fact.value for given in node.files):
-            files = (file for file in around.yaml_files if file.nodes)
+            files = (file for file in package.yaml_files if file.nodes)
             fitting = [file.path for file in files if _has(file, name)]
             return fitting[0] if len(fitting) == 1 else None
     return None
 
 
-def _near(below: str, paths: frozenset[str]) -> str | None:
+def _near(below: str, paths: Sequence[str]) -> str | None:
     """The file that is probably meant: of the same kind, with the most similar name."""
     wanted = PurePosixPath(below)
     if not wanted.suffix:
@@ -98,12 +104,12 @@ def _near(below: str, paths: frozenset[str]) -> str | None:
 
 def unread_parameters(around: Surroundings) -> Iterator[Problem]:
     """Report parameter files in which a node does not find its name."""
-    files = {file.path: file for file in around.yaml_files}
+    files = {file.shown: file for file in around.yaml_files}
     for launch in around.launches:
         for node in launch.nodes:
             name = node.name or _OWN_NAMES.get(node.executable)
             for given in node.files if node.complete and name else ():
-                file = files.get(around.own(given.value) or "")
+                file = files.get(around.shown(given.value) or "")
                 if file is not None and name and not _has(file, name):
                     yield _unread(node, name, given, file)
 
@@ -147,8 +153,8 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
 
 def _worlds(launch: LaunchFile, around: Surroundings) -> Iterator[tuple[str, Place]]:
     for fact in launch.paths:
-        below = around.own(fact.value) or ""
-        text = around.files.text(below) if below.endswith(_WORLDS) else None
+        shown = around.shown(fact.value) or ""
+        text = around.text(fact.value) if shown.endswith(_WORLDS) else None
         for match in _WORLD.finditer(text or ""):
             line = (text or "").count("\n", 0, match.start()) + 1
-            yield match[1], Place(around.files.shown(below), line)
+            yield match[1], Place(shown, line)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import yaml
 
 from sambot_viz.checks.around.files.launch import NODES, LaunchFile
-from sambot_viz.checks.around.files.launch_values import keyword, values_for
+from sambot_viz.checks.around.files.launch_values import SHARE, keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.place import where
@@ -50,10 +50,9 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
 
     Where a name is misspelt, that is the finding.
     """
-    for launch in around.launches:
+    for launch, text in around.launch_texts():
         if undefined_names(launch.tree):
             continue
-        text = around.files.text(launch.path) or ""
         described = next(
             (c for c in launch.calls if call_name(c.func) == "LaunchDescription"), None
         )
@@ -159,7 +158,7 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
 def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
     """Report a list of topics that is given to a bridge as its parameters."""
     lists = {
-        file.path
+        file.shown
         for file in around.yaml_files
         if isinstance(file.root, yaml.SequenceNode)
     }
@@ -169,8 +168,9 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
                 continue
             given = keyword(call, "parameters")
             for item in given.elts if isinstance(given, (ast.List, ast.Tuple)) else ():
-                path = around.own(launch.values.text(item) or "")
-                if path in lists:
+                given_path = launch.values.text(item) or ""
+                path = given_path.removeprefix(SHARE).partition("/")[2]
+                if around.shown(given_path) in lists:
                     yield Problem.at(
                         launch.place(item),
                         "error",

@@ -90,7 +90,7 @@ def filters(around: Surroundings) -> list[StateFilter]:
             given = file.of(node)
             if any(_INPUT.fullmatch(name) for name in given):
                 started = node.rpartition("/")[2] in named
-                found.append(StateFilter(node, given, started, file.path))
+                found.append(StateFilter(node, given, started, file.shown))
     return found
 
 

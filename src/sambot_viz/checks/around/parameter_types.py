@@ -119,8 +119,10 @@ def _repair(parameter: Parameter, wanted: Type, around: Surroundings) -> _Repair
     if kind == wanted or _OPEN.search(text):
         return None
     if kind == "none":
-        links = around.robot.links
-        base = "base_link" if "base_link" in links else around.robot.root
+        known = around.known
+        base = "base_link"
+        if known is not None and base not in known.links:
+            base = known.root
         hint = "write a value, or delete this line"
         if parameter.name == "robot_base_frame":
             hint = f"write robot_base_frame: {base}"

@@ -57,6 +57,7 @@ from sambot_viz.checks.around.joint_names import (
     unknown_joints,
     unknown_references,
 )
+from sambot_viz.checks.around.joint_states import no_joint_states
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
     missing_entries,
@@ -84,6 +85,7 @@ from sambot_viz.checks.around.nav2_sections import (
     unread_sections,
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
+from sambot_viz.checks.around.own_names import setup_name, unknown_packages
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.sensors import (
@@ -126,7 +128,24 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
 )
 """The rules that need only the model."""
 
-IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
+Check = Callable[[Surroundings], Iterable[Problem]]
+"""A rule about packages."""
+
+OF_BUILD: tuple[Check, ...] = (
+    unreadable_cmake,
+    unreadable_manifest,
+    build_types,
+    missing_commands,
+    folders_as_files,
+    setup_name,
+    xacro_py,
+    project_name,
+    missing_folders,
+    not_installed,
+)
+"""The rules about one package at a time: how it is built and installed."""
+
+OF_FILES: tuple[Check, ...] = (
     unreadable_yaml,
     joined_entries,
     second_documents,
@@ -148,15 +167,23 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unused_actions,
     undeclared_arguments,
     unknown_programs,
+    unknown_packages,
+    no_joint_states,
     bridges_as_parameters,
     joined_words,
     times_as_text,
     spawned_topics,
-    unreadable_cmake,
-    unreadable_manifest,
-    build_types,
-    missing_commands,
-    folders_as_files,
+    planes,
+    unknown_bridge_types,
+    different_clocks,
+    started_twice,
+    missing_files,
+    unread_parameters,
+    world_names,
+)
+"""The rules about launch files and parameters, with or without a robot."""
+
+OF_ROBOT: tuple[Check, ...] = (
     joints_of_controllers,
     wheel_sizes_of_controllers,
     wrong_sides_of_controllers,
@@ -166,10 +193,8 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     odometry_frames,
     world_frames,
     unpublished_odometry,
-    planes,
     unknown_topics,
     wrong_data_types,
-    unknown_bridge_types,
     bridge_types,
     bridge_directions,
     shared_topics,
@@ -177,18 +202,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     unsent_joint_states,
     scoped_frames,
     clock_not_bridged,
-    different_clocks,
     plugins_of_the_other,
     elements_of_the_other,
-    started_twice,
-    xacro_py,
-    missing_files,
-    unread_parameters,
-    world_names,
     missing_systems,
-    project_name,
-    missing_folders,
-    not_installed,
     footprints,
 )
-"""The rules that need the files around it."""
+"""The rules about a robot and the files around it."""

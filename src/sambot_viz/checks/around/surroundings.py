@@ -1,93 +1,96 @@
-"""A model with the files around it, each read once when a rule asks for it."""
+"""A model with the packages around it: what all of their files say together."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz import limits
 from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
-from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
+from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
-from sambot_viz.checks.around.files.text_files import PackageFiles
+from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.element import Element, parse_xml
+from sambot_viz.robot.parts import Link
+from sambot_viz.robot.xml.element import Element
 
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
 _MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")
-_YAML = (".yaml", ".yml")
 _AS_TOPIC = r"(?<!frame)(?<!frame_id)[\"'> ]/?"
-_WITHOUT_PARAMETERS = re.compile(r"(^|/)(maps?|meshes)/")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Surroundings:
-    """A robot, and the package that its model is in.
+    """A robot, and the packages that belong to it.
 
     Attributes:
-        robot: the robot.
-        files: the files of its package.
+        known: the robot; None when the packages are checked without one.
+        packages: that of the model first, those that start it or have its parameters.
     """
 
-    robot: Robot
-    files: PackageFiles
+    known: Robot | None
+    packages: tuple[Package, ...]
+
+    @property
+    def robot(self) -> Robot:
+        """The robot, for rules that run only with one."""
+        if self.known is None:
+            raise LookupError("these packages are checked without a robot")
+        return self.known
+
+    @property
+    def links(self) -> Mapping[str, Link]:
+        """The links of the robot; empty without one."""
+        return self.known.links if self.known is not None else {}
+
+    @property
+    def files(self) -> Package:
+        """The package, for rules that look at one at a time."""
+        return self.packages[0]
 
     @cached_property
     def plugins(self) -> tuple[Plugin, ...]:
         """The Gazebo plugins of the model."""
-        return tuple(plugins(self.robot.gazebo))
+        return tuple(plugins(self.known.gazebo if self.known is not None else ()))
 
     @cached_property
     def launches(self) -> tuple[LaunchFile, ...]:
         """The Python launch files."""
-        return tuple(self._launches())
+        return tuple(file for each in self.packages for file in each.launches)
 
-    def _launches(self) -> Iterator[LaunchFile]:
-        for path in self.files.ending("launch.py"):
-            text = self.files.text(path)
-            read = read_launch(text, path, self.files.shown(path)) if text else None
-            if read is not None:
-                yield read
+    def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
+        """Give the Python launch files with their texts."""
+        for package in self.packages:
+            for launch in package.launches:
+                yield launch, package.text(launch.path) or ""
 
     @cached_property
     def yaml_files(self) -> tuple[YamlFile, ...]:
         """The YAML files."""
-        return tuple(self._yaml_files())
-
-    def _yaml_files(self) -> Iterator[YamlFile]:
-        for path in self.files.ending(*_YAML):
-            text = None if _WITHOUT_PARAMETERS.search(path) else self.files.text(path)
-            read = read_yaml(text, path, self.files.shown(path)) if text else None
-            if read is not None:
-                yield read
+        return tuple(file for each in self.packages for file in each.yaml_files)
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """All parameters in all YAML files."""
         return tuple(p for file in self.yaml_files for p in file.parameters)
 
-    @cached_property
+    @property
     def manifest(self) -> Element | None:
         """The root of package.xml; None when there is none that is XML."""
-        name = "package.xml"
-        try:
-            return parse_xml(self.files.text(name) or "", name)
-        except XmlFault:
-            return None
+        return self.files.manifest
 
-    @cached_property
+    @property
     def cmake(self) -> CMakeFile | None:
         """CMakeLists.txt; None when there is none, or a very long one."""
-        name = "CMakeLists.txt"
-        text = self.files.text(name)
-        if text is None or len(text) > limits.BUILD_FILE.value:
-            return None
-        return CMakeFile(text, self.files.shown(name))
+        return self.files.cmake
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The names of the packages."""
+        return frozenset(package.name for package in self.packages)
 
     @cached_property
     def namespaced(self) -> bool:
@@ -105,10 +108,28 @@ class Surroundings:
         )
 
     def own(self, path: str) -> str | None:
-        """Return a path below the share folder of this package; None for others."""
-        head = f"{SHARE}{self.files.name}/"
-        below = path.removeprefix(head).strip("/")
-        return below if path.startswith(head) and below else None
+        """Return a path below the share folder of the package; None for others."""
+        package, below = self.named(path) or (None, None)
+        return below if package is self.files else None
+
+    def named(self, path: str) -> tuple[Package, str] | None:
+        """Return which of the packages a path is in, and the path below its folder."""
+        name, _, below = path.removeprefix(SHARE).partition("/")
+        below = below.strip("/")
+        for package in self.packages if path.startswith(SHARE) and below else ():
+            if package.name == name:
+                return package, below
+        return None
+
+    def shown(self, path: str) -> str | None:
+        """Return how the user would write a path in a package; None for others."""
+        named = self.named(path)
+        return None if named is None else named[0].shown(named[1])
+
+    def text(self, path: str) -> str | None:
+        """Return the text of a file in one of the packages; None for others."""
+        named = self.named(path)
+        return None if named is None else named[0].text(named[1])
 
     def said_elsewhere(self, name: str, *, as_topic: bool = False) -> bool:
         """Tell whether a launch file, a program or another model says this name.
@@ -130,15 +151,16 @@ class Surroundings:
         end = rf"{re.escape(bare)}[\"'< ]"
         in_program = re.compile(rf"[\"'>/ ]{end}")
         in_model = re.compile(rf"{_AS_TOPIC}{end}") if as_topic else in_program
-        own = {file.name for file in self.robot.files}
-        for path in self.files.ending(*_SOURCES, *_MODELS):
-            is_model = path.endswith(_MODELS)
-            if path.endswith("launch.py") or (
-                is_model and path.rpartition("/")[2] in own
-            ):
-                continue
-            text = self.files.text(path)
-            quoted = in_model if is_model else in_program
-            if text is not None and quoted.search(text):
-                return True
+        own = {file.name for file in self.known.files} if self.known else set[str]()
+        for package in self.packages:
+            for path in package.ending(*_SOURCES, *_MODELS):
+                is_model = path.endswith(_MODELS)
+                if path.endswith("launch.py") or (
+                    is_model and path.rpartition("/")[2] in own
+                ):
+                    continue
+                text = package.text(path)
+                quoted = in_model if is_model else in_program
+                if text is not None and quoted.search(text):
+                    return True
         return False

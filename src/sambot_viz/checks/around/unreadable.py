@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.python_repair import fault_in_python
 from sambot_viz.checks.around.files.yaml_repair import fault_in
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.errors import Place, Problem, nearest
 
 _KNOWN = re.compile(
@@ -24,14 +25,15 @@ _KEY, _LIKENESS = "ros__parameters", 0.84
 
 def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
     """Report parameter files that are no YAML."""
-    read = {file.path for file in around.yaml_files}
-    for path, user in parameter_files(around):
-        text = around.files.text(path) if path not in read else None
+    read = {file.shown for file in around.yaml_files}
+    for package, path, user in parameter_files(around):
+        shown = package.shown(path)
+        text = package.text(path) if shown not in read else None
         if text is None or _TEMPLATE.search(text):
             continue
         fault = fault_in(text)
         if fault is not None:
-            place = Place(around.files.shown(path), fault.line)
+            place = Place(shown, fault.line)
             named = f" ({where(user, place)})" if user else ""
             yield Problem.at(
                 place,
@@ -66,10 +68,10 @@ def joined_entries(around: Surroundings) -> Iterator[Problem]:
 
 def misspelt_key(around: Surroundings) -> Iterator[Problem]:
     """Report ros__parameters with a wrong letter."""
-    users = dict(parameter_files(around))
+    users = {p.shown(path): user for p, path, user in parameter_files(around)}
     for file in around.yaml_files:
-        for key, place in _above_parameters(file) if file.path in users else ():
-            user = users[file.path]
+        for key, place in _above_parameters(file) if file.shown in users else ():
+            user = users[file.shown]
             named = f" ({where(user, place)})" if user else ""
             yield Problem.at(
                 place,
@@ -92,31 +94,36 @@ def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
         level = [value for key, value in below if key.value != _KEY]
 
 
-def parameter_files(around: Surroundings) -> Iterator[tuple[str, Place | None]]:
+def parameter_files(
+    around: Surroundings,
+) -> Iterator[tuple[Package, str, Place | None]]:
     """Give the parameter files: those that launch files name, and usual names."""
     named = {
-        around.own(fact.value): fact.place
+        around.named(fact.value): fact.place
         for launch in reversed(around.launches)
         for fact in reversed(launch.paths)
     }
-    for path in around.files.ending(".yaml", ".yml"):
-        if path in named or _KNOWN.fullmatch(path):
-            yield path, named.get(path)
+    for package in around.packages:
+        for path in package.ending(".yaml", ".yml"):
+            user = named.get((package, path))
+            if user is not None or _KNOWN.fullmatch(path):
+                yield package, path, user
 
 
 def unreadable_python(around: Surroundings) -> Iterator[Problem]:
     """Report launch files, and a setup.py, that are no Python."""
-    read = {launch.path for launch in around.launches}
-    paths = [p for p in around.files.ending("launch.py") if p not in read]
-    for path in (*paths, *(p for p in around.files.paths if p == "setup.py")):
-        text = around.files.text(path)
-        fault = fault_in_python(text) if text else None
-        if fault is not None:
-            stops = "colcon build" if path == "setup.py" else "ros2 launch"
-            yield Problem.at(
-                Place(around.files.shown(path), fault.line),
-                "error",
-                "python-syntax",
-                f"this file is no Python: {fault.cause}; {stops} stops with it",
-                fault.hint,
-            )
+    for package in around.packages:
+        read = {launch.path for launch in package.launches}
+        paths = [p for p in package.ending("launch.py") if p not in read]
+        for path in paths if package.setup is not None else (*paths, "setup.py"):
+            text = package.text(path)
+            fault = fault_in_python(text) if text else None
+            if fault is not None:
+                stops = "colcon build" if path == "setup.py" else "ros2 launch"
+                yield Problem.at(
+                    Place(package.shown(path), fault.line),
+                    "error",
+                    "python-syntax",
+                    f"this file is no Python: {fault.cause}; {stops} stops with it",
+                    fault.hint,
+                )

@@ -34,7 +34,7 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
     worlds = _worlds(around)
     if len(worlds) != 1:
         return
-    ((path, text),) = worlds.items()
+    ((shown, text),) = worlds.items()
     has = set(_SYSTEM.findall(text)) | {
         plugin.filename.removeprefix("lib").removesuffix(".so")
         for plugin in around.plugins
@@ -50,7 +50,7 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
         missing.add(file)
         first = _WORLD.search(text)
         line = text.count("\n", 0, first.start() if first else 0) + 1
-        place = Place(around.files.shown(path), line)
+        place = Place(shown, line)
         inner = (
             "<render_engine>ogre2</render_engine>" if (file, name) == _RENDERED else ""
         )
@@ -66,12 +66,12 @@ def missing_systems(around: Surroundings) -> Iterator[Problem]:
 
 
 def _worlds(around: Surroundings) -> dict[str, str]:
-    """The world files of the package that launch files use, each with its text."""
+    """The world files of the packages that launch files use, each with its text."""
     return {
-        path: text
+        shown: text
         for launch in around.launches
         for fact in launch.paths
-        if (path := around.own(fact.value) or "").endswith((".sdf", ".world"))
-        and (text := around.files.text(path)) is not None
+        if (shown := around.shown(fact.value) or "").endswith((".sdf", ".world"))
+        and (text := around.text(fact.value)) is not None
         and _WORLD.search(text)
     }

@@ -35,12 +35,14 @@ class Lookup:
         path: its folder, or None.
         searched: the places that were looked at, as text for a message.
         known: names of the packages that were found on the way.
+        installed: it is where packages are installed, not in the workspace.
     """
 
     name: str
     path: Path | None
     searched: tuple[str, ...] = ()
     known: tuple[str, ...] = ()
+    installed: bool = False
 
 
 def places_of(searched: Sequence[str]) -> str:
@@ -132,6 +134,14 @@ class PackageIndex:
                 roots.append(package)
         return roots
 
+    def below(self) -> dict[str, Path]:
+        """Return the packages at and below the user's folders, by their names."""
+        found = dict(self._given)
+        for folder in self._folders:
+            scan = self._scan(folder, limits.SEARCHED_FOLDERS.value)
+            found = {**scan.packages, **found}
+        return found
+
     def _search(self, name: str) -> Lookup:
         if name in self._given:
             path = self._given[name]
@@ -148,7 +158,7 @@ class PackageIndex:
         for label, path in self._installed(name):
             searched.append(label)
             if path is not None:
-                return Lookup(name, path, tuple(searched))
+                return Lookup(name, path, tuple(searched), installed=True)
         by_folder = by_folder or self._beside(name)
         return Lookup(name, by_folder, tuple(searched), tuple(known))
 

@@ -141,6 +141,11 @@ def _complete_models(paths: Sequence[Path]) -> list[Path]:
     return [f.path for f in files if f.builds_links and f.path not in included]
 
 
+def is_model(path: Path) -> bool:
+    """Tell whether a file may be shown by itself: it has links, or calls for some."""
+    return _look_at(path).builds_links
+
+
 def choose_model(folder: Path, models: Sequence[Path]) -> Path | None:
     """Choose the obvious one of several models, or None.
 

@@ -115,6 +115,13 @@ class LaunchValues:
             case _:
                 return None
 
+    def defaults(self) -> Iterator[tuple[str, str]]:
+        """Give the launch arguments that have a default value, and the value."""
+        for name, default in self._arguments.items():
+            value = self.text(default)
+            if value is not None:
+                yield name, value
+
     def joined(self, call: ast.Call) -> ast.expr | None:
         """Return the list whose items a call joins to a path, or None."""
         inner = call.args[0] if call.args else None

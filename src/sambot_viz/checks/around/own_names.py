@@ -1,0 +1,107 @@
+"""The name of a package, in its setup.py and in its launch files."""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.errors import Problem
+from sambot_viz.robot.xml.element import Element
+
+_SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
+_PARTS = frozenset(
+    """
+    base bringup common control controller demo description driver examples fake
+    gazebo generator gz hardware interfaces launch localization mapping moveit msgs nav
+    nav2 navigation node perception robot sim simulation simulator slam support teleop
+    tests tools utils viz
+    """.split()
+)
+"""What the names of the packages of one robot end with."""
+
+
+def setup_name(around: Surroundings) -> Iterator[Problem]:
+    """Compare the name in setup.py with the one in the package.xml beside it."""
+    name, tree = around.files.name, around.files.setup
+    for node in ast.walk(tree) if tree is not None else ():
+        named = _assigned_name(node)
+        if named is None or named[0] == name:
+            continue
+        yield Problem(
+            "error",
+            "setup-py-name",
+            f"setup.py calls the package {named[0]}, package.xml calls it "
+            f"{name}: colcon and ros2 launch will not find it",
+            f"write {name} here",
+            around.files.shown("setup.py"),
+            named[1],
+        )
+        return
+
+
+def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
+    """The text and line of ``package_name = "…"`` or ``setup(name="…")``."""
+    if isinstance(node, ast.Assign) and len(node.targets) == 1:
+        target = node.targets[0]
+        if isinstance(target, ast.Name) and target.id == "package_name":
+            text = _text(node.value)
+            return (text, node.lineno) if text is not None else None
+    if isinstance(node, ast.Call) and call_name(node.func) == "setup":
+        for keyword in node.keywords:
+            text = _text(keyword.value)
+            if keyword.arg == "name" and text is not None:
+                return text, keyword.value.lineno
+    return None
+
+
+def _text(node: ast.expr | None) -> str | None:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    return None
+
+
+def unknown_packages(around: Surroundings) -> Iterator[Problem]:
+    """Report a name like that of the package, in a file without the right name."""
+    for package in around.packages:
+        others = around.names | _dependencies(package.manifest)
+        for launch in package.launches:
+            asked = [
+                (text, call)
+                for call in launch.calls
+                if call_name(call.func) in _SHARE_CALLS
+                and call.args
+                and (text := _text(call.args[0])) is not None
+            ]
+            if any(text == package.name for text, _ in asked):
+                continue
+            for text, call in asked:
+                if text not in others and _alike(text, package.name):
+                    yield Problem.at(
+                        launch.place(call),
+                        "error",
+                        "launch-package-unknown",
+                        f"the launch file asks for the package {text}, but the package "
+                        f"here is called {package.name} (package.xml)",
+                        f"write {package.name}",
+                    )
+                    break
+
+
+def _dependencies(manifest: Element | None) -> set[str]:
+    """The packages that package.xml says are needed."""
+    tags = (e for e in manifest.children if "depend" in e.tag) if manifest else ()
+    return {element.text.strip() for element in tags}
+
+
+def _alike(name: str, package: str) -> bool:
+    """Tell whether one package name looks like a misspelling of the other."""
+    words, others = (re.split(r"[_\-]", text) for text in (name, package))
+    if {words[-1], others[-1]} <= _PARTS and words[-1] != others[-1]:
+        # Two packages of one robot.
+        return False
+    ratio = difflib.SequenceMatcher(None, name, package).ratio()
+    return ratio > 0.8 or (words[0] == others[0] and ratio > 0.5)

@@ -1,0 +1,286 @@
+"""The packages around a model: each file found and read once, by its kind.
+
+A package is the folder of a package.xml. Its files are read as text when a rule asks
+for them, within limits, and kept for all rules and all models of one check.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path, PurePosixPath
+
+from sambot_viz import limits
+from sambot_viz.checks.around.files.cmake import CMakeFile
+from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
+from sambot_viz.checks.launch_files import parse_python
+from sambot_viz.files import is_below, read_limited
+from sambot_viz.robot.packages.package_index import PackageIndex, package_name
+from sambot_viz.robot.packages.resolve import FileResolver, inside_package
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import Element, parse_xml
+
+_SKIPPED = frozenset(
+    {"build", "install", "log", "meshes", "node_modules", "test", "tests"}
+)
+_YAML = (".yaml", ".yml")
+_WITHOUT_PARAMETERS = re.compile(r"(^|/)(maps?|meshes)/")
+_OTHER_LAUNCHES = (".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
+_IN_SHARE = re.compile(
+    r"\$\(find(?:-pkg-share)?\s+([\w.-]+)\s*\)((?:/[\w.+-]+)+)"
+    r"|package://([\w.-]+)((?:/[\w.+-]+)+)"
+)
+"""A path in the share folder of a package, as XML and YAML launch files write it."""
+_SHARE_CALL = re.compile(
+    r"(?:FindPackageShare|get_package_share_\w+)\(\s*(?:\w+\s*=\s*)?[\"']([\w.-]+)"
+)
+_QUOTED_FILE = re.compile(r"[\"']/?([\w./+-]+\.\w+)[\"']")
+
+
+@dataclass(frozen=True, eq=False)
+class Package:
+    """A package, with what its files say.
+
+    Attributes:
+        folder: the package, absolute.
+        name: its name in package.xml.
+        relative: paths are named as the user named the model: relative to the
+            working folder, or absolute.
+        trusted: False reads no file that a link leads out of the package.
+        read: gets each file that is looked for.
+    """
+
+    folder: Path
+    name: str
+    relative: bool
+    trusted: bool
+    read: set[Path]
+
+    @cached_property
+    def paths(self) -> tuple[str, ...]:
+        """All files, relative to the package with slashes; other packages left out."""
+        return tuple(sorted(self._walk()))
+
+    def _walk(self) -> Iterator[str]:
+        folders, files = 0, 0
+        for folder, inner, names in os.walk(self.folder):
+            below = os.path.relpath(folder, self.folder).replace(os.sep, "/")
+            folders += 1
+            nested = below != "." and "package.xml" in names
+            if (
+                folders > limits.PACKAGE_FOLDERS.value
+                or nested
+                or below.count("/") >= limits.PACKAGE_DEPTH.value
+            ):
+                inner.clear()
+            if nested:
+                continue
+            inner[:] = sorted(
+                n for n in inner if n not in _SKIPPED and not n.startswith(".")
+            )
+            for name in names:
+                files += 1
+                if files <= limits.PACKAGE_FILES.value:
+                    yield name if below == "." else f"{below}/{name}"
+
+    def ending(self, *endings: str) -> list[str]:
+        """Return the files with one of these endings, at most fifty."""
+        return [path for path in self.paths if path.endswith(endings)][:50]
+
+    @cached_property
+    def _texts(self) -> dict[str, str | None]:
+        return {}
+
+    def text(self, path: str) -> str | None:
+        """Return the text of a file, None when it cannot be read or is very large."""
+        if path not in self._texts:
+            self._texts[path] = self._read(path)
+        return self._texts[path]
+
+    def _read(self, path: str) -> str | None:
+        file = self.folder / path
+        self.read.add(file)
+        if not self.trusted and not is_below(file, [self.folder.resolve()]):
+            return None
+        try:
+            return read_limited(file, limits.PACKAGE_TEXT.value).decode("utf-8")
+        except (OSError, ValueError):
+            return None
+
+    def shown(self, path: str) -> str:
+        """Return a path as the user would write it."""
+        return shown(self.folder / path, self.relative)
+
+    @cached_property
+    def launches(self) -> tuple[LaunchFile, ...]:
+        """The Python launch files."""
+        return tuple(self._launches())
+
+    def _launches(self) -> Iterator[LaunchFile]:
+        for path in self.ending("launch.py"):
+            text = self.text(path)
+            read = read_launch(text, path, self.shown(path)) if text else None
+            if read is not None:
+                yield read
+
+    @cached_property
+    def launch_paths(self) -> dict[str, tuple[str, ...]]:
+        """Launch file → the paths in packages that it names, such as package://p/x."""
+        found = {
+            launch.path: tuple(fact.value for fact in launch.paths)
+            for launch in self.launches
+        }
+        for path in self.ending("launch.py", *_OTHER_LAUNCHES):
+            if path not in found:
+                found[path] = tuple(_named_in(self.text(path) or ""))
+        return found
+
+    @cached_property
+    def uses(self) -> frozenset[str]:
+        """The packages that its launch files name."""
+        return frozenset(
+            value.removeprefix(SHARE).partition("/")[0]
+            for values in self.launch_paths.values()
+            for value in values
+        )
+
+    @cached_property
+    def yaml_files(self) -> tuple[YamlFile, ...]:
+        """The YAML files."""
+        return tuple(self._yaml_files())
+
+    def _yaml_files(self) -> Iterator[YamlFile]:
+        for path in self.ending(*_YAML):
+            text = None if _WITHOUT_PARAMETERS.search(path) else self.text(path)
+            read = read_yaml(text, path, self.shown(path)) if text else None
+            if read is not None:
+                yield read
+
+    @cached_property
+    def manifest(self) -> Element | None:
+        """The root of package.xml; None when there is none that is XML."""
+        name = "package.xml"
+        try:
+            return parse_xml(self.text(name) or "", name)
+        except XmlFault:
+            return None
+
+    @cached_property
+    def cmake(self) -> CMakeFile | None:
+        """CMakeLists.txt; None when there is none, or a very long one."""
+        name = "CMakeLists.txt"
+        text = self.text(name)
+        if text is None or len(text) > limits.BUILD_FILE.value:
+            return None
+        return CMakeFile(text, self.shown(name))
+
+    @cached_property
+    def setup(self) -> ast.Module | None:
+        """setup.py, read as Python; None when there is none that is Python."""
+        text = self.text("setup.py")
+        return None if text is None else parse_python(text)
+
+
+class Workspace:
+    """Finds packages, each made once.
+
+    Args:
+        start: the folder of the model, or the package.
+        package_path: as for `check`.
+        given: folders whose packages belong to what is checked.
+        relative: as for `Package`.
+        trusted: False finds no package but that of the model.
+        read: as for `Package`.
+    """
+
+    def __init__(
+        self,
+        start: Path,
+        package_path: Sequence[Path | str] = (),
+        given: Sequence[Path | str] = (),
+        *,
+        relative: bool = True,
+        trusted: bool = True,
+        read: set[Path] | None = None,
+    ) -> None:
+        self._index = PackageIndex(start, package_path)
+        self._resolver = FileResolver(self._index, start)
+        self._given = PackageIndex(None, given)
+        self._made: dict[Path, Package] = {}
+        self.relative = relative
+        self._trusted = trusted
+        self._read = set[Path]() if read is None else read
+
+    def at(self, folder: Path) -> Package | None:
+        """Return the package in a folder; None for other folders."""
+        key = folder.resolve()
+        if key not in self._made:
+            name = package_name(folder)
+            self._read.add(folder / "package.xml")
+            if name is None:
+                return None
+            absolute = folder.absolute()
+            self._made[key] = Package(
+                absolute, name, self.relative, self._trusted, self._read
+            )
+        return self._made[key]
+
+    def around(self, file: Path) -> Package | None:
+        """Return the package that a file is in; None when it is in none."""
+        for folder in PackageIndex(file.absolute().parent).ancestors():
+            if package_name(folder) is not None:
+                return self.at(folder)
+        return None
+
+    @cached_property
+    def given(self) -> tuple[Package, ...]:
+        """The packages at and below the folders that the user gave."""
+        folders = self._given.below().values() if self._trusted else ()
+        # Models of Gazebo have no package.xml.
+        found = (self.at(f) for f in folders if (f / "package.xml").is_file())
+        return tuple(package for package in found if package is not None)
+
+    def named(self, name: str) -> Package | None:
+        """Return a package of the workspace; None for one that is only installed."""
+        lookup = self._index.find(name) if self._trusted else None
+        if lookup is None or lookup.path is None or lookup.installed:
+            return next((p for p in self.given if p.name == name), None)
+        return self.at(lookup.path)
+
+    def file(self, value: str) -> Path | None:
+        """Return the file that a path such as package://p/urdf/x.urdf means."""
+        name, _, below = value.removeprefix(SHARE).partition("/")
+        package = next((p for p in self.given if p.name == name), None)
+        if package is None:
+            found = self._resolver.resolve(value)
+            return None if found.doubt in ("path-only", "letter-case") else found.path
+        if (package.folder / below).is_file():
+            return package.folder / below
+        return inside_package(package.folder, PurePosixPath(below), ())
+
+    def shown(self, path: Path) -> str:
+        """Return a path as the user would write it."""
+        return shown(path, self.relative)
+
+
+def shown(path: Path, relative: bool) -> str:
+    """Return a path as the user would write it."""
+    return os.path.relpath(path) if relative else str(path)
+
+
+def _named_in(text: str) -> Iterator[str]:
+    """Give the paths in packages that a launch file names which is not Python.
+
+    In one with a mistake, each file may be in each of the packages.
+    """
+    for found in _IN_SHARE.finditer(text):
+        yield f"{SHARE}{found[1] or found[3]}{found[2] or found[4]}"
+    for package in dict.fromkeys(_SHARE_CALL.findall(text)):
+        for file in dict.fromkeys(_QUOTED_FILE.findall(text)):
+            yield f"{SHARE}{package}/{file}"

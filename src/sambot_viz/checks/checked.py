@@ -1,0 +1,185 @@
+"""A whole check: models, and the packages that belong to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from sambot_viz.bundled import config_in
+from sambot_viz.checks.around import built_wrongly, wrong_files
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package, shown
+from sambot_viz.checks.model_rules import (
+    AROUND,
+    RULES,
+    find_problems,
+    in_order,
+    subject_of,
+)
+from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
+from sambot_viz.errors import ConfigError, Problem, RobotError
+from sambot_viz.files import is_below
+from sambot_viz.robot.model import Robot, load_robot
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What was checked, and what is wrong with it.
+
+    Attributes:
+        models: the models.
+        problems: errors first, then warnings, then notes; each in document order.
+    """
+
+    models: tuple[CheckedModel, ...]
+    problems: tuple[Problem, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Loaded:
+    """A model that was loaded, and what the files around it have against it."""
+
+    target: CheckedModel
+    robot: Robot
+    around: tuple[Problem, ...]
+
+
+def check_all(
+    path: Path,
+    *,
+    xacro_args: Mapping[str, str] | None = None,
+    package_path: Sequence[Path | str] = (),
+    workspace: Sequence[Path | str] = (),
+    trusted: bool = True,
+) -> Checked:
+    """Do what `check` does, and tell which models were checked.
+
+    Raises:
+        UsageError: a folder with nothing to check, or with several models.
+    """
+    targets = find_targets(path, package_path, workspace, trusted=trusted)
+    problems: list[Problem] = []
+    loaded: list[_Loaded] = []
+    for target in targets.models:
+        load = partial(
+            load_robot, target.model, package_path=package_path, trusted=trusted
+        )
+        try:
+            robot = _load(load, target, xacro_args or {})
+        except RobotError as error:
+            problems += error.problems
+            continue
+        subject = subject_of(robot, target.model, None, target.packages)
+        problems += [*robot.problems, *find_problems(subject, RULES)]
+        around = find_problems(subject, AROUND)
+        around += _of_configs(target, robot)
+        loaded.append(_Loaded(target, robot, tuple(around)))
+    problems += _of_packages(targets, loaded)
+    problems += [p for package in _alone(targets, loaded) for p in _of_config(package)]
+    return Checked(targets.models, tuple(in_order(problems)))
+
+
+def _load(
+    load: Callable[..., Robot], target: CheckedModel, given: Mapping[str, str]
+) -> Robot:
+    """Load a model; arguments without a value get what launch files say by default.
+
+    Raises:
+        RobotError: as `load_robot`.
+    """
+    try:
+        return load(xacro_args=given)
+    except RobotError as error:
+        if all(p.code != "xacro-argument-missing" for p in error.problems):
+            raise
+        launches = [file for package in target.packages for file in package.launches]
+        defaults = {k: v for file in launches for k, v in file.values.defaults()}
+        if not defaults:
+            raise
+        return load(xacro_args={**defaults, **given})
+
+
+def problems_around(
+    robot: Robot, model: Path, read: set[Path] | None = None
+) -> list[Problem]:
+    """Return what the files around a model have against it; see `check_around`."""
+    trusted = robot.file_roots is None
+    targets = find_targets(model, trusted=trusted, read=read)
+    (target,) = targets.models
+    subject = subject_of(robot, model, None, target.packages)
+    found = _Loaded(target, robot, tuple(find_problems(subject, AROUND)))
+    return in_order(_of_packages(targets, [found]))
+
+
+def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
+    """Return what is wrong around the models, and with packages by themselves."""
+    found = list(targets.notes)
+    for package in _alone(targets, loaded):
+        found += wrong_files(package)
+    for package in targets.packages:
+        of = (one.robot for one in loaded if package in one.target.packages)
+        found += built_wrongly(package, next(of, None))
+    for one in loaded:
+        found += [
+            problem for problem in one.around if _is_certain(problem, one, loaded)
+        ]
+    return found
+
+
+def _alone(targets: Targets, loaded: Sequence[_Loaded]) -> list[Package]:
+    """Return the packages that no model was checked with."""
+    covered = {package for one in loaded for package in one.target.packages}
+    return [package for package in targets.packages if package not in covered]
+
+
+def _is_certain(problem: Problem, one: _Loaded, loaded: Sequence[_Loaded]) -> bool:
+    """Tell whether a file that several models share is wrong for each of them.
+
+    It may be meant for one of them.
+    """
+    if problem.file is None or len(loaded) == 1:
+        return True
+    file = Path(problem.file).absolute()
+    if file in {each.absolute() for each in one.robot.files}:
+        return True
+    owner = next((p for p in one.target.packages if p.folder in file.parents), None)
+    return all(
+        any((p.code, p.place) == (problem.code, problem.place) for p in other.around)
+        for other in loaded
+        if owner in other.target.packages
+    )
+
+
+def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
+    """Return what is wrong with the .rviz files of a model, if they are for it."""
+    if not target.is_main or not target.packages:
+        return []
+    around = Surroundings(robot, target.packages)
+    return [p for each in target.packages for p in _of_config(each, around)]
+
+
+def _of_config(package: Package, around: Surroundings | None = None) -> list[Problem]:
+    from sambot_viz.checks.around.known_nodes import may_publish
+    from sambot_viz.checks.config_against_robot import check_config
+    from sambot_viz.rviz import Declarations, RvizConfig
+
+    path = config_in(package.folder)
+    if path is None or not (package.trusted or is_below(path, [package.folder])):
+        return []
+    package.read.add(path)
+    try:
+        config = RvizConfig.load(Path(shown(path, package.relative)), Declarations())
+    except ConfigError as error:
+        return list(error.problems)
+    found = list(config.problems)
+    if around is None:
+        return found
+    frame = str(config.global_options.get("Fixed Frame")).lstrip("/")
+    known = may_publish(around, frame)
+    return found + [
+        problem
+        for problem in check_config(around.robot, config)
+        if problem.code != "setup-fixed-frame" or not known
+    ]

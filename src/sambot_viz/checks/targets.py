@@ -1,0 +1,288 @@
+"""Which models a check is about, and which packages belong to each.
+
+A package without a model is about the one that its launch files start. Packages whose
+launch files use that of the model belong to it: they have its parameters.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz import bundled
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.workspace import Package, Workspace
+from sambot_viz.checks.rule import listed
+from sambot_viz.errors import Problem, UsageError
+from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.packages.package_model import (
+    MODEL_ENDINGS,
+    ModelWalk,
+    choose_model,
+    is_model,
+    model_ending,
+    models_in,
+)
+
+_LAUNCHES = (
+    "launch.py",
+    ".launch",
+    "launch.xml",
+    "launch.yaml",
+    "launch.yml",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedModel:
+    """A model that is checked.
+
+    Attributes:
+        model: as the user would write it.
+        opened_by: the launch file that opens it, when the user named only that
+            package; else empty.
+        packages: those that belong to it, its own first.
+        is_main: it is what its package is about, and not one of several models.
+    """
+
+    model: Path
+    opened_by: str = ""
+    packages: tuple[Package, ...] = ()
+    is_main: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Targets:
+    """What is checked.
+
+    Attributes:
+        models: the models.
+        packages: the packages, with or without a model, each once.
+        notes: say what is checked without a model.
+    """
+
+    models: tuple[CheckedModel, ...]
+    packages: tuple[Package, ...] = ()
+    notes: tuple[Problem, ...] = ()
+
+
+def find_targets(
+    path: Path,
+    package_path: Sequence[Path | str] = (),
+    workspace: Sequence[Path | str] = (),
+    *,
+    trusted: bool = True,
+    read: set[Path] | None = None,
+) -> Targets:
+    """Find what is to be checked.
+
+    Args:
+        path: a model, a package, or a folder of packages.
+        package_path: as for `check`.
+        workspace: as for `check`.
+        trusted: as for `check`.
+        read: gets the files that are looked for.
+
+    Raises:
+        UsageError: there is nothing to check, or it is not clear which model is meant.
+    """
+    is_folder = path.is_dir()
+    found = Workspace(
+        path if is_folder else path.absolute().parent,
+        package_path,
+        workspace,
+        relative=not path.is_absolute(),
+        trusted=trusted,
+        read=read,
+    )
+    search = _TargetSearch(found, trusted)
+    if not is_folder:
+        return search.of_file(path)
+    own = found.at(path)
+    if own is not None:
+        return search.of_packages([own], path)
+    below = PackageIndex(None, [path]).below().values()
+    packages = [found.at(f) for f in below if (f / "package.xml").is_file()]
+    if not any(packages):
+        return search.of_file(bundled.find(path).model)
+    return search.of_packages([p for p in packages if p is not None], path)
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """A model that a launch file opens.
+
+    Attributes:
+        file: the model.
+        launch: the launch file, as the user would write it.
+        through: the packages whose launch files lead there.
+    """
+
+    file: Path
+    launch: str
+    through: tuple[Package, ...]
+
+
+class _TargetSearch:
+    """Finds models and packages; what launch files start is worked out once."""
+
+    def __init__(self, workspace: Workspace, trusted: bool) -> None:
+        self._workspace = workspace
+        self._trusted = trusted
+        self._started: dict[Package, dict[Path, _Start]] = {}
+        self._own: dict[Package, list[Path]] = {}
+        self._asked: tuple[Package, ...] = ()
+
+    def of_file(self, path: Path) -> Targets:
+        """Return a model with the packages that belong to it."""
+        home = self._workspace.around(path)
+        if home is None:
+            return Targets((CheckedModel(path),))
+        file = path.resolve()
+        chosen = choose_model(home.folder, self._models_of(home))
+        is_main = chosen is not None and chosen.resolve() == file
+        target = CheckedModel(path, "", self._together(file, (home,)), is_main)
+        return Targets((target,), target.packages)
+
+    def of_packages(self, packages: Sequence[Package], folder: Path) -> Targets:
+        """Return the models of packages, or those that their launch files start."""
+        self._asked = tuple(packages)
+        targets: dict[Path, CheckedModel] = {}
+        notes: dict[Package, Problem] = {}
+        for package in packages:
+            found = list(self._of_package(package))
+            for target in found:
+                file = target.model.resolve()
+                targets[file] = _joined(targets.get(file), target)
+            if found:
+                continue
+            models = self._models_of(package)
+            if models and len(packages) == 1:
+                raise UsageError(bundled.no_model_chosen(folder, models, ModelWalk()))
+            notes[package] = _without_model(package, models)
+        covered = {p for target in targets.values() for p in target.packages}
+        return Targets(
+            tuple(targets.values()),
+            tuple(dict.fromkeys([*packages, *covered])),
+            tuple(note for package, note in notes.items() if package not in covered),
+        )
+
+    def _of_package(self, package: Package) -> Iterator[CheckedModel]:
+        shown = self._workspace.shown
+        chosen = choose_model(package.folder, self._models_of(package))
+        if chosen is not None:
+            together = self._together(chosen.resolve(), (package,))
+            yield CheckedModel(Path(shown(chosen)), "", together)
+            return
+        for file, start in self._robots(package).items():
+            home = self._workspace.around(start.file)
+            # Of a package that is installed, only the model counts.
+            own = (home,) if home and self._workspace.named(home.name) is home else ()
+            first = (*own, package, *start.through)
+            together = self._together(file, tuple(dict.fromkeys(first)))
+            yield CheckedModel(Path(shown(start.file)), start.launch, together)
+
+    def _models_of(self, package: Package) -> list[Path]:
+        if package not in self._own:
+            self._own[package] = models_in(package.folder, ModelWalk())
+        return self._own[package]
+
+    def _together(self, model: Path, first: tuple[Package, ...]) -> tuple[Package, ...]:
+        """Return the packages that belong to a model: those that start it, and theirs.
+
+        Args:
+            model: the file, resolved.
+            first: those that are known to belong to it, its own first.
+        """
+        found = list(first)
+        pool = dict.fromkeys([*self._asked, *self._workspace.given])
+        for each in pool:
+            if each not in found and self._is_for(each, model):
+                found.append(each)
+        for package in tuple(found):
+            for other in pool:
+                of_it = other.name in package.uses and not other.launch_paths
+                if of_it and other not in found and not self._models_of(other):
+                    found.append(other)
+        return tuple(found)
+
+    def _is_for(self, package: Package, model: Path) -> bool:
+        """Tell whether the launch files of a package start this model, and no other."""
+        started = self._robots(package)
+        return model in started and len(started) == 1
+
+    def _robots(self, package: Package) -> dict[Path, _Start]:
+        """Return what its launch files start, by the resolved files; URDF before SDF.
+
+        Robots in SDF beside those are what else is put into the world.
+        """
+        if package not in self._started:
+            found = self._follow(package) if self._trusted else {}
+            urdf = {f: s for f, s in found.items() if "sdf" not in model_ending(f.name)}
+            self._started[package] = urdf or found
+        return self._started[package]
+
+    def _follow(self, package: Package) -> dict[Path, _Start]:
+        """Follow the launch files of a package to the models that they open."""
+        found: dict[Path, _Start] = {}
+        waiting: deque[tuple[Package, str, str, tuple[Package, ...]]] = deque(
+            (package, path, package.shown(path), (package,))
+            for path in package.launch_paths
+        )
+        seen: set[tuple[Package, str]] = set()
+        while waiting:
+            owner, path, first, through = waiting.popleft()
+            if (owner, path) in seen:
+                continue
+            seen.add((owner, path))
+            for value in owner.launch_paths.get(path, ()):
+                if value.endswith(_LAUNCHES):
+                    other = self._launch_file(value)
+                    if other is not None:
+                        chain = (*through, other[0])
+                        waiting.append((*other, first, chain))
+                elif value.endswith(MODEL_ENDINGS):
+                    file = self._workspace.file(value)
+                    if file is not None and is_model(file):
+                        start = _Start(file, first, through)
+                        found.setdefault(file.resolve(), start)
+        return found
+
+    def _launch_file(self, value: str) -> tuple[Package, str] | None:
+        """Return the launch file of a package in the workspace, and the package."""
+        name, _, below = value.removeprefix(SHARE).partition("/")
+        package = self._workspace.named(name)
+        for path in package.launch_paths if package is not None else ():
+            same_name = path.rpartition("/")[2] == below.rpartition("/")[2]
+            if package is not None and (path == below or same_name):
+                return package, path
+        return None
+
+
+def _joined(before: CheckedModel | None, now: CheckedModel) -> CheckedModel:
+    """Return one target for a model that several packages are about."""
+    if before is None:
+        return now
+    opened_by = before.opened_by and now.opened_by
+    packages = tuple(dict.fromkeys([*before.packages, *now.packages]))
+    return CheckedModel(now.model, opened_by, packages)
+
+
+def _without_model(package: Package, models: Sequence[Path]) -> Problem:
+    """Say that the files of a package are checked without a robot."""
+    if models:
+        names = listed(str(m.relative_to(package.folder)) for m in models)
+        message = f"several models are in the package ({names}), and no launch file "
+        message += "says which one is meant"
+    else:
+        message = f"the package {package.name} has no model, and its launch files open "
+        message += "none that is here"
+    return Problem(
+        "info",
+        "package-without-model",
+        f"{message}: its files were checked without a robot",
+        "check the model with --workspace and the folder of this package",
+        package.shown("package.xml"),
+    )

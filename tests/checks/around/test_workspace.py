@@ -1,0 +1,341 @@
+"""A robot in several packages: its description, and those that start it."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.checks.around import workspace
+from sambot_viz.checks.around.files import parameters
+from sambot_viz.cli import main
+
+Copied = Callable[[str], Path]
+
+MANIFEST = """\
+<package format="3">
+  <name>{}</name>
+  <version>0.0.0</version>
+  <description>Part of a cart</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+CMAKE = """\
+cmake_minimum_required(VERSION 3.8)
+project({})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY launch DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+"""
+ROBOT = '<robot name="{0}"><link name="{0}"/></robot>'
+OPENS = """\
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    share = get_package_share_directory("{}")
+    model = open(share + "/urdf/{}.urdf").read()
+    return LaunchDescription(
+        [
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                parameters=[{{"robot_description": model}}],
+            )
+        ]
+    )
+"""
+INCLUDES = """\
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+
+
+def generate_launch_description():
+    share = get_package_share_directory("{0}")
+    return LaunchDescription(
+        [IncludeLaunchDescription(share + "/launch/{0}.launch.py")]
+    )
+"""
+XML = """\
+<launch>
+  <node pkg="robot_state_publisher" exec="robot_state_publisher">
+    <param name="robot_description"
+           value="$(command 'xacro $(find-pkg-share {})/urdf/{}.urdf')"/>
+  </node>
+</launch>
+"""
+AMCL = "amcl:\n  ros__parameters:\n    base_frame_id: {}\n"
+MODEL = "cart_description/urdf/cart.urdf.xacro"
+LAUNCH = "cart_bringup/launch/display.launch.py"
+
+ROUTES = [
+    ("cart_bringup", ()),
+    ("cart_description", (".",)),
+    (MODEL, (".",)),
+    (".", ()),
+]
+"""What is checked, and with which workspace; all find the same."""
+
+
+@pytest.fixture
+def src(copied: Copied, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A workspace with the correct cart, whose parameters are in another package."""
+    description = copied("gz")
+    bringup = tmp_path / "cart_bringup"
+    _write(bringup, "package.xml", MANIFEST.format("cart_bringup"))
+    cmake = CMAKE.format("cart_bringup").replace("launch ", "launch config ")
+    _write(bringup, "CMakeLists.txt", cmake)
+    for folder in ("launch", "config"):
+        (description / folder).rename(bringup / folder)
+    _edit(description / "CMakeLists.txt", "urdf launch rviz config world", "urdf rviz")
+    _edit(description / "CMakeLists.txt", "urdf rviz", "urdf rviz world")
+    launch = tmp_path / LAUNCH
+    _edit(launch, 'share, "config/ekf.yaml"', 'bringup, "config/ekf.yaml"')
+    _edit(launch, 'share, "config", "bridge', 'bringup, "config", "bridge')
+    own = 'bringup = get_package_share_directory("cart_bringup")'
+    _edit(launch, "    gz_share =", f"    {own}\n    gz_share =")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _write(package: Path, name: str, text: str) -> None:
+    (package / name).parent.mkdir(parents=True, exist_ok=True)
+    (package / name).write_text(text)
+
+
+def _edit(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+
+
+def _package(folder: Path, **files: str) -> Path:
+    """Write a package with files whose paths have __ for / and _ for the last dot."""
+    _write(folder, "package.xml", MANIFEST.format(folder.name))
+    for name, text in files.items():
+        stem, _, ending = name.replace("__", "/").rpartition("_")
+        _write(folder, f"{stem}.{ending}", text)
+    return folder
+
+
+@pytest.mark.parametrize(("path", "given"), ROUTES)
+def test_a_right_robot_in_two_packages(
+    src: Path, path: str, given: tuple[str, ...]
+) -> None:
+    assert check(path, workspace=given) == []
+    assert check(src / path, workspace=[src / folder for folder in given]) == []
+
+
+@pytest.mark.parametrize(("path", "given"), ROUTES)
+def test_mistakes_in_the_package_that_starts_the_robot(
+    src: Path, path: str, given: tuple[str, ...]
+) -> None:
+    config = src / "cart_bringup" / "config"
+    _edit(config / "ekf.yaml", "base_link_frame: base_link", "base_link_frame: lnk")
+    _edit(config / "nav2_params.yaml", "ros__parameters", "ros_parameters")
+    _edit(src / LAUNCH, "            bridge,", "            bridge")
+    _edit(src / LAUNCH, "            rviz,", "            rviz")
+
+    found = [(p.code, p.file) for p in check(path, workspace=given)]
+
+    assert found == [
+        ("parameters-key", "cart_bringup/config/nav2_params.yaml"),
+        ("python-syntax", LAUNCH),
+        ("frame-unknown", "cart_bringup/config/ekf.yaml"),
+    ]
+
+
+def test_findings_are_named_as_the_user_would_write_them(
+    src: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ekf = src / "cart_bringup" / "config" / "ekf.yaml"
+    _edit(ekf, "base_link_frame: base_link", "base_link_frame: lnk")
+    (whole,) = check(src / "cart_bringup")
+    monkeypatch.chdir(src / "cart_bringup")
+    (relative,) = check(".")
+    (beside,) = check(f"../{MODEL}", workspace=[".."])
+
+    assert whole.file == str(ekf)
+    assert relative.file == beside.file == "config/ekf.yaml"
+
+
+def test_the_model_that_is_found_is_named(
+    src: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "cart_bringup"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert said == [
+        f"model: {MODEL}, which {LAUNCH} opens",
+        f"{MODEL}: no problems found",
+    ]
+    assert main(["check", "cart_bringup", "--format", "json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said == {
+        "model": MODEL,
+        "models": [{"model": MODEL, "opened_by": LAUNCH}],
+        "problems": [],
+    }
+    assert main(["check", MODEL, "--workspace", ".", "--format", "json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["models"] == [{"model": MODEL, "opened_by": None}]
+
+
+def test_each_file_is_read_and_parsed_once(
+    src: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    counts: dict[str, Counter[str]] = {
+        "read": Counter(),
+        "python": Counter(),
+        "yaml": Counter(),
+    }
+    read, parse = workspace.read_limited, ast.parse
+    loader: Any = parameters._LOADER  # pyright: ignore[reportPrivateUsage]
+
+    def read_once(file: Path, *rest: Any) -> bytes:
+        counts["read"][str(file)] += 1
+        return read(file, *rest)
+
+    def parse_once(text: Any, *rest: Any, **named: Any) -> Any:
+        counts["python"][str(text)] += 1
+        return parse(text, *rest, **named)
+
+    def load_once(text: str) -> Any:
+        counts["yaml"][text] += 1
+        return loader(text)
+
+    monkeypatch.setattr(workspace, "read_limited", read_once)
+    monkeypatch.setattr(ast, "parse", parse_once)
+    monkeypatch.setattr(parameters, "_LOADER", load_once)
+    # A misspelt name makes the rules run again on the corrected robot.
+    _edit(src / MODEL, "<axis xyz", "<axs xyz")
+
+    found = {problem.code for problem in check(".")}
+
+    assert "element-misspelt" in found
+    files = {kind: set(count.values()) for kind, count in counts.items()}
+    assert files == {"read": {1}, "python": {1}, "yaml": {1}}
+    assert [len(counts[kind]) for kind in ("python", "yaml")] == [1, 3]
+
+
+def test_a_model_that_a_launch_file_of_another_package_opens(tmp_path: Path) -> None:
+    _package(tmp_path / "a_description", urdf__a_urdf=ROBOT.format("a"))
+    opens = OPENS.format("a_description", "a")
+    _package(tmp_path / "a_gazebo", launch__a_gazebo_launch_py=opens)
+    (tmp_path / "a_gazebo/launch/a_gazebo_launch.py").rename(
+        tmp_path / "a_gazebo/launch/a_gazebo.launch.py"
+    )
+    start = _package(
+        tmp_path / "a_start",
+        launch__start_launch_py=INCLUDES.format("a_gazebo"),
+        config__amcl_yaml=AMCL.format("b"),
+    )
+    (problem,) = check(start)
+    assert problem.code == "frame-unknown"
+    assert problem.file == str(start / "config" / "amcl.yaml")
+
+
+def test_a_model_that_an_xml_launch_file_opens(tmp_path: Path) -> None:
+    _package(tmp_path / "a_description", urdf__a_urdf=ROBOT.format("a"))
+    start = _package(tmp_path / "a_start", config__amcl_yaml=AMCL.format("b"))
+    _write(start, "launch/a.launch.xml", XML.format("a_description", "a"))
+    assert [problem.code for problem in check(start)] == ["frame-unknown"]
+
+
+def test_of_a_package_that_is_installed_only_the_model_counts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prefix = tmp_path / "opt"
+    installed = _package(
+        prefix / "share" / "a_description",
+        urdf__a_urdf=ROBOT.format("a"),
+        config__amcl_yaml=AMCL.format("c"),
+    )
+    start = _package(
+        tmp_path / "src" / "a_start",
+        launch__a_launch_py=OPENS.format("a_description", "a"),
+        config__amcl_yaml=AMCL.format("b"),
+    )
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    files = [problem.file for problem in check(start)]
+    assert files == [str(start / "config" / "amcl.yaml")]
+    assert str(installed) not in str(files)
+
+
+def test_with_several_models_a_shared_file_is_wrong_when_it_is_for_each(
+    tmp_path: Path,
+) -> None:
+    for name in ("a", "b"):
+        _package(tmp_path / f"{name}_description", urdf__r_urdf=ROBOT.format(name))
+    start = _package(
+        tmp_path / "start",
+        launch__a_launch_py=OPENS.format("a_description", "r"),
+        launch__b_launch_py=OPENS.format("b_description", "r"),
+        config__amcl_yaml=AMCL.format("b"),
+    )
+    assert check(start) == check(tmp_path) == []
+    # It is for another robot as well.
+    assert check(tmp_path / "a_description", workspace=[tmp_path]) == []
+    _write(start, "config/amcl.yaml", AMCL.format("c"))
+    assert [problem.code for problem in check(start)] == ["frame-unknown"] * 2
+
+
+def test_a_package_without_a_model_is_checked_without_a_robot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = _package(tmp_path / "nodes", config__amcl_params_yaml=AMCL.format("x"))
+    assert main(["check", str(package)]) == 0
+    assert "info[package-without-model]: the package nodes" in capsys.readouterr().out
+    wrong = AMCL.format("x").replace("ros__p", "ros_p")
+    _write(package, "config/amcl_params.yaml", wrong)
+    assert main(["check", str(package)]) == 1
+    assert "error[parameters-key]" in capsys.readouterr().out
+    assert main(["check", str(package), "--format", "json"]) == 1
+    said = json.loads(capsys.readouterr().out)
+    assert (said["model"], said["models"]) == (None, [])
+
+
+def test_a_folder_that_has_nothing_to_check_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(tmp_path)]) == 2
+    assert "no model in the folder" in capsys.readouterr().err
+    (problem,) = check(tmp_path)
+    assert problem.code == "model-is-folder"
+    for name in ("a", "b"):
+        _package(tmp_path / "two", **{f"urdf__{name}_urdf": ROBOT.format(name)})
+    assert main(["check", str(tmp_path / "two")]) == 2
+    assert "several models" in capsys.readouterr().err
+
+
+def test_a_file_and_its_package_find_the_same(src: Path) -> None:
+    package = src / "cart_description"
+    _edit(package / "rviz" / "cart.rviz", "Frame: base_link", "Frame: base")
+    _write(package, "setup.py", "from setuptools import setup\nsetup(name='cart')\n")
+
+    of_file = check(src / MODEL)
+
+    codes = {"setup-fixed-frame", "setup-py-name"}
+    assert codes <= {problem.code for problem in of_file}
+    assert of_file == check(package)
+
+
+def test_an_untrusted_model_leads_to_no_other_package(src: Path) -> None:
+    ekf = src / "cart_bringup" / "config" / "ekf.yaml"
+    _edit(ekf, "base_link_frame: base_link", "base_link_frame: lnk")
+    assert check(MODEL, workspace=["."], trusted=False) == []
+    assert os.path.isfile(LAUNCH)
+    (note,) = check("cart_bringup", trusted=False)
+    assert note.code == "package-without-model"

@@ -1,0 +1,89 @@
+"""Launch files and setup.py of a package without a model, or with one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+MODEL = """\
+<robot name="r">
+  <link name="base_link"/><link name="wheel_link"/>
+  <joint name="wheel_joint" type="continuous">
+    <parent link="base_link"/><child link="wheel_link"/>
+  </joint>
+</robot>
+"""
+Checked = Callable[..., list[Problem]]
+
+
+@pytest.fixture
+def checked(tmp_path: Path) -> Checked:
+    """Checks a package with a launch file, and with a robot where one is given."""
+
+    def run(launch: str, name: str, model: str = "") -> list[Problem]:
+        package = tmp_path / name
+        (package / "launch").mkdir(parents=True)
+        manifest = f"<package><name>{name}</name></package>"
+        (package / "package.xml").write_text(manifest)
+        (package / "launch" / "x.launch.py").write_text(launch)
+        if model:
+            (package / "r.urdf").write_text(model)
+        found = check(package)
+        return [p for p in found if p.code != "package-without-model"]
+
+    return run
+
+
+def _of_collection(shared: Path, name: str) -> str:
+    return (shared / "data" / "bad-models" / "launch" / name).read_text("utf-8")
+
+
+def test_a_launch_file_in_which_no_node_publishes_joints_is_explained(
+    shared: Path, checked: Checked
+) -> None:
+    text = _of_collection(shared, "gui-true-but-no-gui-node.launch.py")
+
+    (problem,) = checked(text, "mini_bot", MODEL)
+
+    assert problem.severity == "warning"
+    assert problem.line == 20
+    assert "wheel_joint stays without a transform" in problem.message
+
+
+def test_a_launch_file_with_the_gui_node_is_fine(
+    shared: Path, checked: Checked
+) -> None:
+    bad = _of_collection(shared, "gui-true-but-no-gui-node.launch.py")
+    added = (
+        "Node(executable='joint_state_publisher_gui'),\n        Node(package='rviz2'"
+    )
+    assert checked(bad.replace("Node(package='rviz2'", added), "mini_bot") == []
+
+
+def test_a_launch_file_that_asks_for_a_nearly_right_package_is_explained(
+    shared: Path, checked: Checked
+) -> None:
+    text = _of_collection(shared, "package-not-found.launch.py")
+
+    (problem,) = checked(text, "mbot_pkg")
+
+    assert problem.severity == "error"
+    assert problem.line == 8
+    assert problem.hint == "write mbot_pkg"
+    assert checked(text, "turtlebot3_gazebo") == []
+
+
+def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:
+    folder = shared / "data" / "bad-models" / "launch" / "setup-py-name-mismatch"
+
+    problem, note = check(folder)
+
+    assert problem.severity == "error"
+    assert problem.line == 3
+    assert "mbot_code" in problem.message
+    assert note.code == "package-without-model"
