@@ -25,6 +25,7 @@ _OTHER_KEYS = frozenset(
     """.split()
 )
 _YAML: Any = yaml
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
@@ -164,7 +165,7 @@ def _second_document(text: str) -> int | None:
         return None
     starts = 0
     try:
-        for event in _YAML.parse(text, _YAML.SafeLoader):
+        for event in _YAML.parse(text, _LOADER):
             starts += isinstance(event, yaml.DocumentStartEvent)
             if starts == 2:
                 return int(event.start_mark.line) + 1

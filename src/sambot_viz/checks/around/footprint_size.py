@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
-
-import numpy as np
-import numpy.typing as npt
 
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
 from sambot_viz.errors import Problem
-from sambot_viz.geometry import Matrix
+from sambot_viz.geometry import PlainPose, Vector2, Vector3
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, MeshFile, Shape, Sphere
 
@@ -25,17 +22,21 @@ _TOO_LARGE, _TOO_LARGE_WITH_ARM = 2.0, 5.0
 """So many times what the robot needs: less may be meant to keep a distance."""
 
 _STEPS = 16
+_CIRCLE = tuple(
+    (math.cos(2 * math.pi * n / _STEPS), math.sin(2 * math.pi * n / _STEPS))
+    for n in range(_STEPS)
+)
 
 
-Points = npt.NDArray[np.float64]
-"""Points on the floor (N, 2) [m]."""
+Points = list[Vector2]
+"""Points on the floor [m]."""
 
 
 class _Reach(NamedTuple):
     """The points of shapes on the floor.
 
     Attributes:
-        points: (N, 2) [m], in the base frame.
+        points: in the base frame [m].
         links: the link of each.
         complete: no shape is left out, of those that no arm moves.
     """
@@ -54,26 +55,26 @@ def compare(robot: Robot, frame: str, said: Parameter) -> Iterator[Problem]:
         said: the footprint or the radius.
     """
     reach = _reach(robot, frame, visuals=False)
-    if not len(reach.points):
+    if not reach.points:
         return
     radius = said.fact.number
     polygon = _polygon(said.fact.value) if radius is None else None
     if polygon is not None:
-        outside = _outside(polygon, reach.points)
-        size = float(_lengths(polygon).max())
+        outside = [_outside(polygon, point) for point in reach.points]
+        size = max(math.hypot(*corner) for corner in polygon)
     elif radius is not None and radius > 0:
-        outside = _lengths(reach.points) - radius
+        outside = [math.hypot(*point) - radius for point in reach.points]
         size = radius
     else:
         return
-    farthest = int(outside.argmax())
+    farthest = outside.index(max(outside))
     place = robot.links[reach.links[farthest]].place
     if outside[farthest] > max(_SMALLEST_GAP, _SHARE * size):
         yield _finding(
             said,
             f"the robot is larger than its {said.name} here: the collision shape of "
             f"{reach.links[farthest]} ({where(place, said.place)}) is "
-            f"{number(round(float(outside[farthest]), 3))} m outside, so it may hit "
+            f"{number(round(outside[farthest], 3))} m outside, so it may hit "
             "what Nav2 believes to be free",
             _needed(said, reach),
         )
@@ -86,12 +87,12 @@ def _too_large(
 ) -> Iterator[Problem]:
     """Compare with all shapes: a part that is only visible may need the room."""
     reach = _reach(robot, frame, visuals=True)
-    lengths = _lengths(reach.points)
-    needed = float(lengths.max())
+    lengths = [math.hypot(*point) for point in reach.points]
+    needed = max(lengths)
     arm = len(_rigid(robot)) < len(robot.links)
     most = (_TOO_LARGE_WITH_ARM if arm else _TOO_LARGE) * needed
     if reach.complete and size > most:
-        place = robot.links[reach.links[int(lengths.argmax())]].place
+        place = robot.links[reach.links[lengths.index(needed)]].place
         yield _finding(
             said,
             f"the {said.name} reaches {number(size)} m, but the shapes of the robot "
@@ -108,14 +109,11 @@ def _finding(said: Parameter, message: str, hint: str) -> Problem:
 def _needed(said: Parameter, reach: _Reach) -> str:
     """The value that fits the shapes."""
     if said.name == "robot_radius":
-        needed = float(_lengths(reach.points).max())
+        needed = max(math.hypot(*point) for point in reach.points)
         return f"write {_outward(needed, math.ceil):g}"
-    xs, ys = reach.points[:, 0], reach.points[:, 1]
-    x0, y0 = (
-        _outward(float(xs.min()), math.floor),
-        _outward(float(ys.min()), math.floor),
-    )
-    x1, y1 = _outward(float(xs.max()), math.ceil), _outward(float(ys.max()), math.ceil)
+    xs, ys = zip(*reach.points, strict=True)
+    x0, y0 = (_outward(min(values), math.floor) for values in (xs, ys))
+    x1, y1 = (_outward(max(values), math.ceil) for values in (xs, ys))
     corners = f"[{x1:g}, {y1:g}], [{x1:g}, {y0:g}], [{x0:g}, {y0:g}], [{x0:g}, {y1:g}]"
     return f'write "[ {corners} ]"'
 
@@ -126,34 +124,26 @@ def _outward(value: float, rounded: Callable[[float], int]) -> float:
 
 
 def _polygon(text: str) -> Points | None:
-    """The corners of a footprint [m], (N, 2); None when they are not readable."""
+    """The corners of a footprint [m]; None when they are not readable."""
     numbers = [float(n) for n in _NUMBER.findall(text)[:2000]]
-    if len(numbers) < 6 or len(numbers) % 2:
+    if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
         return None
-    corners = np.array(list(zip(numbers[::2], numbers[1::2], strict=True)))
-    return corners if np.isfinite(corners).all() else None
+    return list(zip(numbers[::2], numbers[1::2], strict=True))
 
 
-def _lengths(points: Points) -> Points:
-    """Distance of each point from the origin [m]."""
-    return np.hypot(points[:, 0], points[:, 1])
-
-
-def _outside(polygon: Points, points: Points) -> Points:
-    """Distance of each point from a polygon [m]; 0 inside."""
-    distance = np.full(len(points), np.inf)
-    inside = np.zeros(len(points), dtype=bool)
-    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        edge, to = b - a, points - a
-        length = float(edge @ edge)
-        share = to @ edge / (length or 1.0)
-        share = np.minimum(np.maximum(share, 0.0), 1.0)
-        distance = np.minimum(distance, _lengths(to - share[:, None] * edge))
-        crosses = (a[1] > points[:, 1]) != (b[1] > points[:, 1])
-        if edge[1]:
-            at = a[0] + edge[0] * (points[:, 1] - a[1]) / edge[1]
-            inside ^= crosses & (points[:, 0] < at)
-    return np.where(inside, 0.0, distance)
+def _outside(polygon: Points, point: Vector2) -> float:
+    """Distance of a point from a polygon [m]; 0 inside."""
+    distance, inside = math.inf, False
+    for a, b in zip(polygon, [*polygon[1:], polygon[0]], strict=True):
+        edge, to = (b[0] - a[0], b[1] - a[1]), (point[0] - a[0], point[1] - a[1])
+        length = edge[0] ** 2 + edge[1] ** 2
+        share = (to[0] * edge[0] + to[1] * edge[1]) / (length or 1.0)
+        share = min(max(share, 0.0), 1.0)
+        away = math.hypot(to[0] - share * edge[0], to[1] - share * edge[1])
+        distance = min(distance, away)
+        if (a[1] > point[1]) != (b[1] > point[1]):
+            inside ^= point[0] < a[0] + edge[0] * to[1] / edge[1]
+    return 0.0 if inside else distance
 
 
 def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
@@ -164,9 +154,9 @@ def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
         frame: the base frame.
         visuals: the visual shapes as well as the collision shapes.
     """
-    poses = robot.forward_kinematics()
-    T_frame_root = np.linalg.inv(poses[frame])
-    found: list[Points] = []
+    poses = robot.at_start
+    T_frame_root = poses[frame].inverse()
+    found: Points = []
     links: list[str] = []
     complete = True
     for name in _rigid(robot):
@@ -175,10 +165,9 @@ def _reach(robot: Robot, frame: str, *, visuals: bool) -> _Reach:
             points = _points(shape, T_frame_root @ poses[name])
             complete = complete and points is not None
             if points is not None:
-                found.append(points)
+                found += points
                 links += [name] * len(points)
-    points = np.concatenate(found) if found else np.empty((0, 2))
-    return _Reach(points, links, complete)
+    return _Reach(found, links, complete)
 
 
 def _rigid(robot: Robot) -> list[str]:
@@ -199,23 +188,23 @@ def _rigid(robot: Robot) -> list[str]:
 _STEADY = frozenset({"fixed", "continuous"})
 
 
-def _points(shape: Shape, T_frame_link: Matrix) -> Points | None:
-    """Points of a shape, (N, 2) in the frame [m]; None for a mesh."""
+def _points(shape: Shape, T_frame_link: PlainPose) -> Points | None:
+    """Points of a shape in the frame [m]; None for a mesh."""
     geometry = shape.geometry
-    T = T_frame_link @ shape.origin.matrix
-    turn = np.linspace(0, 2 * np.pi, _STEPS, endpoint=False)
-    circle = np.stack([np.cos(turn), np.sin(turn), np.zeros(_STEPS)], axis=1)
+    T = T_frame_link @ shape.origin.pose
     if isinstance(geometry, MeshFile):
         return None
     if isinstance(geometry, Box):
-        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-        local = signs * np.array(geometry.size) / 2
-    elif isinstance(geometry, Cylinder):
-        rim, half = geometry.radius * circle, [0, 0, geometry.length / 2]
-        local = np.concatenate([rim + half, rim - half])
-    else:
-        half = 0.0 if isinstance(geometry, Sphere) else geometry.length / 2
-        ends = T[:2, 3] + np.outer([half, -half], T[:2, 2])
-        around = geometry.radius * circle[:, :2]
-        return np.concatenate([ends[0] + around, ends[1] + around])
-    return (local @ np.transpose(T[:3, :3]) + T[:3, 3])[:, :2]
+        x, y, z = (side / 2 for side in geometry.size)
+        local = [(i, j, k) for i in (-x, x) for j in (-y, y) for k in (-z, z)]
+        return _on_floor(T, local)
+    half = 0.0 if isinstance(geometry, Sphere) else geometry.length / 2
+    circle = [(geometry.radius * x, geometry.radius * y) for x, y in _CIRCLE]
+    if isinstance(geometry, Cylinder):
+        return _on_floor(T, [(x, y, z) for z in (half, -half) for x, y in circle])
+    ends = _on_floor(T, [(0.0, 0.0, half), (0.0, 0.0, -half)])
+    return [(ex + x, ey + y) for ex, ey in ends for x, y in circle]
+
+
+def _on_floor(T: PlainPose, points: Sequence[Vector3]) -> Points:
+    return [T.of(point)[:2] for point in points]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -101,9 +101,16 @@ class YamlFile:
                     waiting.append((names, value))
         return {name: found[name] for name in self.nodes if name in found}
 
-    def of(self, node: str) -> dict[str, Parameter]:
+    @cached_property
+    def _by_node(self) -> dict[str, dict[str, Parameter]]:
+        found: dict[str, dict[str, Parameter]] = {}
+        for parameter in self.parameters:
+            found.setdefault(parameter.node, {})[parameter.name] = parameter
+        return found
+
+    def of(self, node: str) -> Mapping[str, Parameter]:
         """Return the parameters of a node, by their names."""
-        return {p.name: p for p in self.parameters if p.node == node}
+        return self._by_node.get(node, {})
 
     def _parameters(
         self, node: yaml.Node, keys: tuple[str, ...], budget: _Budget
