@@ -179,8 +179,8 @@ ROOMS: Mapping[str, Row] = {
     "files": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
-        "bundled displays joints listened moved_by options robot rviz tools topics "
-        "views",
+        "bundled checks displays joints listened moved_by options robot rviz tools "
+        "topics views",
         "yourdfpy",
         "concurrent threading",
     ),

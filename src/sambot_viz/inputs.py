@@ -142,7 +142,7 @@ class Inputs:
         if self.live is not None and listen is not None:
             self._listen(self.live, listen)
         self._hold()
-        found = bundled.find(
+        found = self._find(
             Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
         )
@@ -255,6 +255,26 @@ class Inputs:
         if self._options.model is None:
             return found
         return tuple(p for p in found if p.code != "no-description")
+
+    def _find(self, model: Path | None, config: Path | None) -> bundled.Found:
+        """Return the files that are meant; a package may start a model of another.
+
+        Raises:
+            UsageError: as `bundled.find`.
+        """
+        try:
+            return bundled.find(model, config)
+        except UsageError:
+            if model is None or not model.is_dir() or not self._options.trusted:
+                raise
+            from sambot_viz.checks.targets import find_targets
+
+            started = find_targets(model, self._options.package_path).models
+            if len(started) != 1:
+                raise
+            workspace = (*self._options.workspace, model)
+            self._options = self._options.having(workspace=workspace)
+            return bundled.Found(started[0].model, config or bundled.config_in(model))
 
     def wait(self, timeout: float) -> bool:
         """Wait for the robot to be loaded, or refused, at most so long [s].

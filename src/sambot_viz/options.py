@@ -110,6 +110,15 @@ class Options:
         metavar="DIR",
         read=words_of,
     )
+    workspace: Sequence[PathLike] = option(
+        (),
+        "a folder of packages: those that start the robot or have its parameters are "
+        f"checked with it{AGAIN}",
+        "--workspace",
+        group="check",
+        metavar="DIR",
+        read=words_of,
+    )
     trusted: bool = option(
         True,
         "evaluate the model without file access and attribute access, for files you "

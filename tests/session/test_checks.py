@@ -135,6 +135,32 @@ def test_what_the_files_around_the_model_contradict_is_listed(
         assert codes(viz) == ["limit-in-degrees", "frame-unknown"]
 
 
+def test_a_package_that_starts_the_model_is_checked_with_it(tmp_path: Path) -> None:
+    for name, files in {
+        "r_description": {"r.urdf": MODEL.replace("90", "1")},
+        "r_bringup": {
+            "launch/r.launch.xml": "$(find-pkg-share r_description)/r.urdf",
+            "nav2_params.yaml": "amcl:\n  ros__parameters:\n    base_frame_id: base\n",
+        },
+    }.items():
+        for file, text in {
+            "package.xml": f"<package><name>{name}</name></package>",
+            **files,
+        }.items():
+            path = tmp_path / name / file
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+    model = tmp_path / "r_description" / "r.urdf"
+    for shown, workspace in ((tmp_path / "r_bringup", ()), (model, (tmp_path,))):
+        with Visualizer(shown, port=0, workspace=workspace) as viz:
+            wait_for_workers()
+            assert list(viz.joint_positions) == ["j"]
+            assert codes(viz) == ["frame-unknown"]
+    with Visualizer(model, port=0) as viz:
+        wait_for_workers()
+        assert codes(viz) == []
+
+
 def test_what_was_checked_late_does_not_replace_what_is_newer(
     model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

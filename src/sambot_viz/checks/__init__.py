@@ -85,6 +85,7 @@ def check_around(
     robot: Robot,
     path: str | os.PathLike[str] | None = None,
     *,
+    workspace: Sequence[Path | str] = (),
     read: set[Path] | None = None,
 ) -> list[Problem]:
     """Find what is wrong with the package of a model, and names that differ there.
@@ -92,6 +93,7 @@ def check_around(
     Args:
         robot: the robot.
         path: as for `check_robot`.
+        workspace: as for `check`.
         read: gets the files of the package that were looked for.
     """
     from sambot_viz.checks.checked import problems_around
@@ -99,4 +101,4 @@ def check_around(
     subject = subject_of(robot, path)
     if not subject.files:
         return in_order(find_problems(subject, AROUND))
-    return problems_around(robot, Path(subject.files[0]), read)
+    return problems_around(robot, Path(subject.files[0]), workspace, read)

@@ -102,11 +102,14 @@ def _load(
 
 
 def problems_around(
-    robot: Robot, model: Path, read: set[Path] | None = None
+    robot: Robot,
+    model: Path,
+    workspace: Sequence[Path | str] = (),
+    read: set[Path] | None = None,
 ) -> list[Problem]:
     """Return what the files around a model have against it; see `check_around`."""
     trusted = robot.file_roots is None
-    targets = find_targets(model, trusted=trusted, read=read)
+    targets = find_targets(model, (), workspace, trusted=trusted, read=read)
     (target,) = targets.models
     subject = subject_of(robot, model, None, target.packages)
     found = _Loaded(target, robot, tuple(find_problems(subject, AROUND)))

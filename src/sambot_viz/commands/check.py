@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import UsageError
-from sambot_viz.flags import AGAIN
 from sambot_viz.outlet import write_json, write_out
 from sambot_viz.problems import group_problems, write_problems
 
@@ -32,7 +31,7 @@ def run(words: list[str]) -> int:
         path,
         xacro_args=options.xacro_args,
         package_path=options.package_path,
-        workspace=given.workspace,
+        workspace=options.workspace,
         trusted=options.trusted,
     )
     if given.format == "json":
@@ -46,21 +45,13 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz check",
-        groups=("model",),
+        groups=("model", "check"),
         model="model file, package folder, or folder of packages",
         description="List what is wrong with a model and its mesh files, where, and "
         "how to fix it, and with its package: names that differ between it and other "
         "files, its .rviz, launch files and build files. Of a package without a model, "
         "those that its launch files open are checked. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
-    )
-    made.add_argument(
-        "--workspace",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="a folder of packages, of which those that start the robot or have its "
-        f"parameters are checked with it{AGAIN}",
     )
     made.add_format()
     return made

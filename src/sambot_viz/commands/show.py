@@ -161,7 +161,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz",
-        groups=("model", "source", "view", "pose", "server"),
+        groups=("model", "check", "source", "view", "pose", "server"),
         description="Show a URDF, SDF or xacro robot in the browser: no ROS, no X "
         "server.",
         epilog=EPILOG,

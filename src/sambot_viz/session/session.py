@@ -141,7 +141,9 @@ class Session:
         )
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit
-        self.checks = Checks(robot, document, scene, self.problems, change)
+        self.checks = Checks(
+            robot, document, scene, self.problems, change, options.workspace
+        )
         self.driven = Signal(change, None)
         drive = DriveSettings(
             f"/{options.cmd_vel.strip().lstrip('/')}",

@@ -222,7 +222,9 @@ class Checks:
         scene: Scene,
         problems: Problems,
         change: Change,
+        workspace: Sequence[Path | str] = (),
     ) -> None:
+        self._workspace = tuple(workspace)
         self._robot = robot
         self._document = document
         self._context = scene.context
@@ -270,7 +272,8 @@ class Checks:
         of, saves, found = self._of_files
         if of is not robot or saves != state.saves:
             read: set[Path] = set()
-            found = tuple(check_around(robot, read=read))
+            around = check_around(robot, workspace=self._workspace, read=read)
+            found = tuple(around)
             self._of_files = (robot, state.saves, found)
             self.files.set(frozenset(read))
         return (*check_robot(robot, mesh=self._mesh, around=False), *found)
