@@ -265,7 +265,7 @@ class Inputs:
         try:
             return bundled.find(model, config)
         except UsageError:
-            if model is None or not model.is_dir() or not self._options.trusted:
+            if model is None or not os.path.isdir(model) or not self._options.trusted:
                 raise
             from sambot_viz.checks.targets import find_targets
 

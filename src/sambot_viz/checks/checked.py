@@ -6,11 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import config_in
 from sambot_viz.checks.around import built_wrongly, wrong_files
-from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.workspace import Package, shown
 from sambot_viz.checks.model_rules import (
     AROUND,
     RULES,
@@ -22,6 +21,10 @@ from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.files import is_below
 from sambot_viz.robot.model import Robot, load_robot
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.surroundings import Surroundings
+    from sambot_viz.checks.around.workspace import Package
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,12 +162,16 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
     """Return what is wrong with the .rviz files of a model, if they are for it."""
     if not target.is_main or not target.packages:
         return []
+    # The imports are late: many models are in no package.
+    from sambot_viz.checks.around.surroundings import Surroundings
+
     around = Surroundings(robot, target.packages)
     return [p for each in target.packages for p in _of_config(each, around)]
 
 
 def _of_config(package: Package, around: Surroundings | None = None) -> list[Problem]:
     from sambot_viz.checks.around.known_nodes import may_publish
+    from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import check_config
     from sambot_viz.rviz import Declarations, RvizConfig
 

@@ -6,17 +6,18 @@ launch files use that of the model belong to it: they have its parameters.
 
 from __future__ import annotations
 
+import os
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz import bundled
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.workspace import Package, Workspace
 from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Problem, UsageError
-from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.packages.package_index import PackageIndex, package_around
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
     ModelWalk,
@@ -26,6 +27,10 @@ from sambot_viz.robot.packages.package_model import (
     models_in,
 )
 
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.workspace import Package, Workspace
+
+_GIVE = "the robot's model and --workspace"
 _LAUNCHES = (
     "launch.py",
     ".launch",
@@ -88,7 +93,12 @@ def find_targets(
     Raises:
         UsageError: there is nothing to check, or it is not clear which model is meant.
     """
-    is_folder = path.is_dir()
+    is_folder = os.path.isdir(path)
+    if not is_folder and package_around(path) is None:
+        return Targets((CheckedModel(path),))
+    # The import is late: many models are in no package.
+    from sambot_viz.checks.around.workspace import Workspace
+
     found = Workspace(
         path if is_folder else path.absolute().parent,
         package_path,
@@ -137,7 +147,8 @@ class _TargetSearch:
 
     def of_file(self, path: Path) -> Targets:
         """Return a model with the packages that belong to it."""
-        home = self._workspace.around(path)
+        folder = package_around(path)
+        home = None if folder is None else self._workspace.at(folder)
         if home is None:
             return Targets((CheckedModel(path),))
         file = path.resolve()
@@ -161,7 +172,10 @@ class _TargetSearch:
             models = self._models_of(package)
             if models and len(packages) == 1:
                 raise UsageError(bundled.no_model_chosen(folder, models, ModelWalk()))
-            notes[package] = _without_model(package, models)
+            if models or len(packages) == 1:
+                notes[package] = _without_model(package, models)
+        if not targets and not notes:
+            notes[packages[0]] = _without_models(packages, folder)
         covered = {p for target in targets.values() for p in target.packages}
         return Targets(
             tuple(targets.values()),
@@ -177,7 +191,8 @@ class _TargetSearch:
             yield CheckedModel(Path(shown(chosen)), "", together)
             return
         for file, start in self._robots(package).items():
-            home = self._workspace.around(start.file)
+            folder = package_around(start.file)
+            home = None if folder is None else self._workspace.at(folder)
             # Of a package that is installed, only the model counts.
             own = (home,) if home and self._workspace.named(home.name) is home else ()
             first = (*own, package, *start.through)
@@ -199,7 +214,7 @@ class _TargetSearch:
         found = list(first)
         pool = dict.fromkeys([*self._asked, *self._workspace.given])
         for each in pool:
-            if each not in found and self._is_for(each, model):
+            if each not in found and self._is_for(each, model, first[0]):
                 found.append(each)
         for package in tuple(found):
             for other in pool:
@@ -208,10 +223,16 @@ class _TargetSearch:
                     found.append(other)
         return tuple(found)
 
-    def _is_for(self, package: Package, model: Path) -> bool:
-        """Tell whether the launch files of a package start this model, and no other."""
+    def _is_for(self, package: Package, model: Path, home: Package) -> bool:
+        """Tell whether the launch files of a package start this model, and no other.
+
+        Which one they start may not be known, where the package has only this.
+        """
         started = self._robots(package)
-        return model in started and len(started) == 1
+        if started or self._workspace.is_chosen(package):
+            return not started or list(started) == [model]
+        only = self._models_of(home) == [model] and not self._models_of(package)
+        return only and home.name in package.uses
 
     def _robots(self, package: Package) -> dict[Path, _Start]:
         """Return what its launch files start, by the resolved files; URDF before SDF.
@@ -283,6 +304,17 @@ def _without_model(package: Package, models: Sequence[Path]) -> Problem:
         "info",
         "package-without-model",
         f"{message}: its files were checked without a robot",
-        "check the model with --workspace and the folder of this package",
+        f"to check it with a robot, give {_GIVE} {package.shown('.')}",
         package.shown("package.xml"),
+    )
+
+
+def _without_models(packages: Sequence[Package], folder: Path) -> Problem:
+    """Say the same of all packages below a folder."""
+    return Problem(
+        "info",
+        "package-without-model",
+        f"none of the {len(packages)} packages in {folder} has a model, or opens one "
+        "that is here: their files were checked without a robot",
+        f"to check them with a robot, give {_GIVE} {folder}",
     )

@@ -307,6 +307,33 @@ def test_a_package_without_a_model_is_checked_without_a_robot(
     assert (said["model"], said["models"]) == (None, [])
 
 
+def test_a_package_whose_model_is_not_certain_is_checked_when_it_can_mean_no_other(
+    tmp_path: Path,
+) -> None:
+    home = _package(tmp_path / "a_description", urdf__a_urdf=ROBOT.format("a"))
+    launch = OPENS.format("a_description", "a").replace('"/urdf/a.urdf"', "input()")
+    start = _package(
+        tmp_path / "start",
+        launch__a_launch_py=launch,
+        config__amcl_yaml=AMCL.format("b"),
+    )
+    assert [p.code for p in check(home, workspace=[tmp_path])] == ["frame-unknown"]
+    _package(home, urdf__c_urdf=ROBOT.format("c"))
+    assert check(home / "urdf" / "a.urdf", workspace=[tmp_path]) == []
+    # Who gives the package itself means it.
+    found = check(home / "urdf" / "a.urdf", workspace=[start])
+    assert [problem.code for problem in found] == ["frame-unknown"]
+
+
+def test_packages_without_a_model_are_noted_once(tmp_path: Path) -> None:
+    for name in ("a_msgs", "b_msgs"):
+        _package(tmp_path / name)
+    (note,) = check(tmp_path)
+    assert note.message.startswith("none of the 2 packages in")
+    _package(tmp_path / "a_description", urdf__a_urdf=ROBOT.format("a"))
+    assert check(tmp_path) == []
+
+
 def test_a_folder_that_has_nothing_to_check_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

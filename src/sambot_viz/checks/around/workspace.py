@@ -212,6 +212,7 @@ class Workspace:
         self._index = PackageIndex(start, package_path)
         self._resolver = FileResolver(self._index, start)
         self._given = PackageIndex(None, given)
+        self._chosen = {Path(folder).resolve() for folder in given}
         self._made: dict[Path, Package] = {}
         self.relative = relative
         self._trusted = trusted
@@ -231,13 +232,6 @@ class Workspace:
             )
         return self._made[key]
 
-    def around(self, file: Path) -> Package | None:
-        """Return the package that a file is in; None when it is in none."""
-        for folder in PackageIndex(file.absolute().parent).ancestors():
-            if package_name(folder) is not None:
-                return self.at(folder)
-        return None
-
     @cached_property
     def given(self) -> tuple[Package, ...]:
         """The packages at and below the folders that the user gave."""
@@ -245,6 +239,10 @@ class Workspace:
         # Models of Gazebo have no package.xml.
         found = (self.at(f) for f in folders if (f / "package.xml").is_file())
         return tuple(package for package in found if package is not None)
+
+    def is_chosen(self, package: Package) -> bool:
+        """Tell whether the user gave this very package, not a folder above it."""
+        return package.folder.resolve() in self._chosen
 
     def named(self, name: str) -> Package | None:
         """Return a package of the workspace; None for one that is only installed."""

@@ -67,6 +67,12 @@ def package_name(folder: Path) -> str | None:
     return match[1] if match else folder.name
 
 
+def package_around(file: Path) -> Path | None:
+    """Return the folder of the package that a file is in; None when it is in none."""
+    folders = PackageIndex(file.absolute().parent).ancestors()
+    return next((folder for folder in folders if package_name(folder)), None)
+
+
 class PackageIndex:
     """Finds the folders of packages; searches only as far as each question needs.
 
