@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from base_peer import CMD_VEL, BasePeer
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -37,6 +37,7 @@ def viz(peer: BasePeer) -> Iterator[Visualizer]:
         data = session_of(viz).data
         assert data is not None
         eventually(lambda: CMD_VEL in data.source.topics())
+        knows_takers(data.source, peer)
         yield viz
 
 

@@ -67,8 +67,10 @@ class NavigatorPeer(FoxglovePeer):
                 self.tell(status)
 
     def tell(self, status: int) -> None:
-        """Say a number of GoalStatus of the last goal."""
-        self._channels[STATUS].log(_said(self._goals, status))
+        """Say a number of GoalStatus of the last goal; who comes late gets the last."""
+        said = _said(self._goals, status)
+        self._latched[STATUS] = [said]
+        self._channels[STATUS].log(said)
 
     def offer(self, topic: str, kind: str, definition: str = "") -> None:
         """Begin to publish a topic, of a type of ROS or with its definition."""

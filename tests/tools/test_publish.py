@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from hand import Hand
 from inside import session_of, viser_server
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import GOAL, NavigatorPeer, transforms
 from protocol_client import ProtocolClient, wait_for_workers
 
@@ -64,6 +64,7 @@ def hand(
         eventually(lambda: data.source.status.is_connected)
         known = session_of(viz).scene.context.tree
         eventually(lambda: f"{prefix}/map".lstrip("/") in known.frames)
+        knows_takers(data.source, peer, prefix)
         wait_for_workers()
         return found
 
@@ -167,6 +168,8 @@ def test_an_estimate_has_the_covariance_of_the_properties(
     peer.listen_as("/initialpose", "/amcl")
     page = hand(peer, publish=ALL)
     page.choose("2D Pose Estimate")
+    # Before that it is not known who takes it.
+    eventually(peer.advertised)
     page.drag((0.5, 0.5), (0.6, 0.5))
     eventually(lambda: len(peer.came()) == 1)
     (came,) = peer.came()
@@ -228,6 +231,8 @@ def test_what_may_not_be_sent_is_not_sent_and_says_why(
     assert page.current == "2D Goal Pose"
     wait_for_workers()
     assert peer.came() == []
+    if frame == "island":
+        eventually(peer.advertised)
     assert bool(peer.advertised()) == (frame == "island")
 
 
