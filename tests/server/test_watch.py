@@ -245,7 +245,7 @@ def test_an_error_while_looking_does_not_end_the_watching(
     try:
         assert failed.wait(patience(10.0))
         for content in ("new", "newer"):
-            path.write_text(content, "utf-8")
+            replace(path, content)
             assert changes.get(timeout=patience(10.0)) == {path}
     finally:
         watcher.close()
@@ -269,7 +269,7 @@ def test_what_counts_is_asked_only_when_it_may_have_changed(
     watcher.start()
     try:
         for content in ("new", "newer"):
-            first.write_text(content, "utf-8")
+            replace(first, content)
             assert changes.get(timeout=patience(10.0)) == {first}
         assert next(asked) == 1
         # It was read, then saved, and only then it is told that it counts.
