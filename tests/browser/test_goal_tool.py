@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import NavigatorPeer
 from viewer_page import ViewerPage
 
@@ -49,6 +49,9 @@ def viz(peer: NavigatorPeer, tmp_path: Path) -> Iterator[Visualizer]:
     config.write_text(CONFIG)
     with Visualizer(source=peer.uri, config=config, port=0, publish="goal") as viz:
         eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        data = session_of(viz).data
+        assert data is not None
+        knows_takers(data.source, peer)
         yield viz
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from inside import session_of
 from interactive_messages import MOVE_AXIS, control, cube, marker
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from marker_peer import MarkerPeer
 from viewer_page import ViewerPage
 
@@ -69,6 +69,9 @@ def viz(peer: MarkerPeer, tmp_path: Path) -> Iterator[Visualizer]:
     config.write_text(CONFIG)
     with Visualizer(source=peer.uri, config=config, port=0, publish="markers") as viz:
         eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        data = session_of(viz).data
+        assert data is not None
+        knows_takers(data.source, peer)
         yield viz
 
 

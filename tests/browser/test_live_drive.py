@@ -124,6 +124,9 @@ def test_a_goal_is_cancelled_with_a_button(
     peer.serve(cancel, reply=b"\0\1\0\0" + bytes(8))
     viewer = open_viewer(viz.url)
     eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+    data = session_of(viz).data
+    assert data is not None
+    knows_takers(data.source, peer)
     viz.publish_goal(1.0, 0.0, 0.0)
     viewer.user.reads("Goal: on the way")
     viewer.user.click("button", "Cancel")
