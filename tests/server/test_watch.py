@@ -428,7 +428,7 @@ def test_what_a_save_includes_newly_is_followed_from_then_on(
     sam_bot.wait_for(lambda: "mast" in sam_bot.viz.frames.frames)
     extra.write_text(text.replace('"mast"', '"tall_mast"'), "utf-8")
     sam_bot.wait_for(lambda: "tall_mast" in sam_bot.viz.frames.frames)
-    assert sam_bot.failed == []
+    sam_bot.wait_for(lambda: sam_bot.failed == [])
 
 
 def test_a_saved_config_is_shown(sam_bot: Followed) -> None:
@@ -436,7 +436,7 @@ def test_a_saved_config_is_shown(sam_bot: Followed) -> None:
     sam_bot.wait_for(
         lambda: sam_bot.session.scene.context.fixed_frame == "front_caster"
     )
-    assert sam_bot.failed == []
+    sam_bot.wait_for(lambda: sam_bot.failed == [])
 
 
 def test_a_broken_config_keeps_the_old_one_until_it_is_fixed(
@@ -489,7 +489,7 @@ def test_a_view_that_was_moved_stays_and_does_not_keep_a_config_from_being_shown
     sam_bot.wait_for(
         lambda: sam_bot.session.scene.context.fixed_frame == "front_caster"
     )
-    assert sam_bot.failed == []
+    sam_bot.wait_for(lambda: sam_bot.failed == [])
     assert browser.view.values["Distance"] == 7.5
 
 
