@@ -7,7 +7,7 @@ from functools import partial
 
 from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.goal_result import ask_why
-from sambot_viz.publishing.outbound import GOAL_TOPIC
+from sambot_viz.publishing.outbound import GOAL_TOPIC, Outbound
 from sambot_viz.publishing.outcome import (
     GIVEN_UP,
     GoalFollower,
@@ -44,6 +44,7 @@ class Goals:
         with_distance: bool = True,
     ) -> None:
         self.last: Outcome | None = None
+        self._goal: Outbound | None = None
         self._robot, self._told = robot, told
         self._with_distance = with_distance
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
@@ -53,6 +54,11 @@ class Goals:
     def is_on_the_way(self) -> bool:
         """Whether a goal that was sent from here has not ended, as far as is known."""
         return self.last is not None and not self.last.is_over
+
+    @property
+    def on_the_way(self) -> Outbound | None:
+        """The goal that was sent from here and has not ended, as far as is known."""
+        return self._goal if self.is_on_the_way else None
 
     def follow(self, topic: str) -> None:
         """Listen to what becomes of the goals of a topic."""
@@ -78,15 +84,18 @@ class Goals:
         for one in self._topics_of(topic):
             self._robot.source.subscribe(one, take)
 
-    def begin(self, topic: str, tell: Callable[[Outcome], object]) -> None:
+    def begin(
+        self, goal: Outbound, topic: str, tell: Callable[[Outcome], object]
+    ) -> None:
         """The next new goal of a topic is the one that is sent now.
 
         Args:
+            goal: with the frame as it is called here.
             topic: where.
             tell: called with what becomes of it, in any thread.
         """
         self.follow(topic)
-        self._tell = tell
+        self._tell, self._goal = tell, goal
         self._followed[topic][0].begin()
         self._note(Outcome("sent", False, True))
 
