@@ -162,6 +162,41 @@ def test_keys_are_for_tools_when_the_mouse_comes_into_the_view(desk: Desk) -> No
     user.until(lambda: desk.viz.joint_positions["drivewhl_l_joint"] == 2.5)
 
 
+def test_keys_are_for_tools_when_a_text_was_accepted(desk: Desk) -> None:
+    user = desk.user
+    options = "Displays", "Global Options"
+    field = user.row(*options, "Fixed Frame").one("combobox")
+    before = desk.fixed_frame
+    user.enter(field, "drivewhl_l_link")
+    user.until(lambda: desk.fixed_frame == "drivewhl_l_link")
+    user.keys("n")
+    desk.has_tool("Measure")
+    assert not user.row(*options, "Fixed Frame").one("combobox").state("focused")
+    # Who goes on through the rows types into them as before; Enter begins again, too.
+    user.keys("ArrowDown")
+    user.type("1;2;3")
+    user.keys("Enter", "s")
+    desk.has_tool("Select")
+    color = desk.session.document.config.global_options
+    user.until(lambda: color.get("Background Color") == (1, 2, 3))
+    user.keys("Enter")
+    user.type("4;5;6")
+    user.keys("Enter")
+    user.until(lambda: color.get("Background Color") == (4, 5, 6))
+    user.keys("ArrowUp")
+    user.type(before)
+    user.keys("Enter")
+    user.until(lambda: desk.fixed_frame == before)
+    # What was refused is typed once more.
+    user.keys("ArrowDown")
+    user.type("seven")
+    user.keys("Enter")
+    user.reads("a colour such as")
+    user.type("7;8;9")
+    user.keys("Enter")
+    user.until(lambda: color.get("Background Color") == (7, 8, 9))
+
+
 def test_each_key_at_a_slider_is_a_step_also_when_the_one_before_is_down(
     desk: Desk,
 ) -> None:
