@@ -115,6 +115,35 @@ def test_what_stops_a_robot_that_is_driven(
     assert len(peer.came()) == came
 
 
+# Of each STOP that is shown: its colours and its height.
+_LOOK = """[...document.querySelectorAll(".stop-robot")].map((stop) => {
+  const { backgroundColor, color, height } = getComputedStyle(stop);
+  return [backgroundColor, color, height];
+})"""
+AT_REST = ["rgb(179, 20, 29)", "rgb(255, 255, 255)", "56px"]
+POINTED_AT = ["rgb(142, 13, 21)", *AT_REST[1:]]
+
+
+def test_stop_is_large_and_red_whatever_the_buttons_around_it_are(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    user = viewer.user
+
+    def looks(*wanted: list[str]) -> None:
+        user.until(lambda: viewer.page.evaluate(_LOOK) == [*wanted])
+
+    looks(AT_REST)
+    viewer.page.mouse.move(*user.go_to(user.find("button", "STOP")))
+    looks(POINTED_AT)
+    viewer.page.mouse.move(1.0, 1.0)
+    looks(AT_REST)
+    user.click("menuitem", "Menu")
+    user.click("menuitem", "Keys")
+    user.find("dialog", re.compile("Keys"))
+    looks(AT_REST, AT_REST)
+
+
 def test_a_goal_is_cancelled_with_a_button(
     peer: BasePeer, viz: Visualizer, open_viewer: Open
 ) -> None:
