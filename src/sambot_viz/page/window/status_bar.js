@@ -5,6 +5,7 @@
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { CutText } from "./cut_text.js";
+import { Icon } from "./icons.js";
 import { notice } from "./notices.js";
 import { ErrorCount, ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
@@ -21,9 +22,13 @@ const REFUSED = 20000;
 export function StatusBar({ problems }) {
   const tool = useData("tools/hint");
   const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.text) || "";
-  return html`<footer class="statusbar" aria-label="Status bar">
-    <button class="needs-control" title="Reset (R): reload meshes and redraw"
-      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
+  /** @type {{current: boolean, first: boolean}[]} */
+  const tools = useData("tools/list") || [];
+  const chosen = tools.some(({ current, first }) => current && !first);
+  return html`<footer class=${`statusbar${chosen ? " by-tool" : ""}`} aria-label="Status bar">
+    <button class="needs-control" title="Reset (R): reload meshes and redraw" aria-label="Reset"
+      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>
+      <span class="brief"><${Icon} name="turn" /></span><span class="words">Reset</span></button>
     <${ProblemCount} ...${problems} />
     <${ErrorCount} />
     <${Selected} />
