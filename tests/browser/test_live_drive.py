@@ -11,7 +11,7 @@ from inside import session_of
 from live_peers import eventually, knows_takers
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, bundled
 from sambot_viz.publishing import dead_mans_switch
 
 pytestmark = pytest.mark.browser
@@ -113,6 +113,28 @@ def test_what_stops_a_robot_that_is_driven(
     viewer.page.keyboard.release("8")
     viewer.user.until(lambda: session_of(viz).publisher.driver is not None)
     assert len(peer.came()) == came
+
+
+def test_that_follow_is_off_is_said_and_leads_to_follow(
+    peer: BasePeer, open_viewer: Open
+) -> None:
+    peer.offer("/tf", "tf2_msgs/msg/TFMessage")
+    with Visualizer(bundled.model_path(), source=peer.uri, port=0) as viz:
+        robot = session_of(viz).robot
+        eventually(lambda: robot.followed.value)
+        user = open_viewer(viz.url).user
+        user.tab("Joints")
+        row = "row", re.compile("^Follow ")
+        user.find(*row)
+        assert not user.there("button", "Not following the robot")
+        user.click("checkbox", re.compile("^Follow "))
+        user.find("button", "Not following the robot")
+        user.tab("Topics")
+        user.click("button", "Not following the robot")
+        user.until(lambda: user.find(*row).state("focused"))
+        user.keys(" ")
+        user.gone("button", "Not following the robot")
+        eventually(lambda: robot.followed.value)
 
 
 # Of each STOP that is shown: its colours and its height.

@@ -12,7 +12,7 @@ import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
 import { ByNumbersButton, UseMapButton } from "../dialogs/by_numbers.js";
 import { LiveDriving, LiveGoal } from "../panels/live_drive.js";
-import { useData } from "../state.js";
+import { useData, wantedRow } from "../state.js";
 
 /** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
 const SAID = 8000;
@@ -35,6 +35,7 @@ export function StatusBar({ problems }) {
     <${CutText} is="hint" role="status" text=${hint} />
     <${UseMapButton} /><${ByNumbersButton} />
     <${Said} />
+    <${NotFollowing} />
     <${Driving} />
     <${LiveDriving} />
     <${LiveGoal} />
@@ -50,6 +51,16 @@ function Selected() {
   if (!names.length) return null;
   const words = names.length === 1 ? `Selected: ${names[0]}` : `${names.length} items selected`;
   return html`<${CutText} is="selected" role="status" text=${words} />`;
+}
+
+/** While the sliders move the joints, and not the messages of the live robot: leads to Follow. */
+function NotFollowing() {
+  if (!useData("joints/unfollowed")) return null;
+  return html`<button class="not-following" aria-label="Not following the robot"
+    title="The sliders move the joints, and not the robot's messages: show Follow"
+    onClick=${() => wantedRow.set({ panel: "joints", id: "joints/follow" })}>
+    <span class="brief">Not following</span><span class="words">Not following the robot</span>
+  </button>`;
 }
 
 /** What was said last. */
