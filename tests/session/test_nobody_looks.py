@@ -117,6 +117,8 @@ def test_large_data_of_a_robot_are_asked_for_when_a_page_comes(
 
             def holds() -> object:
                 hand_clock.advance(AGEING_PERIOD)
+                # Else the clock runs away, and what has just come is old already.
+                wait_for_workers()
                 return condition()
 
             eventually(holds)
