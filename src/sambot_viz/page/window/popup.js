@@ -70,9 +70,7 @@ export function Popup({ label, brief, name, role, title, opened, children }) {
     <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${spoken}
       title=${title}
       onClick=${() => setOpen(!open)}>${
-        brief
-          ? html`<span class="brief">${brief}</span><span class="words">${label}</span>`
-          : label
+        brief ? html`<span class="brief">${brief}</span><span class="words">${label}</span>` : label
       }</button>
     ${
       open &&
