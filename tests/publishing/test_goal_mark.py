@@ -12,7 +12,7 @@ from patience import until
 from protocol_client import ProtocolClient, Received
 
 from sambot_viz import Visualizer
-from sambot_viz.errors import PublishPaceError
+from sambot_viz.errors import PublishError, PublishPaceError
 
 
 @pytest.fixture
@@ -85,6 +85,20 @@ def test_a_goal_that_is_cancelled_or_given_up_is_shown_no_longer(
     eventually(lambda: mark(viz, page) is not None)
     peer.tell(status)
     eventually(lambda: mark(viz, page) is None)
+
+
+def test_a_goal_that_the_bridge_refuses_is_shown_no_longer_and_says_why(
+    peer: NavigatorPeer, viz: Visualizer, page: ProtocolClient
+) -> None:
+    peer.refusal = "failed to load type support for '/goal_pose'"
+    viz.publish_goal(1.5, -2.0, 0.0)
+    eventually(lambda: goal_says(viz, f"the robot refuses it: {peer.refusal}"))
+    eventually(lambda: mark(viz, page) is None)
+    # The next one is sent again, once the refusal of the last was said.
+    peer.refusal = ""
+    until(lambda: viz.publish_goal(1.5, -2.0, 0.0), WAIT, not_yet=PublishError)
+    eventually(lambda: goal_says(viz, "on the way"))
+    eventually(lambda: mark(viz, page) is not None)
 
 
 def test_the_next_goal_takes_the_place_of_the_last(

@@ -59,10 +59,11 @@ class NavigatorPeer(FoxglovePeer):
         self, client: Client, client_channel_id: int, data: bytes
     ) -> None:
         super().on_message_data(client, client_channel_id, data)
-        self._goals += 1
         if self.refusal:
             self.complain(self.refusal)
-        elif STATUS in self._channels:
+            return
+        self._goals += 1
+        if STATUS in self._channels:
             for status in self.statuses:
                 self.tell(status)
 

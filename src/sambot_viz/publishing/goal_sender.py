@@ -75,7 +75,7 @@ class GoalSender:
         who = who_takes(outgoing, "goal")
         self._wait(lambda: bool(outgoing.refused), DISCOVERY)
         self._require_taken()
-        self._goals.begin(goal, self._topic, self._outcomes.append)
+        self._goals.begin(goal, self._topic, outgoing, self._outcomes.append)
         now_ns = time_of(self._source, self._transforms.newest_ns)
         outgoing.send(written(outgoing, goal, now_ns, self._robot.decoding.types))
         return who

@@ -16,10 +16,11 @@ from sambot_viz.publishing.outcome import (
     status_of,
 )
 from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import OnMessage
+from sambot_viz.sources.source import OnMessage, Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
+_SENT = Outcome("sent", False, True)
 _TOPICS = 8
 """The goals of so many topics are followed at a time."""
 
@@ -45,10 +46,12 @@ class Goals:
     ) -> None:
         self.last: Outcome | None = None
         self._goal: Outbound | None = None
+        self._outgoing: Outgoing | None = None
         self._robot, self._told = robot, told
         self._with_distance = with_distance
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
         self._tell: Callable[[Outcome], object] = lambda outcome: None
+        robot.on_status.append(self._look)
 
     @property
     def is_on_the_way(self) -> bool:
@@ -85,19 +88,24 @@ class Goals:
             self._robot.source.subscribe(one, take)
 
     def begin(
-        self, goal: Outbound, topic: str, tell: Callable[[Outcome], object]
+        self,
+        goal: Outbound,
+        topic: str,
+        outgoing: Outgoing,
+        tell: Callable[[Outcome], object],
     ) -> None:
         """The next new goal of a topic is the one that is sent now.
 
         Args:
             goal: with the frame as it is called here.
             topic: where.
+            outgoing: the same, as the robot has it.
             tell: called with what becomes of it, in any thread.
         """
         self.follow(topic)
-        self._tell, self._goal = tell, goal
+        self._tell, self._goal, self._outgoing = tell, goal, outgoing
         self._followed[topic][0].begin()
-        self._note(Outcome("sent", False, True))
+        self._note(_SENT)
 
     def forget(self) -> None:
         """The goal that was begun could not be sent."""
@@ -117,6 +125,7 @@ class Goals:
 
     def close(self) -> None:
         """Follow nothing any more."""
+        self._robot.on_status.remove(self._look)
         for topic in tuple(self._followed):
             self._follow_no_more(topic)
 
@@ -129,6 +138,13 @@ class Goals:
         elif status_of(topic) not in self._robot.source.topics():
             # Nobody else says it.
             self._note(Outcome("cancelled", True, False))
+
+    def _look(self) -> None:
+        """Note that the bridge has refused what was sent; the robot knows no goal."""
+        refused = "" if self._outgoing is None else self._outgoing.refused
+        if refused and self.last is _SENT:
+            words = f"the robot refuses it: {text(refused, 400)}"
+            self._pass_on(Outcome(words, True, False))
 
     def _note(self, outcome: Outcome) -> None:
         self.last = outcome

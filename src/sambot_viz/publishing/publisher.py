@@ -254,7 +254,7 @@ class Publisher:
         content = written(outgoing, inner, self._now_ns(), robot.decoding.types)
         goals = self.goals if message.kind == "goal" else None
         if goals is not None:
-            goals.begin(message, topic, tell)
+            goals.begin(message, topic, outgoing, tell)
         try:
             self._send_once(robot, outgoing, content)
         except SourceError:
