@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from inside import session_of
+from inside import session_of, viser_server
 from live_peers import eventually
 from navigator_peer import NavigatorPeer
 from protocol_client import ProtocolClient
@@ -148,6 +148,26 @@ def test_a_topic_of_somebody_else_is_left_to_it(
     # What the bridge publishes is what comes from here.
     peer.published_by(TOPIC, "/foxglove_bridge")
     eventually(lambda: said(viz).startswith("Published on"))
+
+
+def test_that_the_robot_is_not_followed_is_said_while_it_does_not_get_the_joints(
+    peer: NavigatorPeer,
+    opened: Callable[..., Visualizer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    viz = opened()
+    client = protocol(viz.viser.get_port())
+
+    def is_said() -> bool:
+        client.settle(viser_server(viz))
+        return "joints/unfollowed" in client.rows
+
+    eventually(peer.came)
+    peer.offer(TOPIC, "sensor_msgs/msg/JointState")
+    peer.published_by(TOPIC, "/foxglove_bridge", "/joint_state_publisher")
+    eventually(is_said)
+    peer.published_by(TOPIC, "/foxglove_bridge")
+    eventually(lambda: not is_said())
 
 
 def test_without_leave_nothing_is_published(

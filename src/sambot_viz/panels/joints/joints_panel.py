@@ -121,7 +121,7 @@ class JointsPanel(Panel):
         first = {joint_id(n): q for n, q in self._robot.first.items() if q != 0}
         data = self._sources.data
         # Sliders that are published move the robot, too.
-        is_free = self._sliders() is not None and not self._robot.leads
+        is_free = self._sliders() is not None and not self._out.publishes
         is_apart = is_free and data is not None and data.is_unfollowed
         return [
             *([Data("joints/unfollowed", True)] if is_apart else []),
