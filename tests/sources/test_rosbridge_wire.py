@@ -43,7 +43,7 @@ def test_answers_and_lines_of_the_server() -> None:
     found = wire.decode_values(parsed, wire.TopicList)
     assert (found.topics, found.types) == (("/a",), ("std_msgs/msg/String",))
     status = wire.parse_operation('{"op":"status","level":"error","msg":"no","id":"1"}')
-    assert status == wire.StatusLine("error", "no")
+    assert status == wire.StatusLine("error", "no", "1")
     assert wire.parse_operation('{"op":"serverInfo"}') == wire.ForeignOperation(
         "serverInfo"
     )

@@ -92,7 +92,7 @@ class RosbridgeConversation(Conversation):
         elif isinstance(operation, wire.StatusLine):
             self.is_ready = True
             if operation.level in ("error", "warning"):
-                self._note_refusal(operation.msg)
+                self._note_refusal(operation)
                 self._line = operation.msg
                 self._line_end = time.monotonic() + _LINE_LASTS
         elif operation.op == "serverInfo":
@@ -120,20 +120,23 @@ class RosbridgeConversation(Conversation):
 
     def advertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the server of a topic that is published."""
+        outgoing.number = next(self._ids)
         self._outgoing.append(outgoing)
-        self.ends.send(wire.advertise(outgoing.topic, self._spelled(outgoing)))
+        name, type_name = _name_of(outgoing), self._spelled(outgoing)
+        self.ends.send(wire.advertise(name, outgoing.topic, type_name))
         self._ask_receivers()
 
     def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
         """Send a message."""
         if outgoing in self._outgoing:
-            self.ends.send(wire.published(outgoing.topic, message))
+            name, topic = _name_of(outgoing), outgoing.topic
+            self.ends.send(wire.published(name, topic, message))
 
     def unadvertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the server that a topic is published no longer."""
         if outgoing in self._outgoing:
             self._outgoing.remove(outgoing)
-            self.ends.send(wire.unadvertise(outgoing.topic))
+            self.ends.send(wire.unadvertise(_name_of(outgoing), outgoing.topic))
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
@@ -217,11 +220,14 @@ class RosbridgeConversation(Conversation):
         type_name = self._rosapi.types.get(outgoing.topic, "")
         outgoing.receivers = Receivers(names, type_name)
 
-    def _note_refusal(self, line: str) -> None:
+    def _note_refusal(self, line: wire.StatusLine) -> None:
         """Note a line of the server for the topic that it is about."""
-        about = [one for one in self._outgoing if one.topic in line] or self._outgoing
+        about = [one for one in self._outgoing if _name_of(one) == line.id]
+        if not line.id:
+            named = [one for one in self._outgoing if one.topic in line.msg]
+            about = named or self._outgoing
         if len(about) == 1:
-            about[0].refused = line
+            about[0].refused = line.msg
 
     def _note_changes(self) -> None:
         self.topics_changed = self.topics_changed or self._rosapi.has_changed
@@ -318,3 +324,8 @@ class RosbridgeConversation(Conversation):
         subscription = self._subscriptions.pop(topic, None)
         if subscription is not None:
             self.ends.send(wire.unsubscribe(subscription.name, topic))
+
+
+def _name_of(outgoing: OutgoingTopic) -> str:
+    """Return what the server knows a published topic by."""
+    return f"sambot-viz-topic-{outgoing.number}"

@@ -90,10 +90,14 @@ class ServiceResponse(msgspec.Struct):
 
 
 class StatusLine(msgspec.Struct):
-    """A line of the server: level "error", "warning", "info" or "none"."""
+    """A line of the server: level "error", "warning", "info" or "none".
+
+    Some servers repeat the id of the operation that it is about.
+    """
 
     level: str = ""
     msg: str = ""
+    id: Any = ""
 
 
 class ForeignOperation(msgspec.Struct):
@@ -302,20 +306,20 @@ def unsubscribe(subscription: str, topic: str) -> str:
     return _text("unsubscribe", id=subscription, topic=topic)
 
 
-def advertise(topic: str, type_name: str) -> str:
-    """Begin to publish a topic."""
-    return _text("advertise", topic=topic, type=type_name)
+def advertise(name: str, topic: str, type_name: str) -> str:
+    """Begin to publish a topic, by the name that its messages have too."""
+    return _text("advertise", id=name, topic=topic, type=type_name)
 
 
-def unadvertise(topic: str) -> str:
+def unadvertise(name: str, topic: str) -> str:
     """Publish a topic no longer."""
-    return _text("unadvertise", topic=topic)
+    return _text("unadvertise", id=name, topic=topic)
 
 
-def published(topic: str, message: bytes) -> str:
+def published(name: str, topic: str, message: bytes) -> str:
     """Publish a message, which is JSON already."""
-    head = f'{{"op":"publish","topic":{json.dumps(topic)},"msg":'
-    return f"{head}{message.decode()}}}"
+    head = _text("publish", id=name, topic=topic)
+    return f'{head[:-1]},"msg":{message.decode()}}}'
 
 
 def call_service(call: str, service: str, **arguments: object) -> str:
