@@ -211,6 +211,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/delivery.py": "threading",
     "sources/websocket/paced_connection.py": "socket",  # how its own is acknowledged
     "sources/websocket/runner.py": "asyncio",
+    "sources/websocket/side_connection.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/websocket_source.py": "asyncio concurrent threading",

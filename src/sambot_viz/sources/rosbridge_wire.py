@@ -101,7 +101,7 @@ class StatusLine(msgspec.Struct):
 
 
 class ForeignOperation(msgspec.Struct):
-    """An operation that a client without services and actions does not need."""
+    """An operation that a client that offers nothing does not need."""
 
     op: str = ""
 
@@ -146,7 +146,44 @@ class MessageDetails(msgspec.Struct):
     typedefs: tuple[FieldList, ...] = ()
 
 
-Operation = Publication | ServiceResponse | StatusLine | ForeignOperation
+class GoalFeedback(msgspec.Struct):
+    """How far a goal is; `values` are the fields of the feedback."""
+
+    id: Any = ""
+    values: msgspec.Raw = msgspec.Raw(b"{}")
+
+
+class GoalResult(msgspec.Struct):
+    """The end of a goal: `values` is the result, or a text when it was not taken.
+
+    Some servers say `result` of an end that is not the wanted one, with its status.
+    """
+
+    id: Any = ""
+    action: str = ""
+    values: msgspec.Raw = msgspec.Raw(b"{}")
+    status: int = 0
+    result: bool = True
+
+
+Operation = (
+    Publication
+    | ServiceResponse
+    | StatusLine
+    | GoalFeedback
+    | GoalResult
+    | ForeignOperation
+)
+_OF_GOALS: dict[str, type[GoalFeedback | GoalResult]] = {
+    "action_feedback": GoalFeedback,
+    "action_result": GoalResult,
+}
+_PLAIN: dict[str, type[ServiceResponse | StatusLine | GoalFeedback | GoalResult]] = {
+    "service_response": ServiceResponse,
+    "status": StatusLine,
+    **_OF_GOALS,
+}
+"""Operations that are read as they are."""
 
 
 def topic_of(head: bytes) -> str:
@@ -178,11 +215,8 @@ def _from_text(frame: str) -> Operation:
         op = msgspec.json.decode(frame, type=ForeignOperation).op
         if op == "publish":
             return _from_json(frame)
-        if op == "service_response":
-            return msgspec.json.decode(frame, type=ServiceResponse)
-        if op == "status":
-            return msgspec.json.decode(frame, type=StatusLine)
-        return ForeignOperation(op)
+        kind = _PLAIN.get(op)
+        return msgspec.json.decode(frame, type=kind) if kind else ForeignOperation(op)
     except msgspec.DecodeError:
         if "NaN" not in frame and "Infinity" not in frame:
             raise
@@ -190,11 +224,14 @@ def _from_text(frame: str) -> Operation:
         return _with_nan(json.loads(frame))
 
 
-def _with_nan(operation: Any) -> Publication:
+def _with_nan(operation: Any) -> Operation:
     if not isinstance(operation, dict):
         raise MalformedOperation("not an operation")
     found = cast("dict[str, Any]", operation)
     topic = found.get("topic")
+    if kind := _OF_GOALS.get(str(found.get("op"))):
+        # What is not a number is null in this.
+        return msgspec.json.decode(msgspec.json.encode(found), type=kind)
     if found.get("op") != "publish" or not isinstance(topic, str) or "msg" not in found:
         raise MalformedOperation("a number that JSON does not have")
     return Publication(topic, json.dumps(found["msg"]).encode(), True)
@@ -331,6 +368,23 @@ def call_with(call: str, service: str, request: bytes) -> str:
     """Call a service with a request that is JSON already."""
     head = _text("call_service", id=call, service=service)
     return f'{head[:-1]},"args":{request.decode()}}}'
+
+
+def send_goal(goal: str, action: str, type_name: str, fields: bytes) -> str:
+    """Send a goal, whose fields are JSON already, and ask how far it is."""
+    head = _text(
+        "send_action_goal",
+        id=goal,
+        action=action,
+        action_type=type_name,
+        feedback=True,
+    )
+    return f'{head[:-1]},"args":{fields.decode()}}}'
+
+
+def cancel_goal(goal: str, action: str) -> str:
+    """Cancel a goal."""
+    return _text("cancel_action_goal", id=goal, action=action)
 
 
 def _text(op: str, **content: Any) -> str:
