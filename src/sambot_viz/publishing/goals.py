@@ -5,24 +5,28 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from sambot_viz.errors import SourceError
+from sambot_viz.publishing.acted_goal import NAVIGATE, ActedGoal, goal_content
 from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.goal_result import ask_why
-from sambot_viz.publishing.outbound import GOAL_TOPIC, Outbound
+from sambot_viz.publishing.outbound import GOAL_TOPIC, Goal, Outbound
 from sambot_viz.publishing.outcome import (
     GIVEN_UP,
     GoalFollower,
     Outcome,
     feedback_of,
+    given_up,
+    navigator_of,
     status_of,
 )
 from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import OnMessage, Outgoing
+from sambot_viz.sources.source import CancelGoal, GoalReport, OnMessage, Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
-_SENT = Outcome("sent", False, True)
 _TOPICS = 8
 """The goals of so many topics are followed at a time."""
+_SENT = Outcome("sent", False, True)
 
 
 class Goals:
@@ -51,6 +55,8 @@ class Goals:
         self._with_distance = with_distance
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
         self._tell: Callable[[Outcome], object] = lambda outcome: None
+        self._acted: ActedGoal | None = None
+        self._cancel_acted: CancelGoal = _nothing
         robot.on_status.append(self._look)
 
     @property
@@ -103,13 +109,50 @@ class Goals:
             tell: called with what becomes of it, in any thread.
         """
         self.follow(topic)
+        self._leave_goals()
         self._tell, self._goal, self._outgoing = tell, goal, outgoing
         self._followed[topic][0].begin()
         self._note(_SENT)
 
+    def send(
+        self, topic: str, goal: Goal, now_ns: int, tell: Callable[[Outcome], object]
+    ) -> str:
+        """Send a goal to the action of Nav2, and return that.
+
+        Args:
+            topic: where Nav2 takes goals as messages.
+            goal: where to.
+            now_ns: the time of the robot [ns].
+            tell: called with what becomes of it, in any thread.
+
+        Raises:
+            SourceError: the robot does not show the action; nothing was sent.
+        """
+        source, decoding = self._robot.source, self._robot.new_decoding()
+        action = source.action(navigator_of(topic), NAVIGATE)
+        content = goal_content(action, goal, now_ns, decoding.types)
+        self._leave_goals()
+        acted = ActedGoal(decoding, with_distance=self._with_distance)
+        self._acted, self._tell, self._goal = acted, tell, goal
+        self._outgoing = None
+
+        def take(report: GoalReport) -> None:
+            outcome = acted.take(report)
+            if outcome is not None and self._acted is acted:
+                self._pass_on(outcome)
+
+        self._note(_SENT)
+        try:
+            self._cancel_acted = action.send(content, take)
+        except SourceError:
+            self.forget()
+            raise
+        return action.name
+
     def forget(self) -> None:
         """The goal that was begun could not be sent."""
         self.last = None
+        self._leave_goals()
 
     def cancel(self) -> None:
         """Cancel all goals of the robot; takes no lock of the session.
@@ -118,6 +161,8 @@ class Goals:
         """
         if self.is_on_the_way:
             self._note(Outcome("asked to cancel", False, True))
+            # The service may not be shown, or not be allowed.
+            self._cancel_acted()
         types = self._robot.decoding.types
         for topic in tuple(self._followed) or (GOAL_TOPIC,):
             told = partial(self._tell_cancelled, topic)
@@ -135,7 +180,9 @@ class Goals:
             return
         if why:
             self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
-        elif status_of(topic) not in self._robot.source.topics():
+        elif self._acted is None and (
+            status_of(topic) not in self._robot.source.topics()
+        ):
             # Nobody else says it.
             self._note(Outcome("cancelled", True, False))
 
@@ -161,10 +208,19 @@ class Goals:
         return (status_of(topic), *far)
 
     def _give_up(self, why: str) -> None:
-        words = f"not reached: {why}" if why else GIVEN_UP
-        self._pass_on(Outcome(words, True, False))
+        self._pass_on(given_up(why))
+
+    def _leave_goals(self) -> None:
+        """Say no more of goals that were sent before."""
+        self._acted, self._cancel_acted = None, _nothing
+        for follower, _ in self._followed.values():
+            follower.forget()
 
     def _pass_on(self, outcome: Outcome) -> None:
         """Keep what the robot has said of a goal, and tell who has sent it."""
         self._note(outcome)
         self._tell(outcome)
+
+
+def _nothing() -> None:
+    return None
