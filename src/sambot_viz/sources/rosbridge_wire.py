@@ -284,7 +284,12 @@ def plain_name(type_name: str) -> str:
 
 def is_ros2(type_name: str) -> bool:
     """Return whether a type's name is one of ROS 2."""
-    return "/msg/" in type_name
+    return "/msg/" in type_name or is_of_action(type_name)
+
+
+def is_of_action(type_name: str) -> bool:
+    """Return whether a type is one that ROS makes of an action, as of its feedback."""
+    return "/action/" in type_name
 
 
 def encoding(type_name: str) -> str:
@@ -330,7 +335,8 @@ def subscribe(
         "subscribe",
         id=subscription,
         topic=topic,
-        **({"type": type_name} if type_name else {}),
+        # That of an action no server finds by its name, and some by the topic.
+        **({} if not type_name or is_of_action(type_name) else {"type": type_name}),
         compression="cbor-raw",
         # The server must drop what we are too slow for, or its memory grows.
         queue_length=QUEUE if each else 1,
