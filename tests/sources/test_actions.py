@@ -27,6 +27,7 @@ from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.sources.prefixed_source import PrefixedSource
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import GoalReport, OutgoingAction, Source
+from sambot_viz.sources.websocket.followed_goal import FOLLOWED
 
 Open = Callable[[str], Source]
 GOAL = "geometry_msgs/PoseStamped pose\nstring behavior_tree"
@@ -116,7 +117,19 @@ def test_a_goal_is_cancelled(robot: ActionPeer, source: Source) -> None:
     reports, cancel = send_and_cancel(action(source))
     eventually(lambda: robot.places())
     cancel()
-    eventually(lambda: robot.cancelled() == 1)
+    eventually(lambda: robot.cancelled() >= 1)
+    robot.end(5)
+    assert last(reports).status == 5
+
+
+def test_a_goal_that_is_cancelled_at_once_is_cancelled_when_the_robot_has_it(
+    robot: ActionPeer, source: Source
+) -> None:
+    reports, cancel = send_and_cancel(action(source))
+    cancel()
+    eventually(lambda: robot.places())
+    robot.go(1.0)
+    eventually(lambda: robot.cancelled() >= 2)
     robot.end(5)
     assert last(reports).status == 5
 
@@ -198,3 +211,14 @@ def test_a_robot_with_a_prefix_has_the_action_under_it(robot: ActionPeer) -> Non
     finally:
         joined.close()
         first.stop()
+
+
+def test_the_newest_goals_are_followed_where_a_robot_never_answers(
+    robot: ActionPeer, source: Source
+) -> None:
+    to = action(source)
+    every = [send(to, float(number)) for number in range(FOLLOWED + 1)]
+    eventually(lambda: every[0])
+    assert last(every[0]).refusal == "newer goals are followed"
+    eventually(lambda: len(robot.places()) >= FOLLOWED)
+    assert not any(every[1:])

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from action_peers import ACTION, KIND, FoxgloveAction
 from hand import Hand
 from inside import session_of, viser_server
 from live_peers import eventually, knows_takers
@@ -145,6 +146,27 @@ def test_a_pose_by_numbers_is_shown_before_it_is_sent(
     assert (x, y, z) == (1.5, -2.0, 0.0)
     assert 2.0 * math.atan2(qz, qw) == pytest.approx(0.5)
     assert page.current == "Move Camera" and not page.draws()
+
+
+@pytest.mark.parametrize("prefix", ["", "a"])
+def test_the_tool_of_nav2_sends_to_its_action(
+    hand: Callable[..., Hand], prefix: str
+) -> None:
+    robot = FoxgloveAction()
+    frame = f"{prefix}/map".lstrip("/")
+    page = hand(robot.peer, frame, publish="", prefix=prefix)
+    page.choose("Nav2 Goal")
+    data = session_of(page.viz).data
+    assert data is not None
+    eventually(lambda: data.source.action(ACTION, KIND))
+    page.act("tools/send", 1.5, -2.0, 0.5)
+    eventually(lambda: robot.places() == [(1.5, -2.0)])
+    assert robot.frames() == ["map"]
+    assert page.said == f"Sent to {ACTION}." and page.current == "Move Camera"
+    robot.end(4)
+    eventually(lambda: page.said == "Reached.")
+    assert robot.peer.came() == []
+    robot.peer.stop()
 
 
 def test_a_robot_with_a_prefix_gets_the_names_of_its_own_frames(

@@ -27,7 +27,7 @@ from sambot_viz.sources.source import (
     Reply,
     Source,
 )
-from sambot_viz.sources.websocket.followed_goal import FollowedGoal
+from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 
 _HEAD = 4
 """The bytes of CDR before the fields."""
@@ -50,14 +50,14 @@ class HiddenAction:
         name: of the action.
         type_name: of the action.
         source: shows the services and topics of the action, in CDR.
-        goals: has those that are followed; each is added, and taken out at its end.
+        goals: of the connection.
     """
 
     encoding: Encoding = "cdr"
     frame_prefix = ""
 
     def __init__(
-        self, name: str, type_name: str, source: Source, goals: dict[FollowedGoal, None]
+        self, name: str, type_name: str, source: Source, goals: FollowedGoals
     ) -> None:
         self.name, self.type_name = name, type_name
         self._source, self._goals = source, goals
@@ -65,7 +65,7 @@ class HiddenAction:
     def send(self, goal: bytes, told: OnReport) -> CancelGoal:
         """Send a goal once; see `OutgoingAction.send`."""
         made = _HiddenGoal(self.name, self._source, told, self._goals)
-        self._goals[made] = None
+        self._goals.add(made)
         made.send(goal)
         return made.cancel
 
@@ -78,13 +78,13 @@ class _HiddenGoal:
         action: str,
         source: Source,
         told: OnReport,
-        goals: dict[FollowedGoal, None],
+        goals: FollowedGoals,
     ) -> None:
         self._action, self._source = action, source
         self._told, self._goals = told, goals
         self._id = uuid4().bytes
         self._status = 0
-        self._is_over = False
+        self._is_over = self._wants_cancel = False
         # Answers and messages come in two threads.
         self._lock = threading.Lock()
 
@@ -108,6 +108,7 @@ class _HiddenGoal:
 
     def cancel(self) -> None:
         """Ask the robot to cancel it."""
+        self._wants_cancel = True
         fields = {"goal_info": {"goal_id": self._uuid}}
         text = "action_msgs/GoalInfo goal_info"
         with suppress(SourceError):
@@ -115,9 +116,9 @@ class _HiddenGoal:
             service = cancel_service(self._action)
             self._source.call(service, write, lambda reply: None)
 
-    def lost(self) -> None:
-        """The connection has ended."""
-        self._report(GoalReport(refusal="the connection was lost"))
+    def leave(self, why: str) -> None:
+        """Follow it no further."""
+        self._report(GoalReport(refusal=why))
 
     @property
     def _uuid(self) -> dict[str, Any]:
@@ -139,6 +140,9 @@ class _HiddenGoal:
             return
         if not is_taken:
             self._report(GoalReport(refusal="the robot rejects it"))
+        elif self._wants_cancel:
+            # It may have been asked before it had the goal.
+            self.cancel()
 
     def _take(self, message: Recorded) -> None:
         """Take a message of one of its topics."""
@@ -192,7 +196,7 @@ class _HiddenGoal:
     def _leave(self) -> None:
         for topic in self._topics:
             self._source.unsubscribe(topic, self._take)
-        self._goals.pop(self, None)
+        self._goals.discard(self)
 
 
 def _written(name: str, text: str, fields: dict[str, Any], encoding: Encoding) -> bytes:

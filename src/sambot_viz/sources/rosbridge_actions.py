@@ -27,7 +27,7 @@ from sambot_viz.sources.source import (
     Reply,
 )
 from sambot_viz.sources.websocket.conversation import Ends
-from sambot_viz.sources.websocket.followed_goal import FollowedGoal
+from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 from sambot_viz.sources.websocket.side_connection import SideConnection
 from sambot_viz.text import text
 
@@ -35,8 +35,6 @@ _ID = "sambot-viz-goal-"
 _NO_TYPE = "sambot_viz/action/None"
 """No robot has it: a server that sends goals answers that, and sends nothing."""
 _EXECUTES = 2
-_MOST = 8
-"""So many goals are followed; the server may never answer about one."""
 
 
 class RosbridgeActions:
@@ -44,10 +42,10 @@ class RosbridgeActions:
 
     Args:
         ends: of the connection over which the rest goes.
-        goals: has those that are followed.
+        goals: that were sent over the connection.
     """
 
-    def __init__(self, ends: Ends, goals: dict[FollowedGoal, None]) -> None:
+    def __init__(self, ends: Ends, goals: FollowedGoals) -> None:
         self._ends, self._goals = ends, goals
         self._asked: set[str] = set()
         self._takes: set[str] = set()
@@ -86,9 +84,7 @@ class RosbridgeActions:
 
     def begin(self, goal: _RosbridgeGoal) -> None:
         """Send a goal; in the thread of the connection."""
-        if len(self._goals) >= _MOST:
-            next(iter(self._goals)).lost()
-        self._goals[goal] = None
+        self._goals.add(goal)
         goal.begin()
 
     def new_goal(
@@ -130,13 +126,13 @@ class _RosbridgeGoal:
         fields: bytes,
         told: OnReport,
         ends: Ends,
-        goals: dict[FollowedGoal, None],
+        goals: FollowedGoals,
     ) -> None:
         self._action, self._fields = action, fields
         self._told, self._ends, self._goals = told, ends, goals
         # rosbridge_suite has one list of the goals of all its clients.
         self._id = _new_id()
-        self._is_over = False
+        self._is_over = self._wants_cancel = False
         topic = feedback_topic(action.name)
         schema = Schema(f"{action.type_name}_FeedbackMessage", "", "")
         self._channel = TopicChannel(topic, schema, "json")
@@ -151,15 +147,16 @@ class _RosbridgeGoal:
     def cancel(self) -> None:
         """Ask the server to cancel it."""
         if not self._is_over:
+            self._wants_cancel = True
             frame = wire.cancel_goal(self._id, self._action.name)
             # Over the connection of a goal rosbridge_suite may read it only at its end,
             # and takes it of any other; other servers take it of that one alone.
             self._ends.send(frame)
             self._connection.send(frame)
 
-    def lost(self) -> None:
-        """The connection has ended: follow it no further."""
-        self._refuse("the connection was lost")
+    def leave(self, why: str) -> None:
+        """Follow it no further."""
+        self._refuse(why)
         self._connection.close()
 
     def _take(self, frame: str | bytes) -> bool:
@@ -169,6 +166,10 @@ class _RosbridgeGoal:
         except wire.MalformedOperation:
             return True
         if isinstance(said, wire.GoalFeedback):
+            if self._wants_cancel:
+                # It may have been said before the robot had taken the goal.
+                self.cancel()
+                self._wants_cancel = False
             payload = memoryview(b'{"feedback":' + bytes(said.values) + b"}")
             now, topic = self._ends.clock.now_ns(), self._channel.topic
             message = Recorded(topic, self._channel, now, None, payload)
@@ -185,7 +186,7 @@ class _RosbridgeGoal:
             return
         self._is_over = report.is_last
         if self._is_over:
-            self._goals.pop(self, None)
+            self._goals.discard(self)
         self._told(report)
 
 

@@ -15,7 +15,7 @@ from sambot_viz.sources.source import Capability, OutgoingAction, Source
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
-from sambot_viz.sources.websocket.followed_goal import FollowedGoal
+from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 from sambot_viz.sources.websocket.outgoing_topic import TopicSender
 from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.text import text
@@ -73,7 +73,7 @@ class Conversation(TopicSender):
         large: topic → sizes of its messages that were too large [bytes]; that of "" is
             not known.
         calls: of services of the peer.
-        goals: that are followed over this connection, in their order.
+        goals: that were sent over this connection.
     """
 
     calls: ServiceCalls
@@ -88,7 +88,7 @@ class Conversation(TopicSender):
         self.unreadable = 0
         self.large: dict[str, LargeMessages] = {}
         self.is_over = False
-        self.goals: dict[FollowedGoal, None] = {}
+        self.goals = FollowedGoals()
 
     @abstractmethod
     def begin(self) -> None:
@@ -157,8 +157,7 @@ class Conversation(TopicSender):
         """The connection has ended."""
         self.is_over = True
         self.calls.end()
-        for goal in tuple(self.goals):
-            goal.lost()
+        self.goals.end()
 
     @abstractmethod
     def update(self, wanted: frozenset[str]) -> None:
