@@ -61,6 +61,7 @@ class NavigatorPeer(FoxglovePeer):
         super().on_message_data(client, client_channel_id, data)
         if self.refusal:
             self.complain(self.refusal)
+        if self.refusal or not self.came()[-1].type_name.endswith("/PoseStamped"):
             return
         self._goals += 1
         if STATUS in self._channels:
