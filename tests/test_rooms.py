@@ -21,6 +21,7 @@ import pytest
 SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 """Finds the scripts that one of the page imports."""
 FOUNDATIONS = {
+    "edits",
     "errors",
     "files",
     "geometry",
@@ -175,6 +176,7 @@ ROOMS: Mapping[str, Row] = {
     "_version": Row(),
     "bundled": Row("robot"),
     "cli": Row("problems"),
+    "edits": Row(),
     "errors": Row(),
     "files": Row(),
     "geometry": Row("", "numpy"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.errors import Findings, Place, Severity
+from sambot_viz.errors import Findings, Fix, Place, Severity
 from sambot_viz.robot.xml.element import Element
 
 
@@ -14,7 +14,7 @@ def _reporter(severity: Severity, rejects: bool = False):
         self: ModelFindings,
         code: str,
         message: str,
-        hint: str,
+        hint: str | Fix,
         at: Element,
         attribute: str | None = None,
         *,
@@ -24,7 +24,8 @@ def _reporter(severity: Severity, rejects: bool = False):
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None
         place = Place(at.place.file, line, column)
-        if self.is_said(code, hint, place, at.call):
+        said = hint.hint if isinstance(hint, Fix) else hint
+        if self.is_said(code, said, place, at.call):
             return
         if at.call is not None:
             here = at.call.file == at.place.file
