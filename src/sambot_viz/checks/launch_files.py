@@ -13,7 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from sambot_viz.checks.rule import listed
-from sambot_viz.errors import Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.packages.package_index import package_name
 
@@ -67,14 +68,13 @@ def check_setup_py(path: Path | str) -> list[Problem]:
         if named is None or named[0] == package:
             continue
         return [
-            Problem(
+            Problem.at(
+                (place := Place(str(path), named[1])),
                 "error",
                 "setup-py-name",
                 f"setup.py calls the package {named[0]}, package.xml calls it "
                 f"{package}: colcon and ros2 launch will not find it",
-                f"write {package} here",
-                str(path),
-                named[1],
+                write(place, named[0], package, " here"),
             )
         ]
     return []
@@ -212,15 +212,14 @@ def _unknown_package(
         return
     for text, call in asked:
         if _alike(text, package):
-            yield Problem(
+            place = Place(file, call.lineno, call.col_offset + 1)
+            yield Problem.at(
+                place,
                 "error",
                 "launch-package-unknown",
                 f"the launch file asks for the package {text}, but the package here "
                 f"is called {package} (package.xml)",
-                f"write {package}",
-                file,
-                call.lineno,
-                call.col_offset + 1,
+                write(place, text, package),
             )
             return
 

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import together, write_attribute
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.parts import Joint, Language, Limit, Link, MeshFile, Origin
 
 _FULL_TURN = 2 * math.pi + 1e-3
@@ -48,11 +49,15 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
         )
 
 
-def _limits_in_radians(limit: Limit, language: Language) -> str:
+def _limits_in_radians(limit: Limit, language: Language) -> str | Fix:
     lower, upper = (number(math.radians(v)) for v in (limit.lower, limit.upper))
     if language == "sdf":
         return f"write <lower>{lower}</lower> and <upper>{upper}</upper>"
-    return f'write lower="{lower}" upper="{upper}"'
+    return together(
+        f'write lower="{lower}" upper="{upper}"',
+        write_attribute(limit.place, "lower", [limit.lower], lower),
+        write_attribute(limit.place, "upper", [limit.upper], upper),
+    )
 
 
 def rpy_in_degrees(subject: Subject) -> Iterator[Problem]:
@@ -78,7 +83,7 @@ def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
         "warning",
         "rpy-in-degrees",
         f'rpy="{written}" looks like degrees, but URDF uses radians',
-        f'write rpy="{corrected}"',
+        write_attribute(origin.place, "rpy", origin.rpy, corrected),
     )
 
 

@@ -9,6 +9,7 @@ from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, take
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.read_topics import kinds_read, published_topics
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem, nearest
 
 _PAIRS: dict[str, tuple[str, ...]] = {
@@ -86,7 +87,7 @@ def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
                     "bridge-type-unknown",
                     f"the bridge does not know the type {fact.value}: nothing arrives "
                     f"on {entry.ros.value} ({where(entry.ros.place, fact.place)})",
-                    f"write {near}",
+                    write(fact.place, fact.value, near),
                 )
 
 
@@ -165,7 +166,7 @@ def wrong_data_types(around: Surroundings) -> Iterator[Problem]:
                 f"{parameter.node.rpartition('/')[2]} reads {topic.fact.value} as "
                 f"{said}, but {source.what} publishes it as {kind} "
                 f"({where(source.topic.place, parameter.place)}): nothing arrives",
-                f"write {kind}",
+                write(parameter.value_place, said, kind),
             )
 
 
@@ -194,7 +195,7 @@ def _mismatch(
         f"the bridge cannot turn {entry.gz_type.value} into {entry.ros_type.value} "
         f"({where(other.place, wrong.place)}): nothing arrives on "
         f"{entry.ros.value}{why}",
-        f"write {better}",
+        write(wrong.place, wrong.value, better),
     )
 
 
@@ -202,6 +203,7 @@ def _misfit(entry: BridgeEntry, topic: GazeboTopic) -> Problem:
     """A type that is not that of the topic in Gazebo."""
     ros_type = _ros_type(topic.kind, entry.ros_type.value)
     place = entry.gz_type.place
+    better = f"{_package(entry)}.{topic.kind}"
     return Problem.at(
         place,
         "warning",
@@ -209,7 +211,11 @@ def _misfit(entry: BridgeEntry, topic: GazeboTopic) -> Problem:
         f"the bridge expects {entry.gz_type.value} on {entry.gz.value}, but "
         f"{topic.what} uses it for {topic.kind} ({where(topic.name.place, place)}): "
         "nothing passes",
-        f"write {_package(entry)}.{topic.kind}, and {ros_type} in ROS",
+        together(
+            f"write {better}, and {ros_type} in ROS",
+            write(place, entry.gz_type.value, better),
+            write(entry.ros_type.place, entry.ros_type.value, ros_type),
+        ),
     )
 
 

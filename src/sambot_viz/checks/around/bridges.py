@@ -17,6 +17,7 @@ from sambot_viz.checks.around.gazebo_topics import (
 from sambot_viz.checks.around.navigation import filters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
@@ -114,7 +115,9 @@ def bridge_directions(around: Surroundings) -> Iterator[Problem]:
                     "bridge-direction",
                     f"the bridge carries {entry.gz.value} {said.value}, but "
                     f"{topic.what} {verb} it ({where(topic.name.place, said.place)})",
-                    f"write direction: {right}",
+                    write(
+                        said.place, said.value, right, hint=f"write direction: {right}"
+                    ),
                 )
 
 
@@ -165,7 +168,11 @@ def _misnamed(
                 f"the bridge carries {entry.gz.value}, but {topic.what} {verb} "
                 f"{topic.name.value} ({where(topic.name.place, place)}), which no "
                 "bridge carries",
-                f"write {near if place.file.endswith('.py') else '/' + near}",
+                write(
+                    place,
+                    entry.gz.value,
+                    near if place.file.endswith(".py") else f"/{near}",
+                ),
             )
 
 

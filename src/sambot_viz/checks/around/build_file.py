@@ -11,6 +11,7 @@ from sambot_viz.checks.around.manifest import named_as_its_folder
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
@@ -79,7 +80,12 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
                 "error",
                 "install-folder-as-file",
                 f"install(FILES … ) is given {_kinds(folders)}: colcon build stops",
-                "write DIRECTORY for FILES",
+                write(
+                    cmake.place(command.line),
+                    "FILES",
+                    "DIRECTORY",
+                    hint="write DIRECTORY for FILES",
+                ),
             )
 
 
@@ -115,7 +121,9 @@ def _missing(cmake: CMakeFile, word: CMakeWord, near: str | None) -> Problem:
         "install-folder-missing",
         f"the folder {name} is to be installed, but the package does not have it{has}: "
         "colcon build stops",
-        f"write {near}" if near else f"delete {name} here, or make that folder",
+        write(cmake.place(word.line), name, near)
+        if near
+        else f"delete {name} here, or make that folder",
     )
 
 
@@ -165,12 +173,14 @@ def project_name(around: Surroundings) -> Iterator[Problem]:
         place, second = other, here
         says = f"package.xml calls the package {name}, but files of it are used from "
         says += f"{project.text}, as CMakeLists.txt calls it"
-        hint = f"write <name>{project.text}</name>"
+        hint = write(
+            place, name or "", project.text, hint=f"write <name>{project.text}</name>"
+        )
     else:
         place, second = here, other
         says = f"CMakeLists.txt calls the package {project.text}, "
         says += f"package.xml calls it {name}"
-        hint = f"write project({name})"
+        hint = write(place, project.text, name or "", hint=f"write project({name})")
     yield Problem.at(
         place,
         "error",

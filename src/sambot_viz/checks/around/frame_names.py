@@ -23,6 +23,7 @@ from sambot_viz.checks.around.navigation import (
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _BASES: dict[str, tuple[str, ...]] = {
@@ -70,7 +71,7 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             "frame-unknown",
             f"{user} uses the frame {name}, which is not a link of the model: it has "
             f"{near} ({where(links[near].place, fact.place)})",
-            f"write {near}",
+            write(fact.place, fact.value, near),
         )
 
 
@@ -118,7 +119,9 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
                 f"{joint.child}, but in the model {joint.child} hangs at "
                 f"{joint.parent} ({where(joint.place, fact.place)}): a frame has only "
                 "one parent, and the robot flickers between both",
-                f"write {around.robot.root}, the root of the model",
+                write(
+                    fact.place, fact.value, around.robot.root, ", the root of the model"
+                ),
             )
 
 
@@ -155,7 +158,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
                 f"the transform from {one.world_frame} to {base.value} is published "
                 f"twice: by {plugin.filename} because of this line, and by {one.node} "
                 f"({where(other, told.place)}): the robot jumps between both",
-                "write false"
+                write(told.place, told.value, "false")
                 if plugin.generation == "classic"
                 else "delete this entry of the bridge",
             )
@@ -186,7 +189,7 @@ def odometry_frames(around: Surroundings) -> Iterator[Problem]:
             "frame-odom",
             f"{user} takes {name} for the frame of odometry, but {source} publishes "
             f"it as {bare_frame(right.value)} ({where(right.place, fact.place)})",
-            f"write {bare_frame(right.value)}",
+            write(fact.place, fact.value, bare_frame(right.value)),
         )
 
 
@@ -230,7 +233,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
                 f"odom_frame is {one.odom_frame}, but world_frame is {one.world_frame} "
                 f"({where(world.place, other.place)}), and so it is for "
                 f"{listed(dict.fromkeys(users))}: {one.node} publishes no transform",
-                f"write {one.world_frame}",
+                write(other.place, other.fact.value, one.world_frame),
             )
             continue
         what = where(other.place, world.place) if other else "the default"
@@ -241,7 +244,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
             f"world_frame is {one.world_frame}, but it has to be the odom_frame "
             f"{one.odom_frame} ({what}) or the map_frame {one.map_frame}: {one.node} "
             "publishes no transform",
-            f"write {one.odom_frame}",
+            write(world.place, world.fact.value, one.odom_frame),
         )
 
 
@@ -271,6 +274,7 @@ def planes(around: Surroundings) -> Iterator[Problem]:
         mode = one.given.get("two_d_mode")
         place = mode.place if mode else _line_of(one)
         other = planar.given["two_d_mode"].place
+        hint = "write two_d_mode: true"
         yield Problem.at(
             place,
             "warning",
@@ -278,7 +282,7 @@ def planes(around: Surroundings) -> Iterator[Problem]:
             f"{one.node} may leave the floor, because its two_d_mode is false"
             f"{'' if mode else ' by default'}, but that of {planar.node} is true "
             f"({where(other, place)}): the robot tilts between both",
-            "write two_d_mode: true",
+            write(place, mode.fact.value, "true", hint=hint) if mode else hint,
         )
 
 

@@ -14,6 +14,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.parts import MeshFile
 
@@ -80,6 +81,7 @@ def _at_wrong_place(
     around: Surroundings, target: CMakeWord, folders: dict[str, Place], file: str
 ) -> Problem:
     place = Place(file, target.line)
+    better = _corrected(target.text, around)
     user = next(iter(folders.values()))
     are, them = ("s", "them") if len(folders) > 1 else ("", "it")
     needs = "is used from" if user.line == 1 else f"looks for {them} in"
@@ -90,7 +92,7 @@ def _at_wrong_place(
         f"the folder{are} {listed(folders)} {'are' if are else 'is'} installed into "
         f"{target.text}, but {where(user, place)} {needs} "
         f"share/{around.files.name}: nothing is found",
-        f"write {_corrected(target.text, around)}",
+        write(place, target.text, better) if better else f"write {better}",
     )
 
 

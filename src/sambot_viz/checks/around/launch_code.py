@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _ENTRY = "generate_launch_description"
@@ -77,7 +78,13 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
                         _CODE,
                         f"ros2 launch looks for the function {_ENTRY}, but this one "
                         f"is called {near}: it stops with an error",
-                        f"write {_ENTRY}",
+                        write(
+                            Place(
+                                launch.shown, function.lineno, function.col_offset + 1
+                            ),
+                            function.name,
+                            _ENTRY,
+                        ),
                     )
 
 

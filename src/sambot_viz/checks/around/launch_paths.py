@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _OWN_NAMES = {
@@ -123,7 +124,12 @@ def _unread(node: LaunchNode, name: str, given: Fact, file: YamlFile) -> Problem
         "launch-parameters-unread",
         f"the node {name} reads none of these parameters: they are for {near} "
         f"({where(place, given.place)})",
-        f"write name='{bare}' for the node, or {name}: in the file",
+        write(
+            node.place,
+            name,
+            bare,
+            hint=f"write name='{bare}' for the node, or {name}: in the file",
+        ),
     )
 
 
@@ -141,7 +147,7 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
                     "launch-world-name",
                     f"the robot is put into the world {fact.value}, but the world is "
                     f"called {name} ({where(place, fact.place)}): it does not appear",
-                    f"write {name}",
+                    write(fact.place, fact.value, name),
                 )
 
 

@@ -16,6 +16,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
+from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
 _STARTED = frozenset(
@@ -118,7 +119,7 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
                 "launch-argument-unknown",
                 f"the launch argument {name} is not declared; {near} is "
                 f"({where(declared[near], place)}): ros2 launch stops with it",
-                f"write LaunchConfiguration('{near}')",
+                write(place, name, near, hint=f"write LaunchConfiguration('{near}')"),
             )
 
 
@@ -152,7 +153,7 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
                     "launch-program-unknown",
                     f"the package {package} has no program {program}: ros2 launch "
                     "stops with it",
-                    f"write {near}",
+                    write(launch.place(given), program, near),
                 )
 
 
@@ -227,7 +228,7 @@ def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
                 "launch-time-text",
                 f"use_sim_time is the text '{text}', but nodes need {truth} without "
                 "quotation marks: the node stops with an error",
-                f"write {truth}",
+                write(launch.place(value), ast.unparse(value), str(truth)),
             )
 
 
@@ -256,5 +257,5 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
                     f"the robot is to come from the topic {topic}, but "
                     f"{_PUBLISHER} ({where(publisher.place, place)}) publishes it as "
                     f"{_TOPIC}: it does not appear",
-                    f"write {topic.removesuffix(name)}{_TOPIC}",
+                    write(place, topic, f"{topic.removesuffix(name)}{_TOPIC}"),
                 )

@@ -9,7 +9,8 @@ from sambot_viz import limits
 from sambot_viz.checks.around.files.yaml_repair import Fault
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 
@@ -128,14 +129,20 @@ def _misnamed(root: Element, around: Surroundings) -> Iterator[Problem]:
         return
     place = name.place if name is not None else root.place
     what = f'"{said}" is not a name of a package' if said else "there is no <name>"
+    here = Place(around.files.shown(_FILE), place.line, place.column)
     yield Problem.at(
-        Place(around.files.shown(_FILE), place.line, place.column),
+        here,
         "error",
         "package-xml",
         f"{what}, which has only letters, digits and _: colcon does not find the "
         "package",
-        f"write <name>{_proposed(around, said)}</name>",
+        _named(here, said, _proposed(around, said)),
     )
+
+
+def _named(place: Place, said: str, right: str) -> Fix:
+    hint = f"write <name>{right}</name>"
+    return write(place, said, right, hint=hint) if said else Fix(hint)
 
 
 def _proposed(around: Surroundings, said: str) -> str:
@@ -169,5 +176,5 @@ def build_types(around: Surroundings) -> Iterator[Problem]:
         "package-build-type",
         f"{said} builds with {_BUILD_FILES[said]}, which the package does not have; it "
         f"has {file} ({where(there, here)}): colcon build stops",
-        f"write {better}",
+        write(here, said, better),
     )

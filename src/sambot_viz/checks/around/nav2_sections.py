@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _COSTMAPS = ("local_costmap", "global_costmap")
@@ -48,7 +49,7 @@ def unread_sections(around: Surroundings) -> Iterator[Problem]:
                     "nav2-node-name",
                     f"Nav2 has no node {node}, but {near}: nobody reads these "
                     "parameters",
-                    f"write {near}:",
+                    write(_above(file, node, place), node, near, hint=f"write {near}:"),
                 )
 
 
@@ -86,7 +87,7 @@ def _sources(parameter: Parameter, given: Mapping[str, Parameter]) -> Iterator[P
                 "nav2-section",
                 f"observation_sources names {name}, but the section is called {near} "
                 f"({where(sections[near], parameter.place)}): the sensor is not used",
-                f"write {near}",
+                write(parameter.value_place, name, near),
             )
 
 
@@ -112,7 +113,7 @@ def _plugins(given: Mapping[str, Parameter]) -> Iterator[Problem]:
                 f"{one.name} names {name}, but the section is called {near} "
                 f"({where(place, one.place)}): {one.node.rpartition('/')[2]} stops "
                 "with an error",
-                f"write {near}",
+                write(one.value_place, name, near),
             )
 
 
@@ -128,7 +129,7 @@ def frames_with_slash(around: Surroundings) -> Iterator[Problem]:
                 "frame-slash",
                 f"{node} asks for the frame {name}, but no frame of ROS 2 begins with "
                 "a slash: it never gets a transform",
-                f"write {name[1:]}",
+                write(parameter.value_place, name, name[1:]),
             )
 
 
@@ -147,5 +148,5 @@ def odd_clocks(around: Surroundings) -> Iterator[Problem]:
                 f"{off[0].node} uses the time of the computer, but {other.node} "
                 f"({where(other.place, off[0].place)}) and all others in this file "
                 "use simulated time: its transforms never fit",
-                "write true",
+                write(off[0].value_place, off[0].fact.value, "true"),
             )

@@ -13,6 +13,7 @@ from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import filters, is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
 _ODOMETRY, _IMU, _SCAN = "Odometry", "Imu", "LaserScan"
@@ -83,7 +84,7 @@ def _unknown(parameter: Parameter, kind: str, source: Published) -> Problem:
         f"{parameter.node} reads {parameter.fact.value}, but {source.what} "
         f"publishes this {kind} as {source.topic.value} "
         f"({where(source.topic.place, parameter.place)})",
-        f"write {source.topic.value}",
+        write(parameter.place, parameter.fact.value, source.topic.value),
     )
 
 
@@ -115,7 +116,7 @@ def _renamed(
             f"the bridge publishes this {kind} as {ros.value}, but {first.node} "
             f"({where(first.place, ros.place)}) and all others read "
             f"{first.fact.value}",
-            f"write /{gz}",
+            write(ros.place, ros.value, f"/{gz}"),
         )
         yield problem, readers[0]
 

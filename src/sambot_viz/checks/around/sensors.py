@@ -14,6 +14,7 @@ from sambot_viz.checks.around.files.gazebo import (
 )
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
+from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xml.element import Element
@@ -116,7 +117,7 @@ def _in_degrees(sensor: Element, fact: Fact, degrees: float) -> Problem:
         f"{fact.value} is more than a full turn for the sensor {_named(sensor)} "
         f"({where(sensor.place, fact.place)}): it looks like degrees, but Gazebo "
         "reads radians",
-        f"write {number(math.radians(degrees))}",
+        write(fact.place, fact.value, number(math.radians(degrees))),
     )
 
 
@@ -134,7 +135,11 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
                 f"<{low}> of the sensor {_named(sensor)} is {number(one)} m, and "
                 f"<{high}> ({where(most[0].place, least[0].place)}) is less: nothing "
                 "is in its range",
-                f"exchange {number(one)} and {number(other)}",
+                together(
+                    f"exchange {number(one)} and {number(other)}",
+                    write(least[0].place, least[0].value, most[0].value),
+                    write(most[0].place, most[0].value, least[0].value),
+                ),
             )
 
 
@@ -157,7 +162,7 @@ def frames_of_sensors(robot: Robot) -> Iterator[Problem]:
                 f"{fact.value}, which carries {_named(other)} "
                 f"({where(other.place, fact.place)}): what it sees is drawn in the "
                 "wrong place",
-                f"write {link}",
+                write(fact.place, fact.value, link),
             )
 
 

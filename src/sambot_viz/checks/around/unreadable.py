@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.python_repair import fault_in_python
 from sambot_viz.checks.around.files.yaml_repair import fault_in
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _KNOWN = re.compile(
@@ -77,7 +78,7 @@ def misspelt_key(around: Surroundings) -> Iterator[Problem]:
                 "parameters-key",
                 f"the key {key} is no {_KEY}, with two underscores: the node that the "
                 f"file is for{named} finds no parameters and stops",
-                f"write {_KEY}",
+                write(place, key, _KEY),
             )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
@@ -83,7 +84,7 @@ def _refuse_unknown(
             "link-name-blank",
             f'the link name "{spaced}" contains a blank, so joint {joint.name} does '
             f"not find the link {name}; {REFUSED}",
-            f'write name="{name}"',
+            write_attribute(scope.frames[spaced].element.place, "name", spaced, name),
             scope.frames[spaced].element,
             "name",
         )
@@ -96,7 +97,7 @@ def _refuse_unknown(
         f"joint-{tag}-unknown",
         f"joint {joint.name} names the {tag} link '{name}', which does not exist "
         f"({did_you_mean(name, possible or links)}); {REFUSED}",
-        f"write <{tag}>{near}</{tag}>"
+        write(element.place, name, near, hint=f"write <{tag}>{near}</{tag}>")
         if near
         else f'correct the name, or add <link name="{name}"/>',
         element,
@@ -152,11 +153,13 @@ def _refuse_frame(
         # Frames may be attached to each other, which is reported elsewhere.
         seen.add(frame)
         frame = frame.attached
-    better = frame.name if frame is not None and frame.kind == "link" else "…"
+    better = frame.name if frame is not None and frame.kind == "link" else ""
     findings.reject(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
         f"but {REFUSED}",
-        f"write <{tag}>{better}</{tag}>",
+        write(element.place, name, better, hint=f"write <{tag}>{better}</{tag}>")
+        if better
+        else f"write <{tag}>…</{tag}>",
         element,
     )
