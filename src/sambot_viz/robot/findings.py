@@ -44,6 +44,7 @@ class ModelFindings(Findings):
         reject: reports an error for which ROS refuses the whole model.
         error: reports one that ROS does not, or that affects only part of the robot.
         warn: reports a doubtful part of the model, which is drawn anyway.
+        remark: reports what is worth knowing.
     """
 
     def __init__(self) -> None:
@@ -58,6 +59,7 @@ class ModelFindings(Findings):
     reject = _reporter("error", rejects=True)
     error = _reporter("error")
     warn = _reporter("warning")
+    remark = _reporter("info")
 
 
 def tag_text(element: Element) -> str:

@@ -173,6 +173,48 @@ def test_a_wrong_number_in_a_sensor_refuses_the_robot_at_its_line() -> None:
     assert "sensor s of link a" in error.message
 
 
+NOISE = "<noise{}><type>{}</type></noise>"
+SCAN = """<scan><horizontal><samples>1</samples><min_angle>0</min_angle>
+<max_angle>1</max_angle></horizontal></scan><range><min>0</min><max>1</max></range>"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "content"),
+    [
+        ("gpu_lidar", f"<lidar>{SCAN}{NOISE.format('', 'gauss')}</lidar>"),
+        ("ray", f"<ray>{SCAN}{NOISE.format('', 'gauss')}</ray>"),
+        ("magnetometer", "<magnetometer><x><noise type='gauss'/></x></magnetometer>"),
+    ],
+)
+def test_an_unknown_noise_of_these_sensors_is_taken_for_none(
+    kind: str, content: str
+) -> None:
+    """libsdformat drops what it finds wrong with their noise."""
+    robot = load_robot(
+        sdf(f'<link name="a"><sensor name="s" type="{kind}">{content}</sensor></link>')
+    )
+
+    said, _ = robot.problems
+    assert (said.code, said.severity) == ("sdf-value-default", "info")
+    assert "'gaussian'" in said.message
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<imu><angular_velocity><x><noise type='gauss'/></x></angular_velocity></imu>",
+        "<altimeter><vertical_position><noise type='gauss'/></vertical_position>"
+        "</altimeter>",
+    ],
+)
+def test_an_unknown_noise_of_other_sensors_refuses_the_robot(content: str) -> None:
+    kind = content[1 : content.index(">")]
+    sensor = f'<sensor name="s" type="{kind}">{content}</sensor>'
+    (error,) = refusal(sdf(f'<link name="a">{sensor}</link>'))
+
+    assert error.code == "sdf-value"
+
+
 def test_the_material_is_mixed_and_named_as_ros_does() -> None:
     visual = (
         '<visual name="v"><geometry><box/></geometry><material>'
