@@ -108,6 +108,43 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
     assert codes(package) == []
 
 
+ARGUMENTS = """
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(
+                    os.path.join(gz_share, "launch", "gz_sim.launch.py")
+                ),
+                launch_arguments={"gz_args": GIVEN}.items(),
+            ),
+            ExecuteProcess(cmd=["gz", "sim", world, "-r"]),
+            Node(package="ros_gz_sim", executable="server", arguments=[world, "-r"]),
+"""
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        'world + " -r"',
+        '"-r " + world',
+        'f"-r -v4 {world}"',
+        '[world, " -r -v 4"]',
+        '["-s -r --headless-rendering ", world]',
+    ],
+)
+def test_the_options_beside_a_world_are_not_of_its_name(
+    copied: Copied, given: str
+) -> None:
+    package = copied("gz")
+    start = "GzServer(world_sdf_file=world),"
+    edit(package / LAUNCH, start, ARGUMENTS.replace("GIVEN", given))
+    assert codes(package) == []
+    edit(package / LAUNCH, '"room.sdf"', '"rom.sdf"')
+    (problem,) = check(package / MODEL)
+    assert (problem.code, problem.hint) == (
+        "launch-file-missing",
+        "write world/room.sdf",
+    )
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')

@@ -44,6 +44,10 @@ _SIMULATORS = (
     "gazebo.launch.py",
 )
 _ACTIONS: dict[str, Generation] = {"GzServer": "gz", "RosGzBridge": "gz"}
+_LISTS = frozenset({"arguments", "cmd", "parameters", "remappings"})
+"""Arguments that are lists of several texts, and not the parts of one."""
+_OPTION = re.compile(r"--?[a-z][\w-]*(=\S*)?|\d+", re.IGNORECASE)
+"""An option of a program, or the number that one has."""
 _BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
 
 
@@ -246,13 +250,19 @@ class LaunchFile:
     def paths(self) -> list[Fact]:
         """All paths in the share folders of packages, such as package://p/config."""
         found: dict[tuple[str, int], Fact] = {}
-        joined = {id(self.values.joined(call)) for call in self.calls}
+        lists = {id(self.values.joined(call)) for call in self.calls}
+        lists |= {
+            id(given.value)
+            for call in self.calls
+            for given in call.keywords
+            if given.arg in _LISTS
+        }
         for node in ast.walk(self.tree):
             built = isinstance(node, (ast.Call, ast.BinOp, ast.JoinedStr, ast.List))
-            if not built or id(node) in joined:
+            if not built or id(node) in lists:
                 continue
-            text = self.values.text(node)
-            if text is not None and text.startswith(SHARE) and ".." not in text:
+            text = _without_options(self.values.text(node) or "")
+            if text.startswith(SHARE) and ".." not in text:
                 found.setdefault((text, node.lineno), Fact(text, self.place(node)))
         return sorted(found.values(), key=lambda fact: fact.place.line)
 
@@ -260,6 +270,14 @@ class LaunchFile:
         """Return what a bridge's arguments say: topic, ROS type, [ ] or @, type."""
         found = (_BRIDGED.fullmatch(text) for text in node.arguments)
         return [(m[1], m[2], m[3], m[4]) for m in found if m is not None]
+
+
+def _without_options(text: str) -> str:
+    """Return the path among options such as "-r -v 4", or the text as it is."""
+    words = text.split()
+    options = [word for word in words if _OPTION.fullmatch(word)]
+    paths = [word for word in words if word not in options]
+    return paths[0] if options and len(paths) == 1 else text
 
 
 def read_launch(text: str, path: str, shown: str) -> LaunchFile | None:
