@@ -108,6 +108,20 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
     assert codes(package) == []
 
 
+@pytest.mark.parametrize(
+    ("declared", "found"), [(True, ["sim-time-off"] * 2), (False, [])]
+)
+def test_the_default_of_an_argument_that_is_not_declared_is_not_certain(
+    copied: Copied, declared: bool, found: list[str]
+) -> None:
+    package = copied("gz")
+    used = 'LaunchConfiguration("use_sim_time"'
+    edit(package / LAUNCH, used, f'{used}, default="false"')
+    line = 'DeclareLaunchArgument("use_sim_time", default_value="True"),'
+    edit(package / LAUNCH, line, line.replace("True", "False") if declared else "")
+    assert codes(package) == found
+
+
 ARGUMENTS = """
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(

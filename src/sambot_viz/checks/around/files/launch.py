@@ -15,6 +15,7 @@ from sambot_viz.checks.around.files.launch_values import (
     keyword,
     values_for,
 )
+from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 
@@ -204,7 +205,12 @@ class LaunchFile:
     def _sim_time(self, given: ast.Dict) -> Fact | None:
         for value in values_for(given, "use_sim_time"):
             text = self.values.text(value)
-            return None if text is None else Fact(text, self.place(value))
+            if text is None or (
+                flag(text) is False and not self.values.is_declared(value)
+            ):
+                # Another launch file, which includes this one, may say true.
+                return None
+            return Fact(text, self.place(value))
         return None
 
     def _remappings(self, call: ast.Call) -> Iterator[tuple[str, str]]:

@@ -115,6 +115,23 @@ class LaunchValues:
             case _:
                 return None
 
+    def is_declared(self, node: ast.expr) -> bool:
+        """Tell whether an expression has no launch argument that is not declared."""
+        waiting: list[ast.AST] = [node]
+        seen: set[str] = set()
+        while waiting:
+            inner = waiting.pop()
+            waiting += ast.iter_child_nodes(inner)
+            if isinstance(inner, ast.Name) and inner.id not in seen:
+                seen.add(inner.id)
+                waiting += filter(None, [self._variables.get(inner.id)])
+            elif isinstance(inner, ast.Call) and (
+                call_name(inner.func) == "LaunchConfiguration"
+                and self.text(keyword(inner, "variable_name", 0)) not in self._arguments
+            ):
+                return False
+        return True
+
     def joined(self, call: ast.Call) -> ast.expr | None:
         """Return the list whose items a call joins to a path, or None."""
         inner = call.args[0] if call.args else None
