@@ -159,6 +159,23 @@ def test_the_options_beside_a_world_are_not_of_its_name(
     )
 
 
+@pytest.mark.parametrize("tool", ["catkin", "ament_cmake"])
+def test_a_package_of_ros_1_has_the_plugins_of_ros_1(copied: Copied, tool: str) -> None:
+    package = copied("classic")
+    for name in ("separation", "diameter"):
+        new = f"wheel{name.capitalize()}"
+        for end in ("<", "</"):
+            edit(package / MODEL, f"{end}wheel_{name}>", f"{end}{new}>")
+    for part in ("buildtool_depend", "build_type"):
+        edit(package / "package.xml", f"<{part}>ament_cmake", f"<{part}>{tool}")
+    edit(package / "CMakeLists.txt", "find_package(ament_cmake", "find_package(catkin")
+    found = codes(package)
+    assert (found == []) == (tool == "catkin")
+    # What is wrong in either ROS is said.
+    edit(package / MODEL, "<wheelSeparation>0.4", "<wheelSeparation>0.1")
+    assert "drive-wheel-separation" in codes(package)
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')

@@ -26,18 +26,21 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     if files is None and not subject.robot.gazebo:
         return
     # The import is late: most models have nothing for these rules.
-    from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE
+    from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE, OF_ROS2
     from sambot_viz.checks.around.surroundings import Surroundings
 
     if any(p.code in _INCOMPLETE for p in subject.robot.problems):
         # A part of the robot is missing, and with it what others name.
         return
+    around = None if files is None else Surroundings(subject.robot, files)
+    left_out = OF_ROS2 if around is not None and around.is_ros1 else frozenset()
     for rule in IN_MODEL:
-        yield from rule(subject.robot)
-    if files is not None and not _is_part(subject):
-        around = Surroundings(subject.robot, files)
+        if rule not in left_out:
+            yield from rule(subject.robot)
+    if around is not None and not _is_part(subject):
         for check in IN_PACKAGE:
-            yield from check(around)
+            if check not in left_out:
+                yield from check(around)
 
 
 def _is_part(subject: Subject) -> bool:

@@ -192,3 +192,15 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     footprints,
 )
 """The rules that need the files around it."""
+
+OF_ROS2: frozenset[Callable[..., Iterable[Problem]]] = frozenset(IN_PACKAGE) - {
+    unreadable_yaml,
+    unreadable_cmake,
+    unreadable_manifest,
+} | {
+    misspelt_elements,
+    both_generations,
+    unknown_classes,
+    lidars_of_the_other,
+}
+"""The rules that know only the plugins, parameters and launch files of ROS 2."""

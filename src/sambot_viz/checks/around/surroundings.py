@@ -81,6 +81,13 @@ class Surroundings:
             return None
 
     @cached_property
+    def is_ros1(self) -> bool:
+        """True when catkin alone builds the package: it is not for ROS 2."""
+        root = self.manifest
+        tools = [] if root is None else root.find_all("buildtool_depend")
+        return {tool.text.strip() for tool in tools} == {"catkin"}
+
+    @cached_property
     def cmake(self) -> CMakeFile | None:
         """CMakeLists.txt; None when there is none, or a very long one."""
         name = "CMakeLists.txt"
