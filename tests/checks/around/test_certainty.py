@@ -176,6 +176,19 @@ def test_a_package_of_ros_1_has_the_plugins_of_ros_1(copied: Copied, tool: str) 
     assert "drive-wheel-separation" in codes(package)
 
 
+@pytest.mark.parametrize(
+    ("frame", "found"),
+    [("world", []), ("map", []), ("/odom", []), ("lidar_lnk", ["frame-unknown"])],
+)
+def test_a_sensor_may_report_in_the_world(
+    copied: Copied, frame: str, found: list[str]
+) -> None:
+    package = copied("classic")
+    own = "<frame_name>lidar_link<"
+    edit(package / MODEL, own, f"<frame_name>{frame}<")
+    assert codes(package) == found
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')

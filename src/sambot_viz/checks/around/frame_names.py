@@ -46,6 +46,7 @@ _ODOMS: dict[str, tuple[str, ...]] = {
 _DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
 _DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
 _NO_BASE = frozenset({"map", "odom", "world"})
+"""Frames that are no part of a robot; sensors may report in them."""
 
 
 def unknown_frames(around: Surroundings) -> Iterator[Problem]:
@@ -78,12 +79,15 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
 def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     """Give each frame of the robot, who names it, and the link it probably is."""
     for plugin in around.plugins:
-        tags = _DRIVE_BASES if plugin.is_drive else ()
-        for fact in plugin.all(*tags, *(SENSOR_FRAMES if plugin.sensor else ())):
+        for fact in plugin.all(*(_DRIVE_BASES if plugin.is_drive else ())):
             yield fact, f"the plugin {plugin.filename}", plugin.link
+        for fact in plugin.all(*(SENSOR_FRAMES if plugin.sensor else ())):
+            if bare_frame(fact.value) not in _NO_BASE:
+                yield fact, f"the plugin {plugin.filename}", plugin.link
     for link, sensor in sensors(around.robot.gazebo):
         for fact in facts(sensor, *SENSOR_FRAMES):
-            yield fact, f"the sensor {sensor.get('name')}", link
+            if bare_frame(fact.value) not in _NO_BASE:
+                yield fact, f"the sensor {sensor.get('name')}", link
     for one in filters(around):
         if "base_link_frame" in one.given:
             yield one.given["base_link_frame"].fact, one.node, ""
