@@ -189,6 +189,24 @@ def test_a_sensor_may_report_in_the_world(
     assert codes(package) == found
 
 
+@pytest.mark.parametrize(
+    ("found", "known"),
+    [
+        ("", False),
+        ("find_package(Eigen3 REQUIRED)\nfind_package(Threads)", False),
+        ("find_package(geometry_msgs REQUIRED)", True),
+        ("find_package(Eigen3)\nfind_package(rclcpp REQUIRED)", True),
+        ("foreach(one ${ALL})\nfind_package(${one})\nendforeach()", True),
+    ],
+)
+def test_any_package_of_ros_brings_the_commands_of_ament(
+    copied: Copied, found: str, known: bool
+) -> None:
+    package = copied("gz")
+    edit(package / "CMakeLists.txt", "find_package(ament_cmake REQUIRED)", found)
+    assert codes(package) == ([] if known else ["cmake-command-missing"])
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')

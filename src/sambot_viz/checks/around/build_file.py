@@ -18,6 +18,17 @@ _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
 _NOT_MEANT = frozenset({"build", "install", "log", ".git"})
 _UNKNOWN = frozenset({"include", "macro", "function", "add_subdirectory"})
+_WITHOUT_AMENT = frozenset(
+    """
+    assimp benchmark blas boost bullet catkin ceres cgal curl curses doxygen eigen
+    eigen3 fcl fmt freetype git glew glfw3 glm glog glut gtest jsoncpp lapack
+    libusb libxml2 nlohmann_json octomap ompl opencv opengl openmp openssl orocos_kdl
+    pcl pkgconfig protobuf python python3 pythoninterp pythonlibs qt5 qt6 sdl sdl2
+    spdlog sqlite3 threads tinyxml tinyxml2 urdfdom urdfdom_headers vtk x11 yaml-cpp
+    zlib
+    """.split()
+)
+"""What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
@@ -44,7 +55,7 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
         for command in cmake.commands
         if command.name == "find_package" and command.words
     }
-    finds = any(name.startswith("ament_cmake") for name in found)
+    finds = any(name.lower() not in _WITHOUT_AMENT for name in found)
     if not cmake.is_package and "ament_cmake" in found and cmake.certain("install"):
         last = cmake.commands[-1]
         yield _missing_command(
