@@ -253,6 +253,7 @@ def check_folder(
 
 
 def _check_config(path: Path, robot: Robot | None) -> list[Problem]:
+    from sambot_viz.checks.around.published_frames import may_be_published
     from sambot_viz.checks.config_against_robot import check_config
     from sambot_viz.rviz import Declarations, RvizConfig
 
@@ -261,7 +262,14 @@ def _check_config(path: Path, robot: Robot | None) -> list[Problem]:
     except ConfigError as error:
         return list(error.problems)
     found = list(config.problems)
-    return found if robot is None else found + check_config(robot, config)
+    if robot is None:
+        return found
+    for problem in check_config(robot, config):
+        frame = str(config.global_options.get("Fixed Frame"))
+        of_frame = problem.code == "setup-fixed-frame"
+        if not (of_frame and may_be_published(robot, frame, str(path))):
+            found.append(problem)
+    return found
 
 
 def _in_order(problems: Sequence[Problem]) -> list[Problem]:

@@ -33,7 +33,7 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
         # A part of the robot is missing, and with it what others name.
         return
     around = None if files is None else Surroundings(subject.robot, files)
-    left_out = OF_ROS2 if around is not None and around.is_ros1 else frozenset()
+    left_out = OF_ROS2 if around is not None and around.is_ros1 else ()
     for rule in IN_MODEL:
         if rule not in left_out:
             yield from rule(subject.robot)

@@ -44,7 +44,8 @@ _ODOMS: dict[str, tuple[str, ...]] = {
 """Parameter for the frame of odometry → the nodes that have it."""
 
 _DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
-_DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
+DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
+"""Elements in which a drive names the frame of odometry."""
 _NO_BASE = frozenset({"map", "odom", "world"})
 """Frames that are no part of a robot; sensors may report in them."""
 
@@ -138,7 +139,7 @@ def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
         if fact is not None and drive_tf(around, plugin) is not None:
-            odom = plugin.one(*_DRIVE_ODOMS)
+            odom = plugin.one(*DRIVE_ODOMS)
             name = bare_frame(odom.value) if odom is not None else "odom"
             yield fact, f"the plugin {plugin.filename}", name
 
@@ -202,7 +203,7 @@ def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
         if one.moves_base and "odom_frame" in one.given and not _is_odd(around, one):
             yield one.given["odom_frame"].fact, one.node
     for plugin in around.plugins:
-        fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+        fact = plugin.one(*DRIVE_ODOMS) if plugin.is_drive else None
         if fact is not None and drive_tf(around, plugin) is not None:
             yield fact, f"the plugin {plugin.filename}"
 
@@ -216,7 +217,7 @@ def _used_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
     for one in filters(around):
         fused = (p for p in one.inputs("odom") if one.fuses(p, range(6)))
         for plugin in around.plugins if any(fused) else ():
-            fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+            fact = plugin.one(*DRIVE_ODOMS) if plugin.is_drive else None
             if fact is not None and one.started:
                 yield fact, f"the plugin {plugin.filename}"
 
