@@ -513,7 +513,7 @@ def test_the_shape_of_an_arm_does_not_count_for_the_footprint(copied: Copied) ->
     edit(package / MODEL, "</robot>", arm.format("revolute", limit))
     assert codes(package) == []
     edit(package / MODEL, 'type="revolute"', 'type="fixed"')
-    assert codes(package) == ["footprint-size"] * 2
+    assert codes(package) == ["footprint-size"]
 
 
 def test_wheels_that_skid_may_have_a_larger_separation(copied: Copied) -> None:
@@ -562,3 +562,41 @@ NAMES_THAT_MUST_MEET = frozenset(
     "folder-not-installed footprint-size sensor-frame ekf-two-d-mode cmake-unclosed "
     "cmake-project-name install-folder-missing install-destination".split()
 )
+
+
+OTHER = """<robot name="truck"><link name="cab"/><link name="bed"/>
+<joint name="j" type="fixed"><parent link="cab"/><child link="bed"/></joint></robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("model", "config", "found"),
+    [
+        ("", "truck/nav2.yaml", ["footprint-size"]),
+        ("urdf/truck.urdf", "truck/nav2.yaml", []),
+        ("urdf/truck.urdf", "nav2_truck/nav2.yaml", []),
+        ("robots/truck/robot.urdf", "truck/nav2.yaml", []),
+        ("urdf/cart.sdf", "truck/nav2.yaml", ["footprint-size"]),
+    ],
+)
+def test_parameters_may_be_for_another_robot_of_the_package(
+    copied: Copied, model: str, config: str, found: list[str]
+) -> None:
+    package = copied("gz")
+    edit(package / NAV2, "robot_radius: 0.3", "robot_radius: 0.05")
+    other = package / "config" / config
+    other.parent.mkdir()
+    (package / NAV2).rename(other)
+    if model:
+        (package / model).parent.mkdir(parents=True, exist_ok=True)
+        (package / model).write_text(OTHER)
+    assert codes(package) == found
+
+
+def test_of_two_robots_each_has_the_parameters_that_fit(copied: Copied) -> None:
+    package = copied("gz")
+    second = package / "config" / "other_params.yaml"
+    second.write_text((package / NAV2).read_text().replace("0.3", "0.05"))
+    assert "footprint-size" in codes(package)
+    (package / "urdf" / "truck.urdf").write_text(OTHER)
+    assert "footprint-size" not in codes(package)

@@ -26,6 +26,7 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     if files is None and not subject.robot.gazebo:
         return
     # The import is late: most models have nothing for these rules.
+    from sambot_viz.checks.around.other_robots import of_this_robot
     from sambot_viz.checks.around.rules import IN_MODEL, IN_PACKAGE, OF_ROS2
     from sambot_viz.checks.around.surroundings import Surroundings
 
@@ -38,9 +39,9 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
         if rule not in left_out:
             yield from rule(subject.robot)
     if around is not None and not _is_part(subject):
-        for check in IN_PACKAGE:
-            if check not in left_out:
-                yield from check(around)
+        checks = (check for check in IN_PACKAGE if check not in left_out)
+        found = (problem for check in checks for problem in check(around))
+        yield from of_this_robot(around, found)
 
 
 def _is_part(subject: Subject) -> bool:
