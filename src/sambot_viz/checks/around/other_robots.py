@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.clues import severity
 from sambot_viz.errors import Problem
 
 _BASES = ("robot_base_frame", "base_link_frame", "base_frame_id", "base_frame")
@@ -22,6 +24,8 @@ _OF_ROBOT = {
     "frame-two-parents": _BASES,
 }
 """Code → the parameters whose values only one robot has."""
+_SIZES = frozenset({"footprint-size", "drive-wheel-separation", "drive-wheel-radius"})
+"""What is said of numbers that two robots may share by chance."""
 _MODELS = (".urdf", ".xacro", ".sdf")
 _IS_ROBOT = re.compile(r"<(robot|model)\b[^>]*\bname\s*=")
 _GENERAL = frozenset(
@@ -43,6 +47,7 @@ def of_this_robot(
 
     A file is, where a folder in its path or its name is called as another model of
     the package; and it may be, where the parameters of another file fit this robot.
+    Where neither the one nor the other is so, sizes that differ are one clue alone.
     """
     found = list(problems)
     others = _other_robots(around) if any(p.code in _OF_ROBOT for p in found) else ()
@@ -50,7 +55,8 @@ def of_this_robot(
         yield from found
         return
     own = _words(around.files.shown(path) for path in _own_models(around))
-    foreign = _words(around.files.shown(path) for path in others) - own
+    others_words = _words(around.files.shown(path) for path in others)
+    foreign = others_words - own
     wrong = {(problem.code, problem.file) for problem in found}
     ours = [f for f in around.yaml_files if foreign.isdisjoint(_words([f.shown]))]
     read = {file.shown for file in around.yaml_files}
@@ -61,6 +67,9 @@ def of_this_robot(
             is_ours = any(problem.file == file.shown for file in ours)
             if not is_ours or any(_has(file, names) for file in fitting):
                 continue
+            named = own - others_words
+            if problem.code in _SIZES and named.isdisjoint(_words([problem.file])):
+                problem = replace(problem, severity=severity({"size"}))
         yield problem
 
 

@@ -13,10 +13,12 @@ from sambot_viz.checks.around.files.gazebo import (
     sensors,
 )
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
 from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
 _OF_JOINTS = ("force_torque",)
@@ -110,14 +112,15 @@ def sensor_values(robot: Robot) -> Iterator[Problem]:
 
 
 def _in_degrees(sensor: Element, fact: Fact, degrees: float) -> Problem:
-    return Problem.at(
+    clues = {"size", "usual degrees"} if usual_degrees(degrees) else {"size"}
+    return guess(
         fact.place,
-        "warning",
         "gazebo-sensor",
         f"{fact.value} is more than a full turn for the sensor {_named(sensor)} "
         f"({where(sensor.place, fact.place)}): it looks like degrees, but Gazebo "
         "reads radians",
         write(fact.place, fact.value, number(math.radians(degrees))),
+        clues,
     )
 
 
