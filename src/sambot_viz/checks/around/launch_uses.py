@@ -16,7 +16,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.errors import Place, Problem, nearest
 
 _STARTED = frozenset(
     {
@@ -141,19 +141,38 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
             package = launch.values.text(keyword(call, "package")) or ""
             given = keyword(call, "executable")
             program = launch.values.text(given)
-            known = _PROGRAMS.get(package, "").split()
+            own = _own_programs(around) if package == around.files.name else None
+            known = _PROGRAMS.get(package, "").split() if own is None else [*own]
             if given is None or program is None or program in known:
                 continue
             near = nearest(program, known)
-            if near is not None:
-                yield Problem.at(
-                    launch.place(given),
-                    "error",
-                    "launch-program-unknown",
-                    f"the package {package} has no program {program}: ros2 launch "
-                    "stops with it",
-                    f"write {near}",
-                )
+            if near is None and own is None:
+                continue
+            place = launch.place(given)
+            listed_at = own.get(near or "") if own is not None else None
+            there = f"; it has {near} ({where(listed_at, place)})" if listed_at else ""
+            yield Problem.at(
+                place,
+                "error",
+                "launch-program-unknown",
+                f"the package {package} has no program {program}{there}: ros2 launch "
+                "stops with it",
+                f"write {near}"
+                if near
+                else f"add a line {program} = … to console_scripts in setup.py",
+            )
+
+
+def _own_programs(around: Surroundings) -> dict[str, Place] | None:
+    """The programs that setup.py installs; None when that is not certain."""
+    setup = around.setup if around.cmake is None else None
+    if setup is None or not setup.installs_only_known or setup.given("scripts"):
+        return None
+    if not setup.scripts.known or len(setup.programs) != len(setup.scripts.items):
+        return None
+    if any((entry.target or "").startswith("lib/") for entry in setup.data_files):
+        return None
+    return {program.name: setup.place(program.node) for program in setup.programs}
 
 
 def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:

@@ -59,6 +59,7 @@ from sambot_viz.checks.around.joint_names import (
 )
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
+    missing_commas,
     missing_entries,
     unknown_names,
 )
@@ -91,6 +92,12 @@ from sambot_viz.checks.around.sensors import (
     lidars_of_the_other,
     sensor_values,
     sensors_without_link,
+)
+from sambot_viz.checks.around.setup_files import (
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
 )
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -145,6 +152,11 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     empty_launch_files,
     missing_entries,
     unknown_names,
+    missing_commas,
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
     unused_actions,
     undeclared_arguments,
     unknown_programs,

@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
+from sambot_viz.checks.around.files.setup_py import SetupFile, read_setup
 from sambot_viz.checks.around.files.text_files import PackageFiles
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xml.decode import XmlFault
@@ -88,6 +89,16 @@ class Surroundings:
         if text is None or len(text) > limits.BUILD_FILE.value:
             return None
         return CMakeFile(text, self.files.shown(name))
+
+    @cached_property
+    def setup(self) -> SetupFile | None:
+        """setup.py; None when there is none that is Python, or a very long one."""
+        name = "setup.py"
+        text = self.files.text(name) if name in self.files.paths else None
+        if text is None or len(text) > limits.BUILD_FILE.value:
+            return None
+        shown, folder = self.files.shown(name), self.files.folder
+        return read_setup(text, shown, folder, trusted=self.files.trusted)
 
     @cached_property
     def namespaced(self) -> bool:
