@@ -11,6 +11,7 @@ import yaml
 from sambot_viz.checks.around.files.launch import NODES, LaunchFile
 from sambot_viz.checks.around.files.launch_values import keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
+from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
@@ -251,29 +252,46 @@ def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def spawned_topics(around: Surroundings) -> Iterator[Problem]:
-    """Report a robot that is spawned from a topic that is almost the right one."""
-    publisher = next(
-        (
-            node
-            for launch in around.launches
-            for node in launch.nodes
-            if node.executable == _PUBLISHER and not node.remappings
-        ),
-        None,
-    )
-    for launch in around.launches if publisher is not None else ():
+    """Report a robot that is spawned from a topic on which no model is published."""
+    published = {topic: place for topic, place in _descriptions(around) if topic}
+    if len(published) < len(dict(_descriptions(around))) or not published:
+        return
+    certain = starts_only_known(around)
+    for launch in around.launches:
         for fact in spawned_with(launch, "topic"):
             topic, place = fact.value, fact.place
             name = topic.rpartition("/")[2]
-            if name == _TOPIC or not nearest(name, [_TOPIC], 0.8):
+            # All may be started in a namespace by another launch file.
+            if f"/{topic.strip('/')}".endswith(tuple(published)):
                 continue
-            if publisher is not None:
-                yield Problem.at(
-                    place,
-                    "warning",
-                    "launch-spawn-topic",
-                    f"the robot is to come from the topic {topic}, but "
-                    f"{_PUBLISHER} ({where(publisher.place, place)}) publishes it as "
-                    f"{_TOPIC}: it does not appear",
-                    f"write {topic.removesuffix(name)}{_TOPIC}",
-                )
+            if name == _TOPIC:
+                if not topic.startswith("/"):
+                    continue
+            elif not certain and not nearest(name, [_TOPIC], 0.8):
+                continue
+            right, publisher = next(iter(published.items()))
+            yield Problem.at(
+                place,
+                "warning",
+                "launch-spawn-topic",
+                f"the robot is to come from the topic {topic}, but "
+                f"{_PUBLISHER} ({where(publisher, place)}) publishes it as "
+                f"{right}: it does not appear",
+                f"write {right}",
+            )
+
+
+def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
+    """The topics on which the model is published; None for one that is not certain."""
+    for launch in around.launches:
+        names = {call_name(call.func) for call in launch.calls}
+        pushed = not names.isdisjoint({"PushRosNamespace", "PushROSNamespace"})
+        for call in launch.calls:
+            program = launch.values.text(keyword(call, "executable"))
+            if call_name(call.func) in NODES and program == _PUBLISHER:
+                given = keyword(call, "namespace")
+                space = "" if given is None else launch.values.text(given)
+                known = space is not None and not pushed
+                known = known and keyword(call, "remappings") is None
+                topic = f"/{space}/{_TOPIC}".replace("//", "/") if known else None
+                yield topic, launch.place(call)

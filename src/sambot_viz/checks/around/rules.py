@@ -63,6 +63,14 @@ from sambot_viz.checks.around.launch_code import (
     missing_entries,
     unknown_names,
 )
+from sambot_viz.checks.around.launch_nodes import (
+    arguments_without_list,
+    descriptions,
+    namespaces,
+    parameters_left_out,
+    rviz_without_option,
+    state_publishers,
+)
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
     unread_parameters,
@@ -157,6 +165,12 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     missing_data_files,
     missing_entry_points,
     programs_elsewhere,
+    arguments_without_list,
+    descriptions,
+    rviz_without_option,
+    parameters_left_out,
+    state_publishers,
+    namespaces,
     unused_actions,
     undeclared_arguments,
     unknown_programs,
