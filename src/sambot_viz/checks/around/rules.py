@@ -89,6 +89,7 @@ from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
 from sambot_viz.checks.around.nav2_sections import (
     frames_with_slash,
     odd_clocks,
+    unknown_plugins,
     unknown_sections,
     unread_sections,
 )
@@ -153,6 +154,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     parameter_types,
     unreadable_footprints,
     unread_sections,
+    unknown_plugins,
     unknown_sections,
     frames_with_slash,
     odd_clocks,

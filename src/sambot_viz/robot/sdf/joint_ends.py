@@ -147,7 +147,8 @@ def _refuse_frame(
             element,
         )
         return
-    frame, seen = scope.find(name), set[Frame]()
+    named = scope.find(name)
+    frame, seen = named, set[Frame]()
     while frame is not None and frame.kind != "link" and frame not in seen:
         # Frames may be attached to each other, which is reported elsewhere.
         seen.add(frame)
@@ -157,6 +158,32 @@ def _refuse_frame(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
         f"but {REFUSED}",
-        f"write <{tag}>{better}</{tag}>",
+        f"write <{tag}>{better}</{tag}>"
+        if named is None or better not in _ends_of(joint)
+        else _as_link(joint, named),
         element,
+    )
+
+
+def _ends_of(joint: Frame) -> tuple[str, str]:
+    return text_in(joint.element, "parent"), text_in(joint.element, "child")
+
+
+def _as_link(joint: Frame, frame: Frame) -> str:
+    """Say how a frame becomes a link: the joint is between it and its own link."""
+    pose = frame.element.find("pose")
+    if pose is not None and trimmed(pose.get("relative_to") or ""):
+        return (
+            "make it a link: write <link> for <frame> in line "
+            f"{frame.element.place.line}, without attached_to"
+        )
+    own = joint.element.find("pose")
+    # The frame is where its link is; where the joint has a pose, that was meant.
+    base = joint.name if own is not None else frame.element.get("attached_to") or ""
+    numbers = pose.text.strip() if pose is not None else ""
+    placed = f'<pose relative_to="{base}"'
+    placed += f">{numbers}</pose>" if numbers else "/>"
+    return (
+        f'make it a link: write <link name="{frame.name}">{placed}</link> for the '
+        f"<frame> in line {frame.element.place.line}"
     )
