@@ -13,6 +13,7 @@ from sambot_viz.checks.around.bridge_files import (
 )
 from sambot_viz.checks.around.bridge_types import (
     bridge_types,
+    topics_of_other_types,
     unknown_bridge_types,
     wrong_data_types,
 )
@@ -35,6 +36,7 @@ from sambot_viz.checks.around.drives import (
     wrong_sides,
     wrong_sides_of_controllers,
 )
+from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
 from sambot_viz.checks.around.frame_names import (
@@ -195,7 +197,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     world_frames,
     unpublished_odometry,
     planes,
+    topics_of_other_types,
     unknown_topics,
+    inputs_without_config,
     wrong_data_types,
     unknown_bridge_types,
     bridge_types,

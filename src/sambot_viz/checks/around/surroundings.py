@@ -121,7 +121,22 @@ class Surroundings:
         below = path.removeprefix(head).strip("/")
         return below if path.startswith(head) and below else None
 
-    def said_elsewhere(self, name: str, *, as_topic: bool = False) -> bool:
+    @cached_property
+    def _unlaunched(self) -> frozenset[str]:
+        """Other models that no launch file names, where one names this one."""
+        said = [text for launch in self.launches for text in launch.strings]
+        own = {file.name for file in self.robot.files}
+        if not any(text.endswith(tuple(own)) for text in said if own):
+            return frozenset()
+        return frozenset(
+            path
+            for path in self.files.ending(*_MODELS)
+            if not any(path.rpartition("/")[2] in text for text in said)
+        )
+
+    def said_elsewhere(
+        self, name: str, *, as_topic: bool = False, launched: bool = False
+    ) -> bool:
         """Tell whether a launch file, a program or another model says this name.
 
         A node or a robot that is not looked at may then have it.
@@ -130,6 +145,7 @@ class Surroundings:
             name: of a topic, a node or a frame.
             as_topic: of a model count only topics, whole: neither the frame of a
                 <frame_id>, nor the end of a longer topic.
+            launched: leave out models that no launch file names.
         """
         bare = name.strip("/")
         if any(
@@ -144,6 +160,8 @@ class Surroundings:
         own = {file.name for file in self.robot.files}
         for path in self.files.ending(*_SOURCES, *_MODELS):
             is_model = path.endswith(_MODELS)
+            if launched and path in self._unlaunched:
+                continue
             if path.endswith("launch.py") or (
                 is_model and path.rpartition("/")[2] in own
             ):
