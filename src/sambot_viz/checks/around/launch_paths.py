@@ -134,7 +134,17 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
         named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
         for fact in named:
             (name, place), *_ = worlds.items()
-            if fact.value != name:
+            if fact.value != name and " " in name:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-world-name",
+                    f"the name of the world, {name}, has a blank, which names in "
+                    f"Gazebo must not have; {where(fact.place, place)} puts the robot "
+                    f"into {fact.value}: it does not appear",
+                    f'write name="{fact.value}"',
+                )
+            elif fact.value != name:
                 yield Problem.at(
                     fact.place,
                     "warning",

@@ -103,6 +103,7 @@ from sambot_viz.checks.around.sensors import (
     lidars_of_the_other,
     sensor_values,
     sensors_without_link,
+    unknown_types,
 )
 from sambot_viz.checks.around.setup_files import (
     joined_scripts,
@@ -116,6 +117,7 @@ from sambot_viz.checks.around.systems import (
     both_generations,
     malformed_numbers,
     unknown_classes,
+    unknown_files,
 )
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -124,7 +126,11 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_yaml,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
-from sambot_viz.checks.around.world_systems import missing_systems
+from sambot_viz.checks.around.world_systems import (
+    missing_systems,
+    plugins_of_worlds,
+    unreadable_worlds,
+)
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -136,8 +142,10 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     misspelt_elements,
     both_generations,
     unknown_classes,
+    unknown_files,
     malformed_numbers,
     sensors_without_link,
+    unknown_types,
     lidars_of_the_other,
     sensor_values,
     frames_of_sensors,
@@ -217,7 +225,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     missing_files,
     unread_parameters,
     world_names,
+    unreadable_worlds,
     missing_systems,
+    plugins_of_worlds,
     project_name,
     missing_folders,
     not_installed,
