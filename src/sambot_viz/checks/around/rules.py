@@ -87,7 +87,12 @@ from sambot_viz.checks.around.launch_uses import (
     unknown_programs,
     unused_actions,
 )
-from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
+from sambot_viz.checks.around.manifest import (
+    build_types,
+    incomplete_manifest,
+    misspelt_dependencies,
+    unreadable_manifest,
+)
 from sambot_viz.checks.around.nav2_sections import (
     frames_with_slash,
     odd_clocks,
@@ -192,6 +197,8 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     spawned_topics,
     unreadable_cmake,
     unreadable_manifest,
+    incomplete_manifest,
+    misspelt_dependencies,
     build_types,
     missing_commands,
     folders_as_files,
