@@ -49,6 +49,8 @@ def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
         problems.append(_no_robot_model(config.file))
     elif models and not any(display.enabled for display in models):
         problems.append(_switched_off(models[0], config.file))
+    elif models and all(_shows_nothing(display) for display in models):
+        problems.append(_without_shapes(models[0], config.file))
     return sorted(problems, key=lambda p: p.line or 0)
 
 
@@ -93,6 +95,24 @@ def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
         "the RobotModel display is switched off: only the frames of the robot are "
         "shown",
         "switch it on in the Displays panel",
+    )
+
+
+def _shows_nothing(display: DisplayConfig) -> bool:
+    """True for a robot of which neither visuals nor collisions are drawn."""
+    node = display.node
+    shown = node.text("Collision Enabled") or "false"
+    return node.text("Visual Enabled") == "false" and shown == "false"
+
+
+def _without_shapes(display: DisplayConfig, file: str | None) -> Problem:
+    return Problem.at(
+        _place(file, display.node.get("Visual Enabled")),
+        "info",
+        "setup-no-robot-model",
+        "the RobotModel display draws neither visuals nor collisions: only the frames "
+        "of the robot are shown",
+        "write Visual Enabled: true",
     )
 
 
