@@ -226,7 +226,7 @@ def test_check_prints_json_for_graders(tmp_path: Path, capsys: Capture) -> None:
     assert report["model"] == str(model)
     keys = {"severity", "code", "message", "hint", "file", "line", "column"}
     assert report["problems"]
-    assert set(report["problems"][0]) == {*keys, "count", "more_places"}
+    assert set(report["problems"][0]) == {*keys, "count", "more_places", "edits"}
 
 
 def test_the_json_of_check_has_one_row_for_each_cause(

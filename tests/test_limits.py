@@ -54,6 +54,7 @@ NO_LIMITS = {
         export/view_picture.py LONGEST_WAIT
         files.py _LONGEST_SAVE
         joints/animation.py LONGEST
+        publishing/dead_mans_switch.py LONGEST_STOP
         server/watch.py LONGEST_WAIT _LONGEST_CLOSE
         session/data/player.py LONGEST_STEP
         session/robot/motion.py LONGEST_STEP

@@ -109,6 +109,7 @@ def test_the_cause_is_no_part_of_the_json() -> None:
         "file",
         "line",
         "column",
+        "edits",
     }
 
 

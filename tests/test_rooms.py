@@ -21,6 +21,7 @@ import pytest
 SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 """Finds the scripts that one of the page imports."""
 FOUNDATIONS = {
+    "edits",
     "errors",
     "files",
     "geometry",
@@ -175,6 +176,7 @@ ROOMS: Mapping[str, Row] = {
     "_version": Row(),
     "bundled": Row("robot"),
     "cli": Row("problems"),
+    "edits": Row(),
     "errors": Row(),
     "files": Row(),
     "geometry": Row("", "numpy"),
@@ -211,6 +213,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/delivery.py": "threading",
     "sources/websocket/paced_connection.py": "socket",  # how its own is acknowledged
     "sources/websocket/runner.py": "asyncio",
+    "sources/websocket/side_connection.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/websocket_source.py": "asyncio concurrent threading",

@@ -171,12 +171,12 @@ def test_a_wrong_joint_name_offers_the_right_one(viz: Visualizer) -> None:
         viz.set_joint_positions({LEFT: math.nan})
 
 
-def test_the_port_is_free_again_after_the_end() -> None:
-    with Visualizer(port=0) as viz:
-        port = port_of(viz)
+def test_the_port_is_free_again_after_the_end(free_port: int) -> None:
+    with Visualizer(port=free_port):
+        pass
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        probe.bind(("127.0.0.1", port))
+        probe.bind(("127.0.0.1", free_port))
 
 
 def test_a_taken_port_is_an_error_that_says_what_to_do() -> None:

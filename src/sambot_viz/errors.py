@@ -64,6 +64,46 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
+class Edit:
+    """A replacement of text in a file.
+
+    Attributes:
+        file: path of the file as the user wrote it.
+        start: offset of the first character that is replaced, in the text of the file
+            without a byte order mark and with its own line ends.
+        end: offset behind the last one; `start` where text is only added.
+        text: what is written there.
+    """
+
+    file: str
+    start: int
+    end: int
+    text: str
+
+    def as_json(self) -> dict[str, str | int]:
+        """Return the fields that an edit has in JSON."""
+        return {
+            "file": self.file,
+            "start": self.start,
+            "end": self.end,
+            "text": self.text,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """A hint, and the edits that do what it says; `edits` makes them.
+
+    Attributes:
+        hint: what to write.
+        edits: none where it cannot be done by replacing text.
+    """
+
+    hint: str
+    edits: tuple[Edit, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """One finding: what is wrong, where, and how to fix it.
 
@@ -78,6 +118,8 @@ class Problem:
         column: column in that line, counted from 1, or None.
         cause: what several problems of one code may have in common, such as "package
             arm"; `problems` joins them. No part of the JSON output.
+        edits: what the hint says as replacements of text; empty where it is something
+            else, or where the text is not certain.
     """
 
     severity: Severity
@@ -88,6 +130,7 @@ class Problem:
     line: int | None = None
     column: int | None = None
     cause: str | None = field(default=None, compare=False, repr=False)
+    edits: tuple[Edit, ...] = field(default=(), compare=False, repr=False)
 
     @classmethod
     def at(
@@ -96,7 +139,7 @@ class Problem:
         severity: Severity,
         code: str,
         message: str,
-        hint: str = "",
+        hint: str | Fix = "",
         *,
         cause: str | None = None,
     ) -> Problem:
@@ -105,7 +148,10 @@ class Problem:
             file, line, column = where.file, where.line, where.column
         else:
             file, line, column = where, None, None
-        return cls(severity, code, message, hint, file, line, column, cause)
+        fix = hint if isinstance(hint, Fix) else Fix(hint)
+        return cls(
+            severity, code, message, fix.hint, file, line, column, cause, fix.edits
+        )
 
     @property
     def place(self) -> str:
@@ -118,8 +164,8 @@ class Problem:
         text = f"{self.place}: {head}" if self.place else head
         return line(f"{text}; {self.hint}" if self.hint else text)
 
-    def as_json(self) -> dict[str, str | int | None]:
-        """Return the seven fields that a problem has in JSON."""
+    def as_json(self) -> dict[str, object]:
+        """Return the eight fields that a problem has in JSON."""
         return {
             "severity": self.severity,
             "code": self.code,
@@ -128,6 +174,7 @@ class Problem:
             "file": self.file,
             "line": self.line,
             "column": self.column,
+            "edits": [edit.as_json() for edit in self.edits],
         }
 
 
@@ -151,7 +198,7 @@ class Findings:
         severity: Severity,
         code: str,
         message: str,
-        hint: str = "",
+        hint: str | Fix = "",
         at: Place | str | None = None,
         *,
         cause: str | None = None,

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from sambot_viz.errors import Problem, Severity
+from sambot_viz.errors import Edit, Problem, Severity
 from sambot_viz.outlet import Line, Painted, write_err
 from sambot_viz.text import line
 
@@ -89,6 +89,12 @@ class ProblemGroup:
     hint: str
 
     @property
+    def edits(self) -> tuple[Edit, ...]:
+        """The edits of all of them, each once."""
+        edits = (edit for problem in self.problems for edit in problem.edits)
+        return tuple(dict.fromkeys(edits))
+
+    @property
     def first(self) -> Problem:
         """The problem whose place stands for all."""
         return self.problems[0]
@@ -97,7 +103,7 @@ class ProblemGroup:
         """Return the row of ``check --format json``: a problem, and its other places.
 
         These are the fields of the first problem with the message of the group, the
-        number of problems, and the places of those after the first.
+        number of problems, the places of those after the first, and all edits.
         """
         return {
             **self.first.as_json(),
@@ -107,6 +113,7 @@ class ProblemGroup:
                 {"file": other.file, "line": other.line, "column": other.column}
                 for other in self.problems[1:]
             ],
+            "edits": [edit.as_json() for edit in self.edits],
         }
 
 

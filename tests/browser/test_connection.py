@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
+from live_peers import free_port
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer, bundled, viser_private
@@ -30,7 +31,7 @@ def has_camera(viewer: ViewerPage, camera: list[float]) -> None:
 def test_the_page_comes_back_to_a_program_that_was_started_again(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0, look="rviz") as first:
+    with Visualizer(port=free_port(), look="rviz") as first:
         port = first.viser.get_port()
         viewer, other = open_viewer(first.url), open_viewer(first.url)
         # The browser reports every attempt to connect that fails.
@@ -72,7 +73,7 @@ def test_the_selected_rows_are_those_of_before_after_a_restart(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
     link = ("Displays", "Links", "base_link")
-    with Visualizer(port=0, look="rviz") as first:
+    with Visualizer(port=free_port(), look="rviz") as first:
         port = first.viser.get_port()
         viewer = open_viewer(first.url)
         viewer.expects_errors = True
@@ -97,7 +98,7 @@ def test_a_page_whose_link_has_changed_says_so(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
     with Visualizer(
-        port=0, look="rviz", token="the-first-lesson", presenter="the-teacher"
+        port=free_port(), look="rviz", token="the-first-lesson", presenter="the-teacher"
     ) as first:
         port = first.viser.get_port()
         viewer = open_viewer(first.url)
@@ -133,7 +134,7 @@ def come_back(viewer: ViewerPage) -> None:
 def test_a_server_that_has_gone_gets_one_request_for_each_try_without_websockets(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
-    with Visualizer(port=0, look="rviz") as viz:
+    with Visualizer(port=free_port(), look="rviz") as viz:
         port = viz.viser.get_port()
         viewer = open_viewer(viz.url)
         viewer.expects_errors = True
@@ -168,7 +169,7 @@ def test_pages_without_the_focus_come_back_with_the_cameras_of_their_users(
     open_viewer: Callable[..., ViewerPage],
 ) -> None:
     cameras: list[list[float]] = []
-    with Visualizer(port=0, look="rviz") as first:
+    with Visualizer(port=free_port(), look="rviz") as first:
         port = first.viser.get_port()
         pages = [open_viewer(first.url), open_viewer(first.url)]
         for page, end in zip(pages, ((640.0, 330.0), (500.0, 250.0)), strict=True):
@@ -197,7 +198,7 @@ def test_a_view_comes_back_to_the_frame_that_it_follows_wherever_that_is_then(
     assert view in text
     more = "Target Frame: rover\n      Distance: 2"
     config.write_text(text.replace(view, more), "utf-8")
-    with Visualizer(config=config, port=0, look="rviz") as first:
+    with Visualizer(config=config, port=free_port(), look="rviz") as first:
         port = first.viser.get_port()
         first.set_static_transform("base_link", "rover", [0.0, 2.0, 0.0])
         viewer = open_viewer(first.url)
@@ -264,7 +265,7 @@ def test_the_config_that_was_open_is_opened_again_when_a_user_asks_for_it(
     first, second = tmp_path / "first.rviz", tmp_path / "second.rviz"
     first.write_text(text, "utf-8")
     second.write_text(text.replace("Name: Grid", "Name: Floor"), "utf-8")
-    with Visualizer(config=first, port=0) as viz:
+    with Visualizer(config=first, port=free_port()) as viz:
         port = viz.viser.get_port()
         viewer = open_viewer(viz.url)
         viewer.expects_errors = True

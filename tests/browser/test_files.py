@@ -102,6 +102,17 @@ def test_a_visitor_downloads_and_is_asked_before_leaving_with_changes(
     user.until(lambda: user.page.evaluate(leaving))
 
 
+# How many dialogs are shown from now on, however short.
+_COUNT_DIALOGS = """(() => {
+  window.dialogs = 0;
+  const show = HTMLDialogElement.prototype.showModal;
+  HTMLDialogElement.prototype.showModal = function () {
+    window.dialogs += 1;
+    return show.call(this);
+  };
+})()"""
+
+
 def test_configs_of_before_are_in_the_menu_and_open_again(
     tmp_path: Path, open_viewer: Open
 ) -> None:
@@ -118,9 +129,20 @@ def test_configs_of_before_are_in_the_menu_and_open_again(
         user.click("option", "two.rviz")
         user.click("button", "Open")
         user.row("Displays", "Grid two")
+        user.gone("dialog")
+        user.page.evaluate(_COUNT_DIALOGS)
         user.click("menuitem", "File")
         user.click("menuitem", "Recent: one.rviz")
         user.row("Displays", "Grid one")
+        # Nothing to read has come and gone.
+        assert user.page.evaluate("dialogs") == 0
+        # What cannot be opened says why.
+        (tmp_path / "two.rviz").unlink()
+        user.click("menuitem", "File")
+        user.click("menuitem", "Recent: two.rviz")
+        user.find("dialog", "Open Config")
+        assert "two.rviz" in user.find("alert", None, ("dialog", "Open Config")).text
+        user.keys("Escape")
         user.gone("dialog")
 
 

@@ -8,9 +8,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from ax_tree import Thing
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import NavigatorPeer
+from presses import press_all
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -49,6 +51,9 @@ def viz(peer: NavigatorPeer, tmp_path: Path) -> Iterator[Visualizer]:
     config.write_text(CONFIG)
     with Visualizer(source=peer.uri, config=config, port=0, publish="goal") as viz:
         eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        data = session_of(viz).data
+        assert data is not None
+        knows_takers(data.source, peer)
         yield viz
 
 
@@ -133,3 +138,39 @@ def test_a_goal_by_finger(
     viewer.user.reads("Reached.")
     (yaw,) = yaws(peer)
     assert abs(yaw) == pytest.approx(math.pi, abs=0.02)
+
+
+def test_on_a_phone_hint_and_cancel_have_room_whoever_is_there(
+    peer: NavigatorPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    peer.statuses = (1, 2)
+    viewer = open_viewer(viz.url, width=390, height=844, touch=True, view=False)
+    open_viewer(viz.url, view=False)
+    user = viewer.user
+    status = "contentinfo", "Status bar"
+    user.find("button", "People: 2 browsers", status)
+    top = user.box(user.find("tab", "Joints"))[1]
+    user.click("button", "2D Goal Pose", BAR)
+    viz.publish_goal(0.5, 0.5, 0.6)
+    for name in ("Cancel", "By numbers…", "People: 2 browsers", "Reset"):
+        button = user.find("button", name, status)
+        user.until(lambda button=button: user.can_see(button))
+
+    def said(words: str) -> Thing:
+        def found() -> Thing | None:
+            lines = user.find(*status).all("status")
+            return next((one for one in lines if words in one.text), None)
+
+        return user.until(found)
+
+    # What has no room for all of it shows that at a tap.
+    hint = said("Drag from the place")
+    viewer.page.touch.tap(*user.go_to(hint))
+    assert "a second finger stops" in user.find("tooltip").text
+    viewer.page.touch.tap(*user.go_to(hint))
+    user.gone("tooltip")
+    assert press_all(viewer, ".statusbar", 4) == []
+    # With another tool there is room for how far the goal is.
+    user.click("button", "Move Camera", BAR)
+    user.until(lambda: not user.is_cut_off(said("Goal: ")))
+    assert user.box(user.find("tab", "Joints"))[1] == top

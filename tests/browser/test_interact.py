@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from inside import session_of
 from interactive_messages import MOVE_AXIS, control, cube, marker
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from marker_peer import MarkerPeer
 from viewer_page import ViewerPage
 
@@ -69,6 +69,9 @@ def viz(peer: MarkerPeer, tmp_path: Path) -> Iterator[Visualizer]:
     config.write_text(CONFIG)
     with Visualizer(source=peer.uri, config=config, port=0, publish="markers") as viz:
         eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        data = session_of(viz).data
+        assert data is not None
+        knows_takers(data.source, peer)
         yield viz
 
 
@@ -132,6 +135,39 @@ def test_a_menu_by_mouse(
     assert peer.feedback()[-1].menu_entry_id == 2
 
 
+def test_the_menu_below_an_entry_has_a_way_back(
+    peer: MarkerPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = opened(open_viewer, viz)
+    user, mouse = viewer.user, viewer.page.mouse
+    mouse.move(*viewer.on_page(HANDLE))
+    viewer.wait_for("document.body.classList.contains('over-handle')")
+    mouse.click(*viewer.on_page(HANDLE), button="right")
+    # No entry is under the mouse, which would have the focus.
+    user.find("menuitem", "Lights ▸")
+    mouse.move(5.0, 5.0)
+
+    def has_focus(name: str) -> None:
+        user.until(lambda: user.find("menuitem", name).state("focused"))
+
+    user.click("menuitem", "Lights ▸")
+    mouse.move(5.0, 5.0)
+    has_focus("☐ Blue")
+    user.click("menuitem", "‹ Back")
+    mouse.move(5.0, 5.0)
+    has_focus("Lights ▸")
+    user.gone("menuitem", "☐ Blue")
+    user.keys("ArrowRight")
+    has_focus("☐ Blue")
+    user.keys("ArrowLeft")
+    has_focus("Lights ▸")
+    user.keys("ArrowRight")
+    has_focus("☐ Blue")
+    user.keys("Enter")
+    eventually(lambda: peer.events()[-1:] == [SELECT])
+    assert peer.feedback()[-1].menu_entry_id == 2
+
+
 def test_a_handle_and_a_menu_by_finger(
     peer: MarkerPeer, viz: Visualizer, open_viewer: Callable[..., ViewerPage]
 ) -> None:
@@ -147,6 +183,8 @@ def test_a_handle_and_a_menu_by_finger(
     touch.start(viewer.on_page((1.7, 0.0, 0.0)))
     viewer.user.find("menuitem", "Horn")
     touch.end()
+    viewer.user.click("menuitem", "Lights ▸")
+    viewer.user.click("menuitem", "‹ Back")
     viewer.user.click("menuitem", "Horn")
     eventually(lambda: peer.events()[-1:] == [SELECT])
     assert peer.feedback()[-1].menu_entry_id == 3

@@ -12,6 +12,7 @@ from user import User
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
+from sambot_viz.panels import drive_panel
 from sambot_viz.session.clients.client import Client
 
 pytestmark = pytest.mark.browser
@@ -65,8 +66,10 @@ def test_a_click_into_the_view_takes_the_keys_from_a_field(
 
 
 def test_digits_drive_only_where_the_hand_is_in_the_drive_panel(
-    user: User, viewer: ViewerPage, desk: Desk
+    user: User, viewer: ViewerPage, desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # A page of a busy machine is too slow for the robot; that has tests of its own.
+    monkeypatch.setattr(drive_panel, "KEEP", 600.0)
     drive = desk.session.drive
     viewer.page.mouse.click(*middle(viewer))
     user.keys("8", "4")
@@ -157,6 +160,41 @@ def test_keys_are_for_tools_when_the_mouse_comes_into_the_view(desk: Desk) -> No
     mouse.move(645.0, 120.0)
     user.keys(".", "5", "Enter")
     user.until(lambda: desk.viz.joint_positions["drivewhl_l_joint"] == 2.5)
+
+
+def test_keys_are_for_tools_when_a_text_was_accepted(desk: Desk) -> None:
+    user = desk.user
+    options = "Displays", "Global Options"
+    field = user.row(*options, "Fixed Frame").one("combobox")
+    before = desk.fixed_frame
+    user.enter(field, "drivewhl_l_link")
+    user.until(lambda: desk.fixed_frame == "drivewhl_l_link")
+    user.keys("n")
+    desk.has_tool("Measure")
+    assert not user.row(*options, "Fixed Frame").one("combobox").state("focused")
+    # Who goes on through the rows types into them as before; Enter begins again, too.
+    user.keys("ArrowDown")
+    user.type("1;2;3")
+    user.keys("Enter", "s")
+    desk.has_tool("Select")
+    color = desk.session.document.config.global_options
+    user.until(lambda: color.get("Background Color") == (1, 2, 3))
+    user.keys("Enter")
+    user.type("4;5;6")
+    user.keys("Enter")
+    user.until(lambda: color.get("Background Color") == (4, 5, 6))
+    user.keys("ArrowUp")
+    user.type(before)
+    user.keys("Enter")
+    user.until(lambda: desk.fixed_frame == before)
+    # What was refused is typed once more.
+    user.keys("ArrowDown")
+    user.type("seven")
+    user.keys("Enter")
+    user.reads("a colour such as")
+    user.type("7;8;9")
+    user.keys("Enter")
+    user.until(lambda: color.get("Background Color") == (7, 8, 9))
 
 
 def test_each_key_at_a_slider_is_a_step_also_when_the_one_before_is_down(

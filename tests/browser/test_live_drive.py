@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from base_peer import CMD_VEL, BasePeer
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from viewer_page import ViewerPage
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, bundled
 from sambot_viz.publishing import dead_mans_switch
 
 pytestmark = pytest.mark.browser
@@ -37,6 +37,7 @@ def viz(peer: BasePeer) -> Iterator[Visualizer]:
         data = session_of(viz).data
         assert data is not None
         eventually(lambda: CMD_VEL in data.source.topics())
+        knows_takers(data.source, peer)
         yield viz
 
 
@@ -114,6 +115,57 @@ def test_what_stops_a_robot_that_is_driven(
     assert len(peer.came()) == came
 
 
+def test_that_follow_is_off_is_said_and_leads_to_follow(
+    peer: BasePeer, open_viewer: Open
+) -> None:
+    peer.offer("/tf", "tf2_msgs/msg/TFMessage")
+    with Visualizer(bundled.model_path(), source=peer.uri, port=0) as viz:
+        robot = session_of(viz).robot
+        eventually(lambda: robot.followed.value)
+        user = open_viewer(viz.url).user
+        user.tab("Joints")
+        row = "row", re.compile("^Follow ")
+        user.find(*row)
+        assert not user.there("button", "Not following the robot")
+        user.click("checkbox", re.compile("^Follow "))
+        user.find("button", "Not following the robot")
+        user.tab("Topics")
+        user.click("button", "Not following the robot")
+        user.until(lambda: user.find(*row).state("focused"))
+        user.keys(" ")
+        user.gone("button", "Not following the robot")
+        eventually(lambda: robot.followed.value)
+
+
+# Of each STOP that is shown: its colours and its height.
+_LOOK = """[...document.querySelectorAll(".stop-robot")].map((stop) => {
+  const { backgroundColor, color, height } = getComputedStyle(stop);
+  return [backgroundColor, color, height];
+})"""
+AT_REST = ["rgb(179, 20, 29)", "rgb(255, 255, 255)", "56px"]
+POINTED_AT = ["rgb(142, 13, 21)", *AT_REST[1:]]
+
+
+def test_stop_is_large_and_red_whatever_the_buttons_around_it_are(
+    viz: Visualizer, open_viewer: Open
+) -> None:
+    viewer = open_viewer(viz.url)
+    user = viewer.user
+
+    def looks(*wanted: list[str]) -> None:
+        user.until(lambda: viewer.page.evaluate(_LOOK) == [*wanted])
+
+    looks(AT_REST)
+    viewer.page.mouse.move(*user.go_to(user.find("button", "STOP")))
+    looks(POINTED_AT)
+    viewer.page.mouse.move(1.0, 1.0)
+    looks(AT_REST)
+    user.click("menuitem", "Menu")
+    user.click("menuitem", "Keys")
+    user.find("dialog", re.compile("Keys"))
+    looks(AT_REST, AT_REST)
+
+
 def test_a_goal_is_cancelled_with_a_button(
     peer: BasePeer, viz: Visualizer, open_viewer: Open
 ) -> None:
@@ -123,6 +175,9 @@ def test_a_goal_is_cancelled_with_a_button(
     peer.serve(cancel, reply=b"\0\1\0\0" + bytes(8))
     viewer = open_viewer(viz.url)
     eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+    data = session_of(viz).data
+    assert data is not None
+    knows_takers(data.source, peer)
     viz.publish_goal(1.0, 0.0, 0.0)
     viewer.user.reads("Goal: on the way")
     viewer.user.click("button", "Cancel")

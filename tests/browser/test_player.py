@@ -186,14 +186,19 @@ def test_a_tap_on_a_line_that_is_cut_off_shows_all_of_it(
 
     user.until(lambda: user.is_cut_off(line()))
     user.click_on(line())
-    whole = user.find("tooltip")
     # The seconds until the next attempt go on meanwhile.
     said, count = (
         "Nothing listens at 127.0.0.1:1: start the bridge there",
         "next attempt in",
     )
-    assert whole.text.startswith(said) and count in whole.text and user.can_see(whole)
-    assert not user.is_cut_off(whole)
+
+    def whole() -> Thing | None:
+        found = user.find("tooltip")
+        return found if found.text.startswith(said) and count in found.text else None
+
+    tip = user.until(whole)
+    assert tip is not None and user.can_see(tip)
+    assert not user.is_cut_off(tip)
     user.click("button", "Select")
     user.gone("tooltip")
     page.close()

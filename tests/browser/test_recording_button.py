@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from inside import session_of
 from live_peers import FoxglovePeer
 from viewer_page import ViewerPage
 
@@ -28,6 +29,10 @@ def test_a_click_records_and_another_ends_it(
         user.click("button", "Record")
         user.until(lambda: "/a" in peer.subscribed())
         peer.publish("/a", "words")
+        data = session_of(viz).data
+        recorder = data and data.moved_by.recorder
+        assert recorder is not None
+        user.until(lambda: recorder.status and recorder.status.messages == 1)
         user.find("button", "Stop")
         (path,) = tmp_path.iterdir()
         user.reads(f"Recording {path.name}")

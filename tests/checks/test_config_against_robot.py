@@ -12,6 +12,7 @@ from sambot_viz.rviz import Declarations, RvizConfig
 
 Checked = Callable[[str], list[Problem]]
 
+BOTH = "Visual Enabled: false\n      Collision Enabled: true"
 GOOD = """\
 Visualization Manager:
   Displays:
@@ -48,6 +49,25 @@ def checked(tmp_path: Path, robot: Robot) -> Checked:
 
 def test_a_config_that_fits_has_no_problems(checked: Checked) -> None:
     assert checked(GOOD) == []
+
+
+def test_a_misspelt_class_is_the_only_finding(checked: Checked) -> None:
+    (problem,) = checked(GOOD.replace("plugins/RobotModel", "plugins/RobotModle"))
+    assert problem.code == "config-class"
+    assert problem.line == 3
+    assert problem.hint == "write rviz_default_plugins/RobotModel"
+    other = GOOD.replace("  Global", "    - Class: my_plugins/RobotModels\n  Global")
+    assert checked(other) == []
+
+
+def test_a_robot_without_shapes_is_noted(checked: Checked) -> None:
+    off = GOOD.replace(
+        "Name: RobotModel", "Name: RobotModel\n      Visual Enabled: false"
+    )
+    (problem,) = checked(off)
+    assert (problem.severity, problem.line) == ("info", 10)
+    assert problem.hint == "write Visual Enabled: true"
+    assert checked(off.replace("Visual Enabled: false", BOTH)) == []
 
 
 def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> None:

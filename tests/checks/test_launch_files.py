@@ -81,9 +81,29 @@ def test_a_launch_file_that_asks_for_a_nearly_right_package_is_explained(
 def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:
     folder = shared / "data" / "bad-models" / "launch" / "setup-py-name-mismatch"
 
-    problem, note = check(folder)
+    problem, missing, note = check(folder)
 
+    assert missing.code == "setup-file-missing"
     assert problem.severity == "error"
     assert problem.line == 3
     assert "mbot_code" in problem.message
     assert note.code == "package-without-model"
+
+
+def test_of_two_names_of_the_package_one_is_wrong(checked: Checked) -> None:
+    launch = (
+        "from launch import LaunchDescription\n"
+        "from launch_ros.substitutions import FindPackageShare\n\n"
+        "def generate_launch_description():\n"
+        '    FindPackageShare("cartt_description")\n'
+        "    return LaunchDescription([])\n"
+    )
+    (problem,) = checked(launch, "cart_description")
+    assert problem.code == "launch-package-unknown"
+    package = Path(problem.file or "").parents[1]
+    # The finding at package.xml has the other fix.
+    text = "project(cartt_description)\nfind_package(ament_cmake)\nament_package()\n"
+    (package / "CMakeLists.txt").write_text(text)
+    codes = [p.code for p in check(package)]
+    assert "launch-package-unknown" not in codes
+    assert "cmake-project-name" in codes

@@ -8,14 +8,22 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from live_peers import FoxglovePeer, eventually
+from live_peers import WAIT, FoxglovePeer, eventually
 from navigator_peer import GOAL, NavigatorPeer
 from rosbridge_peer import RosbridgePeer, Topic
 
 from sambot_viz.cli import main
+from sambot_viz.publishing import goal_sender
+from sambot_viz.publishing.goal_sender import GoalSender
 
 Capture = pytest.CaptureFixture[str]
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
+
+
+@pytest.fixture
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a robot says is waited for as long as it takes."""
+    monkeypatch.setattr(goal_sender, "FOUND_WITHIN", WAIT)
 
 
 def numbers_of(payload: bytes) -> tuple[str, tuple[float, ...]]:
@@ -25,6 +33,7 @@ def numbers_of(payload: bytes) -> tuple[str, tuple[float, ...]]:
     return frame, struct.unpack_from("<7d", payload, len(payload) - 56)
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_goal_is_sent_once_as_rviz_sends_it(
     navigator: Callable[..., NavigatorPeer], capsys: Capture
 ) -> None:
@@ -46,6 +55,7 @@ def test_a_goal_is_sent_once_as_rviz_sends_it(
     eventually(lambda: peer.advertised() == [])
 
 
+@pytest.mark.usefixtures("patient")
 @pytest.mark.parametrize(
     ("statuses", "code", "said"),
     [
@@ -66,9 +76,20 @@ def test_what_becomes_of_it_is_the_exit_status(
     assert capsys.readouterr().out.splitlines()[-1] == said
 
 
+@pytest.mark.usefixtures("patient")
 def test_one_that_is_on_its_way_when_the_time_is_over_is_fine(
-    navigator: Callable[..., NavigatorPeer], capsys: Capture
+    navigator: Callable[..., NavigatorPeer],
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    follow = GoalSender.follow
+
+    def told_before(sender: GoalSender, *options: Any) -> Any:
+        told = sender._outcomes  # pyright: ignore[reportPrivateUsage]
+        eventually(lambda: len(told) == 2)
+        return follow(sender, *options)
+
+    monkeypatch.setattr(GoalSender, "follow", told_before)
     words = ["goal", "1", "2", "0", "--source"]
     assert main([*words, navigator(1, 2).uri, "--for", "0.5"]) == 0
     assert capsys.readouterr().out.endswith("still on the way after 0.5 s\n")
@@ -108,13 +129,15 @@ def test_why_nothing_becomes_of_it_is_said(
     assert len(peer.came()) == bool(options.get("refusal"))
 
 
+@pytest.mark.usefixtures("patient")
 def test_a_robot_that_hides_its_actions_says_how_it_would_show_them(
     navigator: Callable[..., NavigatorPeer], capsys: Capture
 ) -> None:
     peer = navigator(is_hidden=True)
     assert main(["goal", "1", "2", "0", "--source", peer.uri]) == 0
     assert "include_hidden:=true" in capsys.readouterr().out
-    assert len(peer.came()) == 1
+    # Nothing that the robot says was waited for.
+    eventually(lambda: len(peer.came()) == 1)
 
 
 def test_rosbridge_gets_json_with_the_time_of_its_server(capsys: Capture) -> None:
@@ -122,6 +145,7 @@ def test_rosbridge_gets_json_with_the_time_of_its_server(capsys: Capture) -> Non
     peer.there[GOAL] = Topic(POSE_STAMPED)
     peer.listen_as(GOAL, "/bt_navigator")
     assert main(["goal", "1", "2", "0", "--source", peer.uri, "-f", "odom"]) == 0
+    eventually(peer.came)
     (came,) = peer.came()
     assert came.content["header"] == {"stamp": "now", "frame_id": "odom"}
     assert came.content["pose"]["position"] == {"x": 1.0, "y": 2.0, "z": 0.0}

@@ -22,7 +22,7 @@ from sambot_viz import listened
 from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
-FOR = ["--for", str(patience(1.5))]
+FOR = ["--for", str(patience(3.0))]
 
 
 @pytest.fixture

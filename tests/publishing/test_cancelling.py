@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from inside import session_of, viser_server
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import NavigatorPeer
 from protocol_client import ProtocolClient
 
@@ -42,6 +42,7 @@ def viz(peer: NavigatorPeer) -> Iterator[Visualizer]:
         assert data is not None
         eventually(lambda: data.source.status.is_connected)
         eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        knows_takers(data.source, peer)
         yield viz
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from base_peer import CMD_VEL, TWIST, BasePeer
 from inside import session_of, viser_server
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
@@ -43,6 +43,8 @@ class Driven:
         assert data is not None
         eventually(lambda: data.source.status.is_connected)
         eventually(lambda: CMD_VEL in data.source.topics() or not peer.has_type)
+        # A press that came before that would have ended.
+        knows_takers(data.source, peer)
 
     def presenter(self) -> ProtocolClient:
         return self.page(f"/?token={self._token}")
@@ -250,6 +252,7 @@ def test_nothing_is_sent_again_after_a_connection_was_lost(
     client.settle(viser_server(driven.viz))
     assert len(peer.came()) == came
     peer.listen_as(CMD_VEL, "/base")
+    knows_takers(data.source, peer)
     hold_until(client, 2, lambda: moves(peer))
 
 

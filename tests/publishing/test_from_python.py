@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from base_peer import TWIST, BasePeer
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 
 from sambot_viz import Visualizer
 from sambot_viz.errors import PublishError
@@ -31,6 +31,7 @@ def connected(peer: BasePeer, **options: Any) -> Visualizer:
     data = session_of(viz).data
     assert data is not None
     eventually(lambda: data.source.status.is_connected)
+    knows_takers(data.source, peer)
     return viz
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import NavigatorPeer
 
 from sambot_viz import Visualizer
@@ -56,6 +56,8 @@ def test_why_a_goal_was_given_up_is_said(
     with Visualizer(source=peer.uri, port=0, publish="goal") as viz:
         session = session_of(viz)
         eventually(lambda: "map" in session.scene.context.tree.frames)
+        assert session.data is not None
+        knows_takers(session.data.source, peer)
         viz.publish_goal(1.0, 0.0, 0.0)
         goals = session.publisher.goals
         assert goals is not None

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from base_peer import BasePeer
 from inside import session_of
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import NavigatorPeer
 from protocol_client import ProtocolClient
 
@@ -69,6 +69,7 @@ def opened(peer: NavigatorPeer, **options: Any) -> Visualizer:
     assert data is not None
     eventually(lambda: data.source.status.is_connected)
     eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+    knows_takers(data.source, peer)
     return viz
 
 

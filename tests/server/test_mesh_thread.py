@@ -149,7 +149,10 @@ def test_only_a_mesh_that_was_saved_is_read_and_sent_again(opened: Opened) -> No
     mark = opened.client.mark()
     opened.store.times.clear()
     opened.store.let(COUNT)
-    (opened.folder / "1.stl").write_text(TRIANGLE.format(z=7), "utf-8")
+    # Whole: what is half saved may be read too.
+    beside = opened.folder / "1.new"
+    beside.write_text(TRIANGLE.format(z=7), "utf-8")
+    beside.replace(opened.folder / "1.stl")
     opened.client.wait_until(lambda: opened.client.types(mark)["MeshMessage"] == 1)
     opened.wait()
     assert opened.client.types(mark)["MeshMessage"] == 1

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from inside import session_of
 from live_peers import FoxglovePeer, eventually
 from protocol_client import ProtocolClient
 
@@ -59,6 +60,12 @@ def test_who_has_control_records_to_a_new_file_of_the_folder(
     eventually(lambda: viewer.row("source/status")["value"]["recording"]["running"])
     peer.publish("/a", "words")
     eventually(lambda: recording(teacher)["size"] > 100)
+    # The file has a head, and may have no message yet.
+    data = session_of(viz).data
+    assert data is not None
+    recorder = data.moved_by.recorder
+    assert recorder is not None
+    eventually(lambda: recorder.status is not None and recorder.status.messages == 1)
     viewer.act("source/stop")
     viewer.settle(viz.viser)
     assert recording(teacher)["running"]

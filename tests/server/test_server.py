@@ -14,7 +14,7 @@ from urllib.request import urlopen
 import pytest
 import yaml
 from live_peers import free_port
-from patience import until
+from patience import patience, until
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, bundled, load_robot
@@ -166,8 +166,8 @@ def test_a_server_stops_while_a_page_opens(protocol: Connect) -> None:
 
 
 def test_a_server_stops_although_a_browser_does_not_say_goodbye() -> None:
-    viz = Visualizer(port=0)
-    port = viz.viser.get_port()
+    port = free_port()
+    viz = Visualizer(port=port)
     with socket.create_connection(("127.0.0.1", port)) as silent:
         silent.sendall(
             b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
@@ -178,7 +178,7 @@ def test_a_server_stops_although_a_browser_does_not_say_goodbye() -> None:
         assert b"101" in silent.recv(100)
         stopping = threading.Thread(target=viz.stop)
         stopping.start()
-        stopping.join(4.0)
+        stopping.join(patience(8.0))
         assert not stopping.is_alive()
         assert is_free(port)
 

@@ -223,8 +223,13 @@ def test_a_robot_that_leaves_takes_its_ticks_along(repository: Path) -> None:
             return {a.reason.code if a.reason else "" for a in viz.topics.values()}
 
         until(lambda: codes() == {"not-connected"}, WAIT)
-        with session.change():
-            session.scene.time_passed()
-            rows = {d.topic: d.status.rows["Topic"] for d, _ in drawn(session)}
-        assert rows["/scan"].level == "Warn"
-        assert rows["/scan"].text == sentence(viz.topics["/scan"])
+
+        def agree() -> bool:
+            with session.change():
+                session.scene.time_passed()
+                rows = {d.topic: d.status.rows["Topic"] for d, _ in drawn(session)}
+            assert rows["/scan"].level == "Warn"
+            return rows["/scan"].text == sentence(viz.topics["/scan"])
+
+        # First the connection has ended, and then nothing listens there.
+        until(agree, WAIT)

@@ -85,6 +85,19 @@ def test_a_fixed_frame_that_a_static_transform_brings_is_not_a_problem(
         assert codes(viz) == ["limit-in-degrees"]
 
 
+def test_a_fixed_frame_that_a_node_of_the_package_publishes_is_not_a_problem(
+    model: Path, config: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>r</name></package>")
+    config.write_text(CONFIG.replace("base_lnk", "odom"))
+    with Visualizer(model, config, port=0) as viz:
+        assert codes(viz) == ["limit-in-degrees", "setup-fixed-frame"]
+    driver = "driver:\n  ros__parameters:\n    odom_frame: odom\n"
+    (tmp_path / "driver.yaml").write_text(driver)
+    with Visualizer(model, config, port=0) as viz:
+        assert codes(viz) == ["limit-in-degrees"]
+
+
 def test_a_display_that_is_switched_on_or_removed_is_checked_again(
     model: Path, config: Path
 ) -> None:

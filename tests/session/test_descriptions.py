@@ -83,8 +83,8 @@ def test_the_robot_of_the_topic_is_shown_and_undo_brings_the_other_back(
     assert links(display) == ["a_arm", "a_base"]
     name_topic(viz, OTHER)
     eventually(lambda: links(display) == ["b_arm", "b_base"])
-    assert say(display) == "OK"
     # The links are there before the statuses.
+    eventually(lambda: say(display) == "OK")
     eventually(lambda: say(display, "b_base") == "Transform OK")
     assert session_of(viz).robot.model.name == "a_base"
     session = session_of(viz)
@@ -147,7 +147,8 @@ def test_two_displays_show_two_robots_and_the_first_one_is_moved(
         eventually(lambda: links(two) == ["a_arm", "a_base"])
         # The joints are those of the robot that the config names first.
         assert session_of(viz).robot.model.name == "b_base"
-        assert one.status.level == two.status.level == "Ok"
+        for display in (one, two):
+            eventually(lambda display=display: display.status.level == "Ok")
 
 
 def test_a_model_beside_a_recording_takes_the_place_of_its_robot(
@@ -217,7 +218,7 @@ def test_a_live_robot_is_that_of_the_topic_as_soon_as_it_is_described(
         assert links(display) == ["b_arm", "b_base"]
         peer.publish(OTHER, described("b_base", "b_hand"))
         eventually(lambda: links(display) == ["b_base", "b_hand"])
-        assert display.status.rows["URDF"].level == "Ok"
+        eventually(lambda: display.status.rows["URDF"].level == "Ok")
 
 
 def test_a_live_robot_whose_description_cannot_be_shown_is_said(
@@ -246,14 +247,15 @@ def test_a_qos_that_cannot_match_is_said_with_both_words(peer: FoxglovePeer) -> 
         frames = next(
             d for d in session_of(viz).scene.displays if d.kind.endswith("/TF")
         )
-        eventually(lambda: set(frames.status.rows) >= {"/tf", "/tf_static"})
-        assert frames.status.rows["/tf"] == Status(
+        said = Status(
             "Warn",
             "A publisher offers Best Effort, tf2 wants Reliable; RViz and other nodes "
             "get nothing from it: change its QoS",
             "qos",
         )
-        assert "tf2 wants Transient Local" in frames.status.rows["/tf_static"].text
+        eventually(lambda: frames.status.rows["/tf"] == said)
+        static = "tf2 wants Transient Local"
+        eventually(lambda: static in frames.status.rows["/tf_static"].text)
         policy = f"{TOPIC}/Reliability Policy"
         session_of(viz).display_edits.set_property(display, policy, "Best Effort")
         eventually(lambda: wants not in say(display))

@@ -279,7 +279,9 @@ def test_frames_alone_give_no_error_and_sizes_of_the_whole_run(
     (tf,) = (one for one in session.document.config.displays if one.name == "TF")
     # The frame moves 39 m away in four seconds.
     eventually(lambda: 5.0 <= tf.get("Marker Scale") <= 50.0)
-    assert {display.status.level for display in session.scene.displays} == {"Ok"}
+    with session.lock:
+        levels = {display.status.level for display in session.scene.displays}
+    assert levels == {"Ok"}
     assert "RobotModel" not in kinds(session.document.config)
     said = {p.code: p.severity for p in session.problems.shown.value.listed}
     assert said.get("no-description") == "info"

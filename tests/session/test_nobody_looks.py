@@ -92,6 +92,8 @@ def test_data_of_a_recording_are_decoded_when_a_page_comes(
 
         page.close()
         eventually(lambda: not session_alone_of(viz).clients.all)
+        # Only then it is put off, from the clock as it is.
+        wait_for_workers()
         hand_clock.advance(RESTS_AFTER)
         wait_for_workers()
         viz.player.jump(3.0)
@@ -115,6 +117,8 @@ def test_large_data_of_a_robot_are_asked_for_when_a_page_comes(
 
             def holds() -> object:
                 hand_clock.advance(AGEING_PERIOD)
+                # Else the clock runs away, and what has just come is old already.
+                wait_for_workers()
                 return condition()
 
             eventually(holds)

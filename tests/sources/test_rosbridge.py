@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -202,3 +203,25 @@ def test_rosbridge_hands_out_no_files(robot: RosbridgePeer, opened: Open) -> Non
     source = opened(robot.uri)
     with pytest.raises(SourceError, match="--package-path"):
         source.fetch_asset("package://a").result(WAIT)
+
+
+def test_a_line_about_something_else_refuses_no_topic(
+    robot: RosbridgePeer, opened: Open
+) -> None:
+    source = opened(robot.uri)
+    until(lambda: source.status.is_connected, WAIT)
+    outgoing = source.advertise("/goal", "std_msgs/msg/String")
+    until(lambda: robot.asked("advertise"), WAIT)
+
+    def say(words: str, about: str) -> None:
+        line = {"op": "status", "level": "error", "msg": words, "id": about}
+        robot.send(json.dumps(line))
+
+    # With the name of what it is about there is no need to guess.
+    say("invalid msg type of /goal/feedback", "sambot-viz-1")
+    say("it has no field q", robot.asked("advertise")[0]["id"])
+    until(lambda: outgoing.refused, WAIT)
+    assert outgoing.refused == "it has no field q"
+    outgoing.send(b"{}")
+    until(lambda: robot.asked("publish"), WAIT)
+    assert robot.asked("publish")[0]["id"] == robot.asked("advertise")[0]["id"]

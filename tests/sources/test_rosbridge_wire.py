@@ -43,7 +43,7 @@ def test_answers_and_lines_of_the_server() -> None:
     found = wire.decode_values(parsed, wire.TopicList)
     assert (found.topics, found.types) == (("/a",), ("std_msgs/msg/String",))
     status = wire.parse_operation('{"op":"status","level":"error","msg":"no","id":"1"}')
-    assert status == wire.StatusLine("error", "no")
+    assert status == wire.StatusLine("error", "no", "1")
     assert wire.parse_operation('{"op":"serverInfo"}') == wire.ForeignOperation(
         "serverInfo"
     )
@@ -168,3 +168,13 @@ def test_a_definition_in_pieces_is_put_together() -> None:
         + "=" * 80
         + "\nMSG: geometry_msgs/Point32\nfloat32 x\n"
     )
+
+
+def test_the_feedback_of_an_action_is_of_ros2_and_found_by_its_topic() -> None:
+    kind = "nav2_msgs/action/NavigateToPose_FeedbackMessage"
+    assert (wire.encoding(kind), wire.definition(kind, "a").encoding) == (
+        "cdr",
+        "ros2msg",
+    )
+    asked = wire.subscribe("1", "/a/_action/feedback", kind, is_latched=False)
+    assert "type" not in json.loads(asked)

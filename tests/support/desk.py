@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import robots
+from live_peers import free_port
 from recorded_page import RecordedPage, open_page
 from user import User
 from viewer_page import COARSE, ViewerPage, viewer_url
@@ -129,7 +130,10 @@ class Desk:
 
     def _start(self) -> None:
         # Studio takes longer to draw.
-        self.viz = Visualizer(self.model, self._config, port=0, watch=True, look="rviz")
+        # A server that a task starts again has the port that it had.
+        self.viz = Visualizer(
+            self.model, self._config, port=free_port(), watch=True, look="rviz"
+        )
         self.viewer = self.open()
         self._wait_for_robot()
         self.settle()

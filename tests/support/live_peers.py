@@ -30,6 +30,7 @@ from foxglove.websocket import (
 from patience import until
 
 from sambot_viz.sources.message import Recorded
+from sambot_viz.sources.source import Source
 
 WAIT = 40.0
 """How long tests of sources wait for a condition [s]."""
@@ -152,7 +153,11 @@ class LivePeer(ABC):
 
 
 class FoxglovePeer(LivePeer, ServerListener):
-    """The server of Foxglove's SDK, which keeps latched messages as the bridge does."""
+    """The server of Foxglove's SDK, which keeps latched messages as the bridge does.
+
+    Attributes:
+        listeners: a topic and the nodes that have subscribed to it.
+    """
 
     def __init__(self, **options: Any) -> None:
         self._port = free_port()
@@ -168,7 +173,7 @@ class FoxglovePeer(LivePeer, ServerListener):
         self._services: dict[str, tuple[str, bytes | None]] = {}
         self._calls: list[str] = []
         self.requests = []
-        self._listeners: tuple[str, list[str]] | None = None
+        self.listeners: tuple[str, list[str]] | None = None
         self._publishers: dict[str, list[str]] = {}
         self.start()
 
@@ -251,7 +256,7 @@ class FoxglovePeer(LivePeer, ServerListener):
         return list(self._came)
 
     def listen_as(self, topic: str, *nodes: str) -> None:
-        self._listeners = topic, list(nodes)
+        self.listeners = topic, list(nodes)
         self._tell_graph()
 
     def published_by(self, topic: str, *nodes: str) -> None:
@@ -261,8 +266,8 @@ class FoxglovePeer(LivePeer, ServerListener):
 
     def _tell_graph(self) -> None:
         graph = ConnectionGraph()
-        if self._listeners is not None:
-            graph.set_subscribed_topic(*self._listeners)
+        if self.listeners is not None:
+            graph.set_subscribed_topic(*self.listeners)
         for topic, nodes in self._publishers.items():
             graph.set_published_topic(topic, nodes)
         assert self.server is not None
@@ -312,6 +317,23 @@ class FoxglovePeer(LivePeer, ServerListener):
     def on_unsubscribe(self, client: Client, channel: ChannelView) -> None:
         if (client.id, channel.topic) in self._subscribed:
             self._subscribed.remove((client.id, channel.topic))
+
+
+def knows_takers(source: Source, peer: FoxglovePeer, prefix: str = "") -> None:
+    """Wait until a source has heard who takes a peer's topic: after its topics.
+
+    Args:
+        source: is connected.
+        peer: the robot, which `listen_as` was called for, or which has no listener.
+        prefix: of its names at the source.
+    """
+    if peer.listeners is None:
+        return
+    topic, names = peer.listeners
+    outgoing = source.advertise(f"/{prefix}{topic}" if prefix else topic, STRING)
+    eventually(lambda: outgoing.receivers.names == tuple(names))
+    outgoing.close()
+    eventually(lambda: (topic, STRING) not in peer.advertised())
 
 
 def eventually(condition: Callable[[], Any]) -> None:

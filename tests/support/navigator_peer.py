@@ -59,16 +59,20 @@ class NavigatorPeer(FoxglovePeer):
         self, client: Client, client_channel_id: int, data: bytes
     ) -> None:
         super().on_message_data(client, client_channel_id, data)
-        self._goals += 1
         if self.refusal:
             self.complain(self.refusal)
-        elif STATUS in self._channels:
+        if self.refusal or not self.came()[-1].type_name.endswith("/PoseStamped"):
+            return
+        self._goals += 1
+        if STATUS in self._channels:
             for status in self.statuses:
                 self.tell(status)
 
     def tell(self, status: int) -> None:
-        """Say a number of GoalStatus of the last goal."""
-        self._channels[STATUS].log(_said(self._goals, status))
+        """Say a number of GoalStatus of the last goal; who comes late gets the last."""
+        said = _said(self._goals, status)
+        self._latched[STATUS] = [said]
+        self._channels[STATUS].log(said)
 
     def offer(self, topic: str, kind: str, definition: str = "") -> None:
         """Begin to publish a topic, of a type of ROS or with its definition."""

@@ -4,7 +4,8 @@
     python tests/support/oracle.py --write           store the findings of today
     python tests/support/oracle.py --write samples   of this corpus alone
 
-There is one file for each corpus in tests/data/oracle, with a line for each finding.
+There is one file for each corpus in tests/data/oracle, with a line for each finding
+and its edits.
 A change of `check` leaves these files as they are, or its commit has their new lines,
 each of which is better than the old one. Models of the collection ../shared are read
 where they are: only what is said of them is stored.
@@ -21,7 +22,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, field
 from difflib import unified_diff
 from functools import partial
 from pathlib import Path
@@ -37,6 +38,7 @@ from sambot_viz import bundled
 from sambot_viz.checks import check
 from sambot_viz.checks.checked import check_all
 from sambot_viz.checks.mesh_files import MeshFiles
+from sambot_viz.edits import source_of
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.robot.packages.package_model import MODEL_ENDINGS
 
@@ -62,12 +64,14 @@ class Input:
         check: checks it.
         folder: places are told from here.
         known: findings that are left out, wherever they are; see `_told`.
+        files: file → its text, of files that are not on the disk any more.
     """
 
     name: str
     check: Callable[[], list[Problem]]
     folder: Path | None = None
     known: frozenset[str] = frozenset()
+    files: Mapping[str, str | bytes] = field(default_factory=dict[str, "str | bytes"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,10 +146,25 @@ def _lines(each: Input) -> list[str]:
         return [_without_folder(f"usage: {error}", each.folder)]
     problems.sort(key=lambda p: (p.file or "", p.line or 0, p.column or 0, str(p)))
     return [
-        _without_folder(str(problem), each.folder)
+        _without_folder(f"{problem}{_edits(problem, each)}", each.folder)
         for problem in problems
         if _told(problem) not in each.known
     ]
+
+
+def _edits(problem: Problem, each: Input) -> str:
+    """Write the edits of a problem: where, and what becomes what."""
+    told: list[str] = []
+    for file, start, end, new in map(astuple, problem.edits):
+        source = source_of(file)
+        written = each.files.get(file, "")
+        text = written if isinstance(written, str) else written.decode()
+        text = text if source is None else source.text
+        line = text.count("\n", 0, start) + 1
+        column = start - text.rfind("\n", 0, start)
+        name = "" if file == problem.file else f"{file}:"
+        told.append(f"{name}{line}:{column} {text[start:end]!r} -> {new!r}")
+    return f" [{', '.join(told)}]" if told else ""
 
 
 def _told(problem: Problem) -> str:
@@ -172,7 +191,11 @@ def _input(path: Path, folder: Path, **options: Any) -> Input:
 
 def _samples(_: Path) -> Iterator[Input]:
     for sample in all_samples():
-        yield Input(sample.code, lambda sample=sample: list(sample.problems()))
+        yield Input(
+            sample.code,
+            lambda sample=sample: list(sample.problems()),
+            files=sample.files,
+        )
 
 
 def _probes(scratch: Path) -> Iterator[Input]:

@@ -18,7 +18,8 @@ _HEAD = """\
 This page is made by `python tests/support/problem_page.py` from the smallest wrong
 model of each code; what it quotes is what the program says about that model.
 An *error* is something that ROS refuses or loses, a *warning* will cause trouble later,
-an *info* is worth knowing.
+an *info* is worth knowing. A unit, a wheel or another guess from numbers is a *warning*
+where two clues that are independent speak for it, and an *info* where only one does.
 """
 
 _ACCEPTED = """\

@@ -88,7 +88,8 @@ def _without_folder(problem: Problem, folder: str) -> Problem:
 
     file = short(problem.file) if problem.file else None
     message, hint = short(problem.message), short(problem.hint)
-    return replace(problem, message=message, hint=hint, file=file)
+    edits = tuple(replace(edit, file=short(edit.file)) for edit in problem.edits)
+    return replace(problem, message=message, hint=hint, file=file, edits=edits)
 
 
 @cache

@@ -22,7 +22,7 @@ from interactive_messages import (
     marker,
     moved,
 )
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from marker_peer import SERVICE, MarkerPeer
 from protocol_client import ProtocolClient, wait_for_workers
 
@@ -80,6 +80,7 @@ def hand(
         found = Hand(viz, protocol(viz.viser.get_port()))
         eventually(lambda: data.source.status.is_connected)
         eventually(lambda: tick(found) and len(known(viz)) == marks)
+        knows_takers(data.source, peer)
         wait_for_workers()
         return found
 
@@ -340,6 +341,8 @@ def test_who_hears_nothing_is_said(peer: Peer, hand: Any) -> None:
     page.choose("Interact")
     begin = page.place(0.7, 0.0)
     assert page.hover(begin)
+    # Before that it is not known who takes it.
+    eventually(robot.advertised)
     page.drag(begin, page.place(1.2, 0.0))
     assert "Nobody has subscribed to /ns/feedback" in page.said
     assert x_of(page) == 0.0

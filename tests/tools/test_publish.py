@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from action_peers import ACTION, KIND, FoxgloveAction
 from hand import Hand
 from inside import session_of, viser_server
-from live_peers import eventually
+from live_peers import eventually, knows_takers
 from navigator_peer import GOAL, NavigatorPeer, transforms
 from protocol_client import ProtocolClient, wait_for_workers
 
@@ -64,6 +65,7 @@ def hand(
         eventually(lambda: data.source.status.is_connected)
         known = session_of(viz).scene.context.tree
         eventually(lambda: f"{prefix}/map".lstrip("/") in known.frames)
+        knows_takers(data.source, peer, prefix)
         wait_for_workers()
         return found
 
@@ -146,6 +148,27 @@ def test_a_pose_by_numbers_is_shown_before_it_is_sent(
     assert page.current == "Move Camera" and not page.draws()
 
 
+@pytest.mark.parametrize("prefix", ["", "a"])
+def test_the_tool_of_nav2_sends_to_its_action(
+    hand: Callable[..., Hand], prefix: str
+) -> None:
+    robot = FoxgloveAction()
+    frame = f"{prefix}/map".lstrip("/")
+    page = hand(robot.peer, frame, publish="", prefix=prefix)
+    page.choose("Nav2 Goal")
+    data = session_of(page.viz).data
+    assert data is not None
+    eventually(lambda: data.source.action(ACTION, KIND))
+    page.act("tools/send", 1.5, -2.0, 0.5)
+    eventually(lambda: robot.places() == [(1.5, -2.0)])
+    assert robot.frames() == ["map"]
+    assert page.said == f"Sent to {ACTION}." and page.current == "Move Camera"
+    robot.end(4)
+    eventually(lambda: page.said == "Reached.")
+    assert robot.peer.came() == []
+    robot.peer.stop()
+
+
 def test_a_robot_with_a_prefix_gets_the_names_of_its_own_frames(
     navigator: Callable[..., NavigatorPeer], hand: Callable[..., Hand]
 ) -> None:
@@ -167,6 +190,8 @@ def test_an_estimate_has_the_covariance_of_the_properties(
     peer.listen_as("/initialpose", "/amcl")
     page = hand(peer, publish=ALL)
     page.choose("2D Pose Estimate")
+    # Before that it is not known who takes it.
+    eventually(peer.advertised)
     page.drag((0.5, 0.5), (0.6, 0.5))
     eventually(lambda: len(peer.came()) == 1)
     (came,) = peer.came()
@@ -228,6 +253,8 @@ def test_what_may_not_be_sent_is_not_sent_and_says_why(
     assert page.current == "2D Goal Pose"
     wait_for_workers()
     assert peer.came() == []
+    if frame == "island":
+        eventually(peer.advertised)
     assert bool(peer.advertised()) == (frame == "island")
 
 

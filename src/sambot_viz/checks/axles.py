@@ -6,13 +6,14 @@ import math
 import re
 from collections.abc import Iterator
 
+from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import Subject, axis_text, listed
+from sambot_viz.checks.wheel_clues import WHEEL, is_rotor, wheel_clues
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import UP, Vector3, cross, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
 
-_WHEEL = re.compile("wheel|whl|t[iy]re")
 _SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 _ACROSS = 0.1
 """Largest cosine between two directions that are across each other (84°)."""
@@ -30,11 +31,11 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     robot = subject.robot
     across: dict[str, tuple[Joint, Shape, Vector3]] = {}
     for joint in robot.joints.values():
-        axle = _axle(joint)
+        axle = axle_of(joint)
         if axle is None:
             continue
         upright = abs(robot.at_start[joint.child].turned(axle)[2])
-        if upright > _ACROSS and (upright < _ALONG or not _only_rolls(joint, robot)):
+        if upright > _ACROSS and (upright < _ALONG or not only_rolls(joint, robot)):
             continue
         link = robot.links[joint.child]
         for shapes in (link.visuals, link.collisions):
@@ -56,14 +57,17 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     if abs(dot(axle, along)) < _ALONG:
         advice.append(_turned_axis(joint, along, robot.language))
     turns = "the wheel {} turns" if len(across) == 1 else "the wheels {} turn"
-    yield Problem.at(
+    clues = {"shape"}.union(
+        *(wheel_clues(robot, each) for each, _, _ in across.values())
+    )
+    yield guess(
         place,
-        "warning",
         "wheel-across-axle",
         f"{turns.format(listed(across))} end over end: joint {joint.name} turns "
         f"about {_named(axle)}, but the middle line of the cylinder is along "
         f"{_named(middle)}",
         ", and ".join(advice),
+        clues,
     )
 
 
@@ -100,7 +104,7 @@ def _ways_to_others(joint: Joint, shape: Shape, robot: Robot) -> Iterator[Vector
     for other in robot.joints.values():
         link = robot.links[other.child]
         for found in (link.visuals or link.collisions)[:1]:
-            if _axle(other) is None or not _is_like(found, shape):
+            if axle_of(other) is None or not _is_like(found, shape):
                 continue
             there = robot.at_start[other.child].of(found.origin.xyz)
             length = math.dist(there, here)
@@ -126,32 +130,40 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
     for joint in robot.joints.values():
         link = robot.links[joint.child]
         shapes = link.collisions or link.visuals
-        if _axle(joint) is None or not shapes:
+        if axle_of(joint) is None or not shapes:
             continue
         places = tuple((shape.geometry, shape.origin) for shape in shapes)
         other = seen.setdefault((joint.parent, joint.origin, places), joint)
         if other is not joint:
-            yield _in_one_place(other, joint, robot.language)
+            yield _in_one_place(other, joint, robot)
 
 
-def _in_one_place(one: Joint, other: Joint, language: Language) -> Problem:
+def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
     x, y, z = one.origin.xyz
     written = _numbers((x, -y, z))
-    element = "<pose>" if language == "sdf" else "<origin>"
-    return Problem.at(
+    both = [f"{joint.name} {joint.child}".lower() for joint in (one, other)]
+    element = "<pose>" if robot.language == "sdf" else "<origin>"
+    return guess(
         other.place,
-        "warning",
         "wheels-in-one-place",
         f"the wheels {one.child} and {other.child} are in the same place of "
         f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
         f"give one of {one.name} and {other.name} the other side: {written} in its "
         f"{element}, or -1 for 1 where a macro is given the side",
+        {"place"}
+        | (wheel_clues(robot, one) & {"name", "drive"})
+        | {"sides" for names in (both, reversed(both)) if _are_sides(*names)},
     )
 
 
-def _axle(joint: Joint) -> Vector3 | None:
+def _are_sides(one: str, other: str) -> bool:
+    """Tell whether names are of the left and of the right side."""
+    return "left" in one and "right" in other
+
+
+def axle_of(joint: Joint) -> Vector3 | None:
     """Return the unit axis of a joint that turns without end, in the child link."""
-    if joint.type not in ("continuous", "revolute"):
+    if joint.type not in ("continuous", "revolute") or is_rotor(joint):
         return None
     if joint.limit is not None and joint.limit.ends != (None, None):
         return None
@@ -160,11 +172,11 @@ def _axle(joint: Joint) -> Vector3 | None:
     return (x / length, y / length, z / length) if length > 0 else None
 
 
-def _only_rolls(joint: Joint, robot: Robot) -> bool:
+def only_rolls(joint: Joint, robot: Robot) -> bool:
     """Tell whether a link at the end of the tree is a wheel that does not swivel."""
     names = f"{joint.name} {joint.child}".lower()
     at_end = all(other.parent != joint.child for other in robot.joints.values())
-    wheel = _WHEEL.search(joint.child.lower())
+    wheel = WHEEL.search(joint.child.lower())
     return at_end and wheel is not None and not _SWIVELS.search(names)
 
 

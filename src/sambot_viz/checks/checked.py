@@ -21,6 +21,7 @@ from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
 from sambot_viz.errors import ConfigError, Problem, RobotError
 from sambot_viz.files import is_below
 from sambot_viz.robot.model import Robot, load_robot
+from sambot_viz.robot.packages.package_index import package_around
 
 if TYPE_CHECKING:
     from sambot_viz.checks.around.surroundings import Surroundings
@@ -119,6 +120,38 @@ def problems_around(
     return in_order(_of_packages(targets, [found]))
 
 
+def frame_is_published(
+    robot: Robot,
+    frame: str,
+    config: str | None = None,
+    workspace: Sequence[Path | str] = (),
+) -> bool:
+    """Tell whether the packages of a robot, or that of a config, may publish a frame.
+
+    Args:
+        robot: the robot.
+        frame: no link of it.
+        config: the .rviz file, if there is one.
+        workspace: as for `check`.
+    """
+    from sambot_viz.checks.around.published_frames import may_be_published
+    from sambot_viz.checks.around.surroundings import Surroundings
+    from sambot_viz.checks.around.workspace import Workspace
+
+    trusted = robot.file_roots is None
+    packages: list[Package] = []
+    if robot.files:
+        found = find_targets(robot.files[0], (), workspace, trusted=trusted)
+        packages += found.models[0].packages
+    folder = package_around(Path(config)) if config is not None and trusted else None
+    if folder is not None:
+        own = Workspace(folder).at(folder)
+        if own is not None and all(p.folder != own.folder for p in packages):
+            packages.append(own)
+    around = Surroundings(robot, tuple(packages))
+    return bool(packages) and may_be_published(around, frame)
+
+
 def _of_packages(targets: Targets, loaded: Sequence[_Loaded]) -> list[Problem]:
     """Return what is wrong around the models, and with packages by themselves."""
     found = list(targets.notes)
@@ -170,7 +203,7 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
 
 
 def _of_config(package: Package, around: Surroundings | None = None) -> list[Problem]:
-    from sambot_viz.checks.around.known_nodes import may_publish
+    from sambot_viz.checks.around.published_frames import may_be_published
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import check_config
     from sambot_viz.rviz import Declarations, RvizConfig
@@ -186,10 +219,9 @@ def _of_config(package: Package, around: Surroundings | None = None) -> list[Pro
     found = list(config.problems)
     if around is None:
         return found
-    frame = str(config.global_options.get("Fixed Frame")).lstrip("/")
-    known = may_publish(around, frame)
+    frame = str(config.global_options.get("Fixed Frame"))
     return found + [
         problem
         for problem in check_config(around.robot, config)
-        if problem.code != "setup-fixed-frame" or not known
+        if problem.code != "setup-fixed-frame" or not may_be_published(around, frame)
     ]

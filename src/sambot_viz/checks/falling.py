@@ -8,7 +8,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.axles import wheels_in_one_place
+from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import Subject, listed, number
+from sambot_viz.checks.wheel_clues import is_rotor
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Vector2, Vector3
 from sambot_viz.robot.balance.balance import SAME_POINT, Balance, Tipping, balance
@@ -106,20 +108,21 @@ def _caster_in_the_air(
         return
     caster = min(casters, key=lambda link: gaps[link])
     joint = above[caster]
-    yield Problem.at(
+    yield guess(
         joint.place,
-        "warning",
         "wheel-not-on-ground",
         f"the robot falls over: {caster} ends {gaps[caster]:.3g} m above the ground, "
         f"which {listed(wheels)} touch, and its centre of mass is not above them",
         f"lower the origin of joint {joint.name} by {gaps[caster]:.3g} m, or correct "
         "the radius",
+        {"weight", "name"},
     )
 
 
 def _is_wheel(robot: Robot, link: str) -> bool:
     joint = next((j for j in robot.joints.values() if j.child == link), None)
-    return axle_of(joint, robot.at_start[link]) is not None
+    turns = axle_of(joint, robot.at_start[link]) is not None
+    return joint is not None and turns and not is_rotor(joint)
 
 
 def _problem(robot: Robot, found: Balance, tipping: Tipping) -> Problem:
@@ -131,12 +134,12 @@ def _problem(robot: Robot, found: Balance, tipping: Tipping) -> Problem:
     heaviest = robot.links[max(masses, key=lambda name: masses[name])]
     place = heaviest.place if heaviest.inertial is None else heaviest.inertial.place
     on_ground = () if found.support is None else found.support.links
-    return Problem.at(
+    return guess(
         place or heaviest.place,
-        "warning",
         "falls-over",
         f"the robot falls over: its centre of mass is {number(-tipping.margin)} m "
         f"beyond what it stands on, which is {listed(on_ground)}",
         f"move weight, such as that of {heaviest.name}, between the wheels, or add a "
         "caster; RobotModel > Mass Properties > Balance shows where it is",
+        {"weight", "ground"},
     )

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
+from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.rule import Subject, number
+from sambot_viz.checks.volumes import volume_of
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.model import Robot, shapes_of
@@ -71,6 +73,7 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
     if lengths is None:
         return
     seen: set[tuple[str, tuple[float, ...]]] = set()
+    clues = _clues(subject.robot, lengths)
     for link, shape in subject.shapes():
         what, values = written_lengths(shape.geometry)
         if (what, values) in seen or not lengths.has(shape.geometry):
@@ -79,29 +82,56 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
         written = " ".join(number(v) for v in values)
         better = " ".join(number(v * lengths.metres) for v in values)
         longest, _ = _sides(shape.geometry)
-        yield Problem.at(
+        yield guess(
             shape.geometry_place or shape.place,
-            "warning",
             "shape-size",
             f"link {link.name}: the {what} ({written}) makes it {longest:.3g} m "
             f"large: it is probably given in {lengths.unit}",
             f"write metres: {better}",
+            clues,
         )
     if lengths.origins:
-        yield _far_joint(subject.robot, lengths)
+        yield _far_joint(subject.robot, lengths, clues)
 
 
-def _far_joint(robot: Robot, lengths: _Lengths) -> Problem:
+def _clues(robot: Robot, lengths: _Lengths) -> Clues:
+    """Return what speaks for another unit: floors and halls neither move nor weigh."""
+    clues = {"size"}
+    if any(joint.movable for joint in robot.joints.values()):
+        clues.add("moving parts")
+    if any(
+        lengths.has(shape.geometry) and is_lighter_than_foam(link)
+        for link in robot.links.values()
+        for shape in (*link.visuals, *link.collisions)
+    ):
+        clues.add("density")
+    if robot.joints and not lengths.origins:
+        clues.add("places of joints")
+    return clues
+
+
+def _far_joint(robot: Robot, lengths: _Lengths, clues: Clues) -> Problem:
     joint = max(robot.joints.values(), key=lambda joint: _reach(joint.origin))
     tag = "pose" if robot.language == "sdf" else "origin"
-    return Problem.at(
+    return guess(
         joint.origin.place or joint.place,
-        "warning",
         "shape-size",
         f"joint {joint.name} is {number(_reach(joint.origin))} m from the origin of "
         f"{joint.parent}: the places are probably given in {lengths.unit}, too",
         f"divide x, y and z of every <{tag}> by {1 / lengths.metres:.0f}",
+        clues,
     )
+
+
+_FOAM = 10.0
+"""What is less dense is nothing that robots are made of [kg/m³]."""
+
+
+def is_lighter_than_foam(link: Link) -> bool:
+    """Tell whether a link weighs too little for its shapes."""
+    mass = 0.0 if link.inertial is None else link.inertial.mass
+    volume = volume_of(link)
+    return math.isfinite(volume) and 0 < mass < _FOAM * volume
 
 
 def robot_in_metres(robot: Robot) -> Robot:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
+from sambot_viz.checks.clues import Clues, guess, is_written_whole
+from sambot_viz.checks.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
+from sambot_viz.checks.volumes import volume_of
 from sambot_viz.errors import Problem
-from sambot_viz.robot.parts import Box, Capsule, Cylinder, Geometry, Link, Sphere
+from sambot_viz.robot.parts import Link
 
 _DENSEST = 25_000.0
 """More than osmium, 22,600 kg/m³, the densest metal."""
 _TIMES = 2.0
 """So many times the mass of all other links; small shapes stand for large parts."""
+_TINY = 0.02
+"""A shape of such a size may stand for a part that nobody has measured [m]."""
+_WHOLE = 50.0
+"""Masses of parts from there on are seldom whole [kg]."""
+_GRAMS = 1000.0
 _LIGHT = 1.0
 """A mass that is less may be meant [kg]."""
 
@@ -27,7 +34,7 @@ def masses_in_grams(subject: Subject) -> Iterator[Problem]:
     dense = {
         name: mass
         for name, mass in masses.items()
-        if mass > _LIGHT and mass > _DENSEST * _volume(subject.robot.links[name])
+        if mass > _LIGHT and mass > _DENSEST * volume_of(subject.robot.links[name])
     }
     if sum(dense.values()) <= _TIMES * (sum(masses.values()) - sum(dense.values())):
         return
@@ -36,33 +43,33 @@ def masses_in_grams(subject: Subject) -> Iterator[Problem]:
     for name, mass in dense.items():
         if any(f"of link {name}:" in message for message in cut):
             continue
-        inertial = subject.robot.links[name].inertial
-        yield Problem.at(
-            inertial.place if inertial else None,
-            "warning",
+        link = subject.robot.links[name]
+        yield guess(
+            link.inertial.place if link.inertial else None,
             "mass-in-grams",
             f"link {name} has a mass of {number(mass)} kg and is too small for it, "
             "even of metal: it is probably given in grams",
-            f"write {number(mass / 1000.0)}, and the moments of inertia of that mass",
+            f"write {number(mass / _GRAMS)}, and the moments of inertia of that mass",
+            _clues(link, mass, bool(masses.keys() - dense.keys())),
         )
 
 
-def _volume(link: Link) -> float:
-    """Return how much room the shapes of a link have [m³]; inf when that is unknown."""
-    shapes = link.collisions or link.visuals
-    volumes = [_volume_of(shape.geometry) for shape in shapes]
-    return sum(volumes) if volumes else math.inf
-
-
-def _volume_of(geometry: Geometry) -> float:
-    match geometry:
-        case Box(size):
-            return abs(math.prod(size))
-        case Sphere(radius):
-            return 4 / 3 * math.pi * radius**3
-        case Cylinder(radius, length):
-            return math.pi * radius**2 * length
-        case Capsule(radius, length):
-            return math.pi * radius**2 * (length + 4 / 3 * radius)
-        case _:
-            return math.inf
+def _clues(link: Link, mass: float, others: bool) -> Clues:
+    """Return what speaks for grams; a placeholder has any shape and any mass."""
+    clues = {"density"}
+    sides = [
+        abs(value)
+        for shape in link.collisions or link.visuals
+        for value in written_lengths(shape.geometry)[1]
+    ]
+    whole = is_written_whole(mass)
+    if others and whole and max(sides, default=0.0) > _TINY:
+        clues.add("other masses")
+    if whole and mass >= _WHOLE:
+        clues.add("whole number")
+    inertial = link.inertial
+    if inertial is not None and sides:
+        most = max(inertial.ixx, inertial.iyy, inertial.izz)
+        if 0 < most < mass / _GRAMS * max(sides) ** 2:
+            clues.add("inertia")
+    return clues

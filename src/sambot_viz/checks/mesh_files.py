@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import limits
+from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.errors import Place, Problem, Severity
 from sambot_viz.geometry import Vector3
+from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Language, Link, MeshFile, Shape
 
 if TYPE_CHECKING:
@@ -23,6 +25,8 @@ _TOO_LARGE = 15.0
 _NONSENSE = 1e6
 """Nothing that was drawn in a smaller unit is so large [m]."""
 _TOO_SMALL = 0.0005
+_BESIDE = 5.0
+"""So many times larger than the places of all joints is no part of a robot."""
 _FLAT = 0.002
 """A mesh that is thinner than this share of its size is a floor or a wall."""
 
@@ -181,16 +185,27 @@ def meshes_of_wrong_size(subject: Subject) -> Iterator[Problem]:
     for (cause, hint), found in wrong.items():
         link_name, name, size = max(found, key=lambda entry: entry[2])
         one = len(found) == 1
-        yield Problem.at(
+        yield guess(
             places[cause, hint],
-            "warning",
             "mesh-size",
             f"link {link_name}: the mesh {name} is {size:.3g} m large: it {cause}"
             if one
             else f"{len(found)} meshes ({listed(name for _, name, _ in found)}) are up "
             f"to {size:.3g} m large: each {cause}",
             hint,
+            _clues(subject.robot, size),
         )
+
+
+def _clues(robot: Robot, size: float) -> Clues:
+    """Return what speaks for another unit: no joint of a robot is as far away."""
+    clues = {"size"}
+    if size > _NONSENSE or size < _TOO_SMALL:
+        clues.add("scale")
+    places = [abs(value) for j in robot.joints.values() for value in j.origin.xyz]
+    if robot.joints and max(places) < size / _BESIDE:
+        clues.add("places of joints")
+    return clues
 
 
 def _longest_side(subject: Subject, mesh: MeshFile, path: Path) -> float | None:

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
+from sambot_viz.checks.wheel_clues import is_rotor, wheel_clues
 from sambot_viz.errors import Place, Problem
 from sambot_viz.geometry import ORIGIN, UP, PlainPose, Vector3, dot
 from sambot_viz.robot.parts import Cylinder, Inertial, Joint, Link, Sphere
@@ -208,34 +210,37 @@ def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
     if first is None:
         return
     if len(gaps) == 1 and standing:
-        yield _one_wheel(first, gaps[first.child], standing)
+        clues = {"height"} | wheel_clues(robot, first)
+        yield _one_wheel(first, gaps[first.child], standing, clues)
         return
     worst = max(gaps.values(), key=abs)
     ends, touch = ("ends", "it touches") if len(gaps) == 1 else ("end", "they touch")
-    yield Problem.at(
+    yield guess(
         first.place,
-        "warning",
         "wheel-not-on-ground",
         f"the wheel{'s' if len(gaps) > 1 else ''} {listed(gaps)} {ends} "
         f"{abs(worst):.3g} m {'above' if worst > 0 else 'below'} the ground: "
         f"{footprint} should lie where {touch} the floor",
         f"move {footprint} by {abs(worst):.3g} m {'up' if worst > 0 else 'down'}, or "
         "correct the height or radius",
+        {"height"} | wheel_clues(robot, first),
     )
 
 
-def _one_wheel(joint: Joint, gap: float, standing: Sequence[str]) -> Problem:
+def _one_wheel(
+    joint: Joint, gap: float, standing: Sequence[str], clues: Clues
+) -> Problem:
     """Report the only wheel that does not touch the floor."""
     above, move = ("above", "lower") if gap > 0 else ("below", "raise")
     touch = "touches" if len(standing) == 1 else "touch"
-    return Problem.at(
+    return guess(
         joint.place,
-        "warning",
         "wheel-not-on-ground",
         f"the wheel {joint.child} ends {abs(gap):.3g} m {above} the ground, which "
         f"{listed(standing)} {touch}",
         f"{move} the origin of joint {joint.name} by {abs(gap):.3g} m, or correct the "
         "radius",
+        clues,
     )
 
 
@@ -245,7 +250,7 @@ def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
     A wheel turns without end about a level axis, and is a sphere or a cylinder
     about that axis. Other links, and wheels that are meshes, give None.
     """
-    if not joint.endless:
+    if not joint.endless or is_rotor(joint):
         return None
     axis = T_footprint_link.turned(joint.axis)
     if abs(axis[2]) > 0.1:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.lengths import UNITS, written_lengths
+from sambot_viz.checks.clues import Clues, guess, is_measured, is_written_whole
+from sambot_viz.checks.lengths import UNITS, is_lighter_than_foam, written_lengths
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.model import Robot
@@ -29,6 +30,9 @@ _MOST = 4
 """More elements than these are not one slip."""
 _CARRIES = 2.5
 """A part that carries the others may be so many times larger than these."""
+_WHOLE = 10.0
+"""Whole numbers from there on are seldom metres [m]."""
+_UNIT_IN_NAME = re.compile(r"(?<![a-z])[cm]m(?![a-z])|milli|centi", re.IGNORECASE)
 _LINES, _ELEMENT = 4, 2000
 """Of its element a property is looked for in so many lines, and characters."""
 
@@ -43,6 +47,7 @@ class _Written:
         place: of the element.
         advice: where they are written, as its advice ends.
         carries: they are of a part that carries others, and may be the largest.
+        link: whose shape it is; "" for a place.
     """
 
     what: str
@@ -50,6 +55,7 @@ class _Written:
     place: Place | None
     advice: str = ""
     carries: bool = False
+    link: str = ""
 
     @property
     def largest(self) -> float:
@@ -66,8 +72,21 @@ def lengths_out_of_proportion(subject: Subject) -> Iterator[Problem]:
     usual = _largest_usual(elements, robot)
     if usual is None:
         return
-    large = [element for element in elements if element.largest > usual]
-    found = list(_properties(subject, large, usual)) or list(_single(large, usual))
+    large = [
+        element
+        for element in elements
+        if element.largest > usual and not _is_rail(element, robot)
+    ]
+    small = {
+        abs(value)
+        for element in elements
+        for value in element.values
+        if _SMALL < abs(value) <= usual
+    }
+    if not large:
+        return
+    found = list(_properties(subject, large, usual, small))
+    found = found or list(_single(robot, large, usual, small))
     if len(found) <= _MOST:
         yield from found
 
@@ -81,12 +100,22 @@ def _elements(robot: Robot) -> Iterator[_Written]:
                 place = shape.geometry_place or shape.place
                 what = f"link {link.name}: the {what}"
                 carries = link.name in carrying
-                yield _Written(what, values, place, carries=carries)
+                yield _Written(what, values, place, carries=carries, link=link.name)
             yield _origin(f"link {link.name}: the place of a shape", shape, robot)
     for joint in robot.joints.values():
         # Where the robot stands in a map is no part of it.
         if all(_has_shapes(robot, name) for name in (joint.parent, joint.child)):
             yield _origin(f"the place of joint {joint.name}", joint, robot)
+
+
+def _is_rail(element: _Written, robot: Robot) -> bool:
+    """Tell whether a part slides about as far as a length says."""
+    travels = [
+        joint.limit.upper - joint.limit.lower
+        for joint in robot.joints.values()
+        if joint.type == "prismatic" and joint.limit is not None
+    ]
+    return any(0.5 <= travel / element.largest <= 2.0 for travel in travels)
 
 
 def _has_shapes(robot: Robot, name: str) -> bool:
@@ -118,7 +147,7 @@ def _largest_usual(elements: Sequence[_Written], robot: Robot) -> float | None:
 
 
 def _properties(
-    subject: Subject, large: Sequence[_Written], usual: float
+    subject: Subject, large: Sequence[_Written], usual: float, small: Set[float]
 ) -> Iterator[Problem]:
     """Report the properties that give these lengths."""
     # Most models have none, and must not wait for this to be imported.
@@ -142,12 +171,16 @@ def _properties(
             used = next((e for e in large if _names(files, e.place, name)), None)
             if used is not None:
                 unit, factor = _unit(used, abs(value), usual)
+                clues = _clues(subject.robot, used, abs(value), factor, small)
+                if _UNIT_IN_NAME.search(f"{name} {token.get('units') or ''}"):
+                    clues = clues | {"name"}
                 yield _problem(
                     token_place(source, file, token),
                     f"the property {name} is {text} m",
                     usual,
                     unit,
                     f'value="{number(value * factor)}"',
+                    clues,
                 )
 
 
@@ -168,7 +201,9 @@ def _number(text: str) -> float | None:
         return None
 
 
-def _single(large: Sequence[_Written], usual: float) -> Iterator[Problem]:
+def _single(
+    robot: Robot, large: Sequence[_Written], usual: float, small: Set[float]
+) -> Iterator[Problem]:
     """Report each element by itself, with its numbers in metres."""
     seen: set[tuple[Place | None, tuple[float, ...]]] = set()
     for element in large:
@@ -184,7 +219,23 @@ def _single(large: Sequence[_Written], usual: float) -> Iterator[Problem]:
             usual,
             unit,
             " ".join(map(number, metres)) + element.advice,
+            _clues(robot, element, element.largest, factor, small),
         )
+
+
+def _clues(
+    robot: Robot, element: _Written, length: float, factor: float, small: Set[float]
+) -> Clues:
+    """Return what speaks for another unit, beside the size."""
+    clues = {"size"}
+    if length >= _WHOLE and is_written_whole(length):
+        clues.add("whole number")
+    metres = factor * length
+    if is_measured(length) and any(abs(o - metres) < 0.01 * o for o in small):
+        clues.add("same elsewhere")
+    if element.link and is_lighter_than_foam(robot.links[element.link]):
+        clues.add("density")
+    return clues
 
 
 def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
@@ -195,13 +246,13 @@ def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
 
 
 def _problem(
-    place: Place | None, what: str, usual: float, unit: str, better: str
+    place: Place | None, what: str, usual: float, unit: str, better: str, clues: Clues
 ) -> Problem:
-    return Problem.at(
+    return guess(
         place,
-        "warning",
         "shape-size",
         f"{what}, and no other length of the robot is more than {number(usual)} m: it "
         f"is probably given in {unit}",
         f"write metres: {better}",
+        clues,
     )

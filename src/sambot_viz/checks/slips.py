@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
+from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.lengths import written_lengths
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import together, write_attribute
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.parts import Joint, Language, Limit, Link, MeshFile, Origin
+from sambot_viz.robot.slips.units import usual_degrees
 
 _FULL_TURN = 2 * math.pi + 1e-3
 _SMALLEST_LIMIT = 15.0
@@ -26,6 +29,13 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
     Below 15 rad (2.4 turns) a round number is more likely a generous limit, and above
     720 it usually means "no limit".
     """
+    others = [
+        end
+        for joint in subject.robot.joints.values()
+        if joint.type == "revolute" and joint.limit is not None
+        for end in (joint.limit.lower, joint.limit.upper)
+        if abs(end) <= _FULL_TURN
+    ]
     for joint in subject.robot.joints.values():
         limit = joint.limit
         if joint.type != "revolute" or limit is None:
@@ -37,22 +47,36 @@ def limits_in_degrees(subject: Subject) -> Iterator[Problem]:
             continue
         if not all(_is_round(v) and abs(v) > _FULL_TURN for v in ends):
             continue
-        yield Problem.at(
+        yield guess(
             limit.place or joint.place,
-            "warning",
             "limit-in-degrees",
             f"joint {joint.name}: the limits {number(limit.lower)} and "
             f"{number(limit.upper)} look like degrees, but "
             f"{subject.robot.language.upper()} uses radians",
             _limits_in_radians(limit, subject.robot.language),
+            _clues(ends, others),
         )
 
 
-def _limits_in_radians(limit: Limit, language: Language) -> str:
+def _clues(angles: Iterable[float], in_radians: Iterable[float] = ()) -> Clues:
+    """Return what speaks for degrees, beside numbers that are too large."""
+    clues = {"size"}
+    if all(map(usual_degrees, angles)):
+        clues.add("usual degrees")
+    if any(not _is_round(angle) for angle in in_radians):
+        clues.add("other angles")
+    return clues
+
+
+def _limits_in_radians(limit: Limit, language: Language) -> str | Fix:
     lower, upper = (number(math.radians(v)) for v in (limit.lower, limit.upper))
     if language == "sdf":
         return f"write <lower>{lower}</lower> and <upper>{upper}</upper>"
-    return f'write lower="{lower}" upper="{upper}"'
+    return together(
+        f'write lower="{lower}" upper="{upper}"',
+        write_attribute(limit.place, "lower", [limit.lower], lower),
+        write_attribute(limit.place, "upper", [limit.upper], upper),
+    )
 
 
 def rpy_in_degrees(subject: Subject) -> Iterator[Problem]:
@@ -73,12 +97,12 @@ def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
         return
     written = " ".join(number(v) for v in origin.rpy)
     corrected = " ".join(number(math.radians(v)) for v in origin.rpy)
-    yield Problem.at(
+    yield guess(
         origin.place or place,
-        "warning",
         "rpy-in-degrees",
         f'rpy="{written}" looks like degrees, but URDF uses radians',
-        f'write rpy="{corrected}"',
+        write_attribute(origin.place, "rpy", origin.rpy, corrected),
+        _clues(origin.rpy),
     )
 
 

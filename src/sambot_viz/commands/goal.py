@@ -11,7 +11,7 @@ from sambot_viz.listened import CONNECTED_WITHIN
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.outlet import write_lines
 from sambot_viz.publishing.goal_sender import GoalSender
-from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal
+from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal, NavGoal
 from sambot_viz.text import text
 
 WAIT = 120.0
@@ -31,9 +31,12 @@ def run(words: list[str]) -> int:
         )
     robot = open_moved_by(options)
     assert robot is not None
-    goal = Goal(given.frame, given.x, given.y, given.yaw)
+    # What nobody follows is a message: a goal of an action needs its connection.
+    kind = Goal if given.topic or given.no_wait else NavGoal
+    topic = given.topic or GOAL_TOPIC
+    goal = kind(given.frame, given.x, given.y, given.yaw)
     with closing(robot):
-        sender = GoalSender(robot, given.topic)
+        sender = GoalSender(robot, topic)
         sender.connect(CONNECTED_WITHIN)
         who = sender.send(goal)
         write_lines(f"{goal.words}\nsent to {who}\n")
@@ -65,7 +68,8 @@ def parser() -> Parser:
         groups=("source",),
         takes_model=False,
         description="Send a robot on the network to X Y, where it looks towards YAW, "
-        "as RViz's 2D Goal Pose does, and say what becomes of it. That the command is "
+        "by Nav2's action, or as RViz's 2D Goal Pose does where the robot does not "
+        "show that, and say what becomes of it. That the command is "
         "given is the permission. Exit status: 0 reached, or on its way when the time "
         "is over, 1 not sent, refused, cancelled or given up, 2 usage.",
     )
@@ -80,12 +84,14 @@ def parser() -> Parser:
     )
     made.add_argument(
         "--topic",
-        default=GOAL_TOPIC,
         metavar="TOPIC",
-        help="where the robot takes goals (default: %(default)s)",
+        help="send it as 2D Goal Pose does, on this topic; else so only where the "
+        f"action is not shown, on {GOAL_TOPIC}",
     )
     made.add_argument(
-        "--no-wait", action="store_true", help="do not wait for what becomes of it"
+        "--no-wait",
+        action="store_true",
+        help="do not wait for what becomes of it; it is sent as 2D Goal Pose does",
     )
     made.add_listen(WAIT, "how long to wait for what becomes of it")
     return made

@@ -24,6 +24,9 @@ ZEROS = 3
 """So many zero velocities end each motion: one could be lost."""
 RAMP = 0.5
 """From rest to the highest speed takes so long [s]; stopping is not put off."""
+LONGEST_STOP = 5.0
+"""`close` waits this long for the zero velocities: on a busy machine they take long
+[s]."""
 _SILENT = "nothing was heard from the page that drove it"
 
 
@@ -145,7 +148,7 @@ class DeadMansSwitch:
             self._is_closed = True
             self._wake.notify_all()
         if self._thread.is_alive() and threading.current_thread() is not self._thread:
-            self._thread.join(2 * ZEROS * PERIOD + 1.0)
+            self._thread.join(LONGEST_STOP)
 
     def _begin(self) -> None:
         """Let the thread send what there is now; the lock is held."""

@@ -53,16 +53,20 @@ def ask_why(
     """
 
     def answered(answer: ServiceAnswer) -> None:
-        if answer.content is None:
-            told("")
-            return
-        result = answer.content.result
-        code = int(result.error_code)
-        said = text(str(getattr(result, "error_msg", "")), 300)
-        known = said or _CODES.get(code, "")
-        if code:
-            known = f"{known} (error {code})" if known else f"error {code}"
-        told(known)
+        told(why_of(answer))
 
     fields = {"goal_id": {"uuid": [*goal]}}
     call_service(source, result_of(topic), GET_RESULT, fields, types, answered)
+
+
+def why_of(answer: ServiceAnswer) -> str:
+    """Return why a goal was given up, by its result; "" where that does not say it."""
+    if answer.content is None:
+        return ""
+    result = answer.content.result
+    code = int(result.error_code)
+    said = text(str(getattr(result, "error_msg", "")), 300)
+    known = said or _CODES.get(code, "")
+    if code:
+        known = f"{known} (error {code})" if known else f"error {code}"
+    return known

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from threading import Event
 
@@ -44,6 +45,7 @@ class GoalSender:
         self._changed = Event()
         self._goals = Goals(robot, self._changed.set, with_distance=False)
         self._outgoing: Outgoing | None = None
+        self._action = ""
         self._outcomes: list[Outcome] = []
         self._came: deque[tuple[Callable[[Recorded], None], Recorded]] = deque()
         robot.on_topics.append(self._changed.set)
@@ -71,14 +73,27 @@ class GoalSender:
         self._require_frame(goal.frame)
         outgoing = self._source.advertise(self._topic, Goal.type_name)
         self._outgoing = outgoing
+        self._wait(lambda: self._acts(goal) or bool(outgoing.refused), DISCOVERY)
+        if self._action:
+            return f"the action {self._action}"
         self._wait(lambda: bool(outgoing.receivers.names), FOUND_WITHIN)
         who = who_takes(outgoing, "goal")
-        self._wait(lambda: bool(outgoing.refused), DISCOVERY)
         self._require_taken()
-        self._goals.begin(self._topic, self._outcomes.append)
-        now_ns = time_of(self._source, self._transforms.newest_ns)
-        outgoing.send(written(outgoing, goal, now_ns, self._robot.decoding.types))
+        self._goals.begin(goal, self._topic, outgoing, self._outcomes.append)
+        types = self._robot.decoding.types
+        outgoing.send(written(outgoing, goal, self._now_ns(), types))
         return who
+
+    def _acts(self, goal: Goal) -> bool:
+        """Send a goal to its action; return whether the robot shows that by now."""
+        if goal.by_action:
+            told = self._outcomes.append
+            with suppress(SourceError):
+                self._action = self._goals.send(self._topic, goal, self._now_ns(), told)
+        return bool(self._action)
+
+    def _now_ns(self) -> int:
+        return time_of(self._source, self._transforms.newest_ns)
 
     def follow(self, seconds: float, say: Callable[[str], None]) -> Outcome | None:
         """Follow a goal that was sent to its end, and return how far it has come.
@@ -110,7 +125,7 @@ class GoalSender:
     @property
     def can_follow(self) -> bool:
         """Whether the robot says what becomes of goals."""
-        return self._status in self._source.topics()
+        return bool(self._action) or self._status in self._source.topics()
 
     @property
     def status_topic(self) -> str:

@@ -5,23 +5,28 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from sambot_viz.errors import SourceError
+from sambot_viz.publishing.acted_goal import NAVIGATE, ActedGoal, goal_content
 from sambot_viz.publishing.cancelling import cancel_goals
 from sambot_viz.publishing.goal_result import ask_why
-from sambot_viz.publishing.outbound import GOAL_TOPIC
+from sambot_viz.publishing.outbound import GOAL_TOPIC, Goal, Outbound
 from sambot_viz.publishing.outcome import (
     GIVEN_UP,
     GoalFollower,
     Outcome,
     feedback_of,
+    given_up,
+    navigator_of,
     status_of,
 )
 from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.source import OnMessage
+from sambot_viz.sources.source import CancelGoal, GoalReport, OnMessage, Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
 _TOPICS = 8
 """The goals of so many topics are followed at a time."""
+_SENT = Outcome("sent", False, True)
 
 
 class Goals:
@@ -44,15 +49,25 @@ class Goals:
         with_distance: bool = True,
     ) -> None:
         self.last: Outcome | None = None
+        self._goal: Outbound | None = None
+        self._outgoing: Outgoing | None = None
         self._robot, self._told = robot, told
         self._with_distance = with_distance
         self._followed: dict[str, tuple[GoalFollower, OnMessage]] = {}
         self._tell: Callable[[Outcome], object] = lambda outcome: None
+        self._acted: ActedGoal | None = None
+        self._cancel_acted: CancelGoal = _nothing
+        robot.on_status.append(self._look)
 
     @property
     def is_on_the_way(self) -> bool:
         """Whether a goal that was sent from here has not ended, as far as is known."""
         return self.last is not None and not self.last.is_over
+
+    @property
+    def on_the_way(self) -> Outbound | None:
+        """The goal that was sent from here and has not ended, as far as is known."""
+        return self._goal if self.is_on_the_way else None
 
     def follow(self, topic: str) -> None:
         """Listen to what becomes of the goals of a topic."""
@@ -78,21 +93,66 @@ class Goals:
         for one in self._topics_of(topic):
             self._robot.source.subscribe(one, take)
 
-    def begin(self, topic: str, tell: Callable[[Outcome], object]) -> None:
+    def begin(
+        self,
+        goal: Outbound,
+        topic: str,
+        outgoing: Outgoing,
+        tell: Callable[[Outcome], object],
+    ) -> None:
         """The next new goal of a topic is the one that is sent now.
 
         Args:
+            goal: with the frame as it is called here.
             topic: where.
+            outgoing: the same, as the robot has it.
             tell: called with what becomes of it, in any thread.
         """
         self.follow(topic)
-        self._tell = tell
+        self._leave_goals()
+        self._tell, self._goal, self._outgoing = tell, goal, outgoing
         self._followed[topic][0].begin()
-        self._note(Outcome("sent", False, True))
+        self._note(_SENT)
+
+    def send(
+        self, topic: str, goal: Goal, now_ns: int, tell: Callable[[Outcome], object]
+    ) -> str:
+        """Send a goal to the action of Nav2, and return that.
+
+        Args:
+            topic: where Nav2 takes goals as messages.
+            goal: where to.
+            now_ns: the time of the robot [ns].
+            tell: called with what becomes of it, in any thread.
+
+        Raises:
+            SourceError: the robot does not show the action; nothing was sent.
+        """
+        source, decoding = self._robot.source, self._robot.new_decoding()
+        action = source.action(navigator_of(topic), NAVIGATE)
+        content = goal_content(action, goal, now_ns, decoding.types)
+        self._leave_goals()
+        acted = ActedGoal(decoding, with_distance=self._with_distance)
+        self._acted, self._tell, self._goal = acted, tell, goal
+        self._outgoing = None
+
+        def take(report: GoalReport) -> None:
+            outcome = acted.take(report)
+            if outcome is not None and self._acted is acted:
+                self._pass_on(outcome)
+
+        self._note(_SENT)
+        try:
+            self._cancel_acted = action.send(content, take)
+        except SourceError:
+            self.forget()
+            raise
+        return action.name
 
     def forget(self) -> None:
         """The goal that was begun could not be sent."""
         self.last = None
+        self._leave_goals()
 
     def cancel(self) -> None:
         """Cancel all goals of the robot; takes no lock of the session.
@@ -101,6 +161,8 @@ class Goals:
         """
         if self.is_on_the_way:
             self._note(Outcome("asked to cancel", False, True))
+            # The service may not be shown, or not be allowed.
+            self._cancel_acted()
         types = self._robot.decoding.types
         for topic in tuple(self._followed) or (GOAL_TOPIC,):
             told = partial(self._tell_cancelled, topic)
@@ -108,6 +170,7 @@ class Goals:
 
     def close(self) -> None:
         """Follow nothing any more."""
+        self._robot.on_status.remove(self._look)
         for topic in tuple(self._followed):
             self._follow_no_more(topic)
 
@@ -117,9 +180,18 @@ class Goals:
             return
         if why:
             self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
-        elif status_of(topic) not in self._robot.source.topics():
+        elif self._acted is None and (
+            status_of(topic) not in self._robot.source.topics()
+        ):
             # Nobody else says it.
             self._note(Outcome("cancelled", True, False))
+
+    def _look(self) -> None:
+        """Note that the bridge has refused what was sent; the robot knows no goal."""
+        refused = "" if self._outgoing is None else self._outgoing.refused
+        if refused and self.last is _SENT:
+            words = f"the robot refuses it: {text(refused, 400)}"
+            self._pass_on(Outcome(words, True, False))
 
     def _note(self, outcome: Outcome) -> None:
         self.last = outcome
@@ -136,10 +208,19 @@ class Goals:
         return (status_of(topic), *far)
 
     def _give_up(self, why: str) -> None:
-        words = f"not reached: {why}" if why else GIVEN_UP
-        self._pass_on(Outcome(words, True, False))
+        self._pass_on(given_up(why))
+
+    def _leave_goals(self) -> None:
+        """Say no more of goals that were sent before."""
+        self._acted, self._cancel_acted = None, _nothing
+        for follower, _ in self._followed.values():
+            follower.forget()
 
     def _pass_on(self, outcome: Outcome) -> None:
         """Keep what the robot has said of a goal, and tell who has sent it."""
         self._note(outcome)
         self._tell(outcome)
+
+
+def _nothing() -> None:
+    return None

@@ -40,6 +40,7 @@ class Outbound:
         kind: what it is among `KINDS`.
         type_name: of the message.
         noun: what it is called in sentences.
+        by_action: it is sent to Nav2's action where the robot shows that.
         frame: in which its place is given.
 
     Raises:
@@ -49,6 +50,7 @@ class Outbound:
     kind: ClassVar[Kind]
     type_name: ClassVar[str]
     noun: ClassVar[str]
+    by_action: ClassVar[bool] = False
     frame: str
 
     def __post_init__(self) -> None:
@@ -148,6 +150,13 @@ class Goal(GroundPose):
     def content(self) -> dict[str, Any]:
         """Return the fields behind the header."""
         return {"pose": self.pose()}
+
+
+@dataclass(frozen=True, slots=True)
+class NavGoal(Goal):
+    """The same as of Nav2's own tool, which sends it to the action."""
+
+    by_action = True
 
 
 @dataclass(frozen=True, slots=True)

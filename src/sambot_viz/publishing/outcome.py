@@ -9,6 +9,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from sambot_viz.errors import DecodeError
+from sambot_viz.sources.action_names import (
+    cancel_service,
+    feedback_topic,
+    result_service,
+    status_topic,
+)
 from sambot_viz.sources.message import Recorded
 
 GIVEN_UP = "not reached: the robot has given it up"
@@ -53,7 +59,12 @@ class GoalFollower:
 
     def begin(self) -> None:
         """Follow the next new goal: all that were told of until now are others."""
-        self._goal, self._last, self._waits = None, 0, True
+        self.forget()
+        self._waits = True
+
+    def forget(self) -> None:
+        """Follow no goal."""
+        self._goal, self._last, self._waits = None, 0, False
 
     def take(
         self, message: Recorded, decode: Callable[[Recorded], Any]
@@ -77,7 +88,10 @@ class GoalFollower:
         self._known = frozenset(told)
         if self._waits and new is not None:
             self._goal, self._waits = new, False
-        status = told.get(self._goal or b"", self._last)
+        return self.take_status(told.get(self._goal or b"", self._last))
+
+    def take_status(self, status: int) -> Outcome | None:
+        """Take a number of GoalStatus; return what is new of the goal."""
         if status == self._last:
             return None
         self._last = status
@@ -90,18 +104,31 @@ class GoalFollower:
 
         Nav2 sends a hundred in a second; two are looked at.
         """
-        now = time.monotonic()
-        if now < self._next_look or self._last != _EXECUTES:
+        if not self.wants_distance():
             return None
-        self._next_look = now + _BETWEEN_LOOKS
         try:
             told = decode(message)
             if bytes(told.goal_id.uuid) != self._goal:
                 return None
-            metres = float(told.feedback.distance_remaining)
-            left = told.feedback.estimated_time_remaining
+        except (DecodeError, AttributeError, TypeError):
+            return None
+        return self.take_distance(told)
+
+    def wants_distance(self) -> bool:
+        """Return whether it is time to look how far the goal is."""
+        now = time.monotonic()
+        if now < self._next_look or self._last != _EXECUTES:
+            return False
+        self._next_look = now + _BETWEEN_LOOKS
+        return True
+
+    def take_distance(self, message: Any) -> Outcome | None:
+        """Take a feedback message of the goal; return what is new of it."""
+        try:
+            metres = float(message.feedback.distance_remaining)
+            left = message.feedback.estimated_time_remaining
             seconds = float(left.sec) + float(left.nanosec) * 1e-9
-        except (DecodeError, AttributeError, TypeError, ValueError):
+        except (AttributeError, TypeError, ValueError):
             return None
         words = f"{metres:.1f} m"
         # Until it knows its speed, Nav2 says 0.
@@ -113,24 +140,34 @@ class GoalFollower:
         return Outcome(f"{_ON_THE_WAY[_EXECUTES]}: {words} left", False, True)
 
 
+def navigator_of(topic: str) -> str:
+    """Return the action of Nav2 that does what the goals of a topic ask for."""
+    return f"{topic.rpartition('/')[0]}/navigate_to_pose"
+
+
 def cancel_of(topic: str) -> str:
     """Return the service that cancels the goals of a topic; hidden in ROS."""
-    return f"{status_of(topic).removesuffix('status')}cancel_goal"
+    return cancel_service(navigator_of(topic))
 
 
 def result_of(topic: str) -> str:
     """Return the service that says why a goal of a topic has ended; hidden in ROS."""
-    return f"{status_of(topic).removesuffix('status')}get_result"
+    return result_service(navigator_of(topic))
 
 
 def feedback_of(topic: str) -> str:
     """Return where Nav2 says how far the goals of a topic are; hidden in ROS."""
-    return f"{status_of(topic).removesuffix('status')}feedback"
+    return feedback_topic(navigator_of(topic))
 
 
 def status_of(topic: str) -> str:
     """Return where Nav2 says what becomes of the goals of a topic; hidden in ROS."""
-    return f"{topic.rpartition('/')[0]}/navigate_to_pose/_action/status"
+    return status_topic(navigator_of(topic))
+
+
+def given_up(why: str) -> Outcome:
+    """Return the end of a goal that the robot has given up, with its reason."""
+    return Outcome(f"not reached: {why}" if why else GIVEN_UP, True, False)
 
 
 def _outcome(status: int) -> Outcome | None:

@@ -19,11 +19,13 @@ from sambot_viz.errors import (
     SourceError,
 )
 from sambot_viz.outlet import write_err
+from sambot_viz.publishing.acted_goal import NAVIGATE
 from sambot_viz.publishing.any_message import AnyMessage
 from sambot_viz.publishing.driver import Driver
 from sambot_viz.publishing.goals import Goals
 from sambot_viz.publishing.outbound import (
     KINDS,
+    Goal,
     Kind,
     Outbound,
     kinds_of,
@@ -248,22 +250,45 @@ class Publisher:
         if now - self._last < FASTEST and not follows:
             raise PublishPaceError("nothing was sent: messages come too fast")
         self._last = now
+        action = self._act(message, topic, tell)
+        told = action or self._publish(robot, message, topic, tell)
+        if message.words:
+            write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
+        type_name = NAVIGATE if action else message.type_name
+        self._tell_sent(type_name, action or topic, who, message.frame, message.told)
+        return told
+
+    def _act(
+        self, message: Outbound, topic: str, tell: Callable[[Outcome], object]
+    ) -> str:
+        """Send a goal to its action, and return that; "" where there is none."""
+        if isinstance(message, Goal) and message.by_action and self.goals is not None:
+            # Else it is sent as RViz's own tool sends it.
+            with suppress(SourceError):
+                return self.goals.send(topic, message, self._now_ns(), tell)
+        return ""
+
+    def _publish(
+        self,
+        robot: SourceRobot,
+        message: Outbound,
+        topic: str,
+        tell: Callable[[Outcome], object],
+    ) -> str:
+        """Publish a message of a tool, and return who takes it, in words."""
         outgoing = self._taken(robot, topic, message.type_name)
         told = who_takes(outgoing, message.kind)
         inner = message.without(outgoing.frame_prefix)
         content = written(outgoing, inner, self._now_ns(), robot.decoding.types)
         goals = self.goals if message.kind == "goal" else None
         if goals is not None:
-            goals.begin(topic, tell)
+            goals.begin(message, topic, outgoing, tell)
         try:
             self._send_once(robot, outgoing, content)
         except SourceError:
             if goals is not None:
                 goals.forget()
             raise
-        if message.words:
-            write_err(f"sambot-viz: {who or 'Somebody'}: {message.words}")
-        self._tell_sent(message.type_name, topic, who, message.frame, message.told)
         return told
 
     def send_any(self, message: AnyMessage, topic: str, who: str) -> str:

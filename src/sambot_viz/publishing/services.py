@@ -102,23 +102,26 @@ def call_service(
         return types.shape(f"{kind.name}_Request", kind.request).as_cdr(fields)
 
     def take(reply: Reply) -> None:
-        if reply.refusal:
-            answered(ServiceAnswer(refusal=reply.refusal))
-            return
-        for response in filter(None, (kind.response, kind.older)):
-            content: Any = None
-            with suppress(DecodeError, TypeError, ValueError):
-                content = _read(reply, f"{kind.name}_Response", response, types)
-            if content is not None:
-                answered(ServiceAnswer(content))
-                return
-        said = text(repr(bytes(reply.content[:80])), 80)
-        answered(ServiceAnswer(refusal=f"what it answers makes no sense: {said}"))
+        answered(read_reply(reply, kind, types))
 
     try:
         source.call(service, write, take)
     except SourceError as error:
         answered(ServiceAnswer(refusal=str(error)))
+
+
+def read_reply(reply: Reply, kind: ServiceType, types: MessageTypes) -> ServiceAnswer:
+    """Return the response in a reply, or why there is none."""
+    if reply.refusal:
+        return ServiceAnswer(refusal=reply.refusal)
+    for response in filter(None, (kind.response, kind.older)):
+        content: Any = None
+        with suppress(DecodeError, TypeError, ValueError):
+            content = _read(reply, f"{kind.name}_Response", response, types)
+        if content is not None:
+            return ServiceAnswer(content)
+    said = text(repr(bytes(reply.content[:80])), 80)
+    return ServiceAnswer(refusal=f"what it answers makes no sense: {said}")
 
 
 def _read(reply: Reply, name: str, response: str, types: MessageTypes) -> Any:

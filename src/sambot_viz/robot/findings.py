@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.errors import Findings, Place, Severity
+from sambot_viz.errors import Findings, Fix, Place, Severity
 from sambot_viz.robot.xml.element import Element
 
 
@@ -14,7 +14,7 @@ def _reporter(severity: Severity, rejects: bool = False):
         self: ModelFindings,
         code: str,
         message: str,
-        hint: str,
+        hint: str | Fix,
         at: Element,
         attribute: str | None = None,
         *,
@@ -24,7 +24,8 @@ def _reporter(severity: Severity, rejects: bool = False):
         line = at.line_of(attribute)
         column = at.place.column if line == at.place.line else None
         place = Place(at.place.file, line, column)
-        if self.is_said(code, hint, place, at.call):
+        said = hint.hint if isinstance(hint, Fix) else hint
+        if self.is_said(code, said, place, at.call):
             return
         if at.call is not None:
             here = at.call.file == at.place.file
@@ -43,6 +44,7 @@ class ModelFindings(Findings):
         reject: reports an error for which ROS refuses the whole model.
         error: reports one that ROS does not, or that affects only part of the robot.
         warn: reports a doubtful part of the model, which is drawn anyway.
+        remark: reports what is worth knowing.
     """
 
     def __init__(self) -> None:
@@ -57,6 +59,7 @@ class ModelFindings(Findings):
     reject = _reporter("error", rejects=True)
     error = _reporter("error")
     warn = _reporter("warning")
+    remark = _reporter("info")
 
 
 def tag_text(element: Element) -> str:

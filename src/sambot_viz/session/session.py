@@ -45,6 +45,7 @@ from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.robot.session_frames import Frames
 from sambot_viz.session.robot.user_frames import UserFrames
+from sambot_viz.session.scene.goal_mark import GoalMark
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
@@ -158,6 +159,8 @@ class Session:
         self.sent, self.sending = SentLines(), Signal(change, None)
         self.publisher.listeners.append(self._note_sent)
         self.joints_out = JointsOut(robot, self.publisher, change, worker)
+        mark = GoalMark(self.publisher, scene, change)
+        connect([self.driven, scene.frames], mark.draw)
         self._take_robot()
         self.clients = Clients(
             document,

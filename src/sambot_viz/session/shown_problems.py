@@ -235,6 +235,7 @@ class Checks:
         self._saves = 0
         self.files: Signal[frozenset[Path]] = Signal(change, frozenset())
         self._checked: _State | None = None
+        self._asked: tuple[object, bool] = (None, False)
         facts = [document.replaced, document.options, document.displays]
         connect([*facts, scene.frames, scene.statuses], self._follow)
 
@@ -247,6 +248,8 @@ class Checks:
             before, state = self._checked, self._state()
             self._checked = state
             of_joints, of_config = joints.problems, self._of_config(robot)
+            frame, file = self._context.fixed_frame, self._document.config.file
+        of_config = self._without_published(of_config, robot, frame, file)
         of_robot = self._of_rules(robot, state) if before != state else None
         with self._change.lock:
             if self._checked != state:
@@ -277,6 +280,22 @@ class Checks:
             self._of_files = (robot, state.saves, found)
             self.files.set(frozenset(read))
         return (*check_robot(robot, mesh=self._mesh, around=False), *found)
+
+    def _without_published(
+        self, problems: list[Problem], robot: Robot, frame: str, file: str | None
+    ) -> list[Problem]:
+        """Leave out a fixed frame that a node of the package may publish."""
+        others = [p for p in problems if p.code != "setup-fixed-frame"]
+        if len(others) == len(problems):
+            return problems
+        # The import is late, as for the rules; and the files are read once.
+        from sambot_viz.checks.checked import frame_is_published
+
+        asked = (id(robot), frame, file, self._saves)
+        if asked != self._asked[0]:
+            published = frame_is_published(robot, frame, file, self._workspace)
+            self._asked = (asked, published)
+        return others if self._asked[1] else problems
 
     def _mesh(self, path: Path) -> Mesh | None:
         """A mesh that has been read for the picture; the rules read none themselves.

@@ -15,7 +15,13 @@ from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.rviz.undo_log import Restore, record_changes
 from sambot_viz.session.people.roles import VIEW_ONLY
 from sambot_viz.session.signals import Change, Signal
-from sambot_viz.session.undo_steps import ClientSteps, Edit, LeftSteps, Step, UndoState
+from sambot_viz.session.undo_steps import (
+    ClientSteps,
+    LeftSteps,
+    Step,
+    UndoableEdit,
+    UndoState,
+)
 
 Apply = Callable[[Restore], None]
 """Puts something back in the document, and draws it."""
@@ -28,7 +34,7 @@ class _Action:
     client_id: int
     gesture: object
     by_viewer: bool
-    edits: list[Edit] = field(default_factory=list[Edit])
+    edits: list[UndoableEdit] = field(default_factory=list[UndoableEdit])
     merge_keys: list[object] = field(default_factory=list[object])
     of_document: bool = False
 
@@ -57,8 +63,8 @@ class History:
         modified: whether the document has edits that are not saved.
         is_as_saved: tells if the document says what its file says; it looks at all of
             it, so it is asked after single edits only, and not in a drag.
-        take_page: gives a client what was another page's (see `Edit`), and tells
-            whether that can be.
+        take_page: gives a client what was another page's (see `UndoableEdit`), and
+            tells whether that can be.
     """
 
     def __init__(self, change: Change) -> None:
@@ -130,16 +136,16 @@ class History:
             redo: does it again; it may raise these, too.
             merge: what has changed: of one gesture, changes of the same thing in a
                 row are one edit.
-            touched: see `Edit`.
+            touched: see `UndoableEdit`.
             of_document: whether it is lost unless the document is saved.
-            page: see `Edit`.
+            page: see `UndoableEdit`.
         """
         with self._change.lock:
             if self._undoing:
                 return
             action = self._action
             if action is not None:
-                action.edits.append(Edit(label, undo, redo, touched, page))
+                action.edits.append(UndoableEdit(label, undo, redo, touched, page))
                 action.merge_keys.append(merge)
                 action.of_document |= of_document
             elif of_document:

@@ -12,7 +12,7 @@ from sambot_viz.session.signals import Change, Signal
 
 
 @dataclass(frozen=True, slots=True)
-class Edit:
+class UndoableEdit:
     """A change that can be undone.
 
     Attributes:
@@ -42,7 +42,7 @@ class Step:
         by_viewer: whether it was made without control, so that no other sees it.
     """
 
-    edits: tuple[Edit, ...]
+    edits: tuple[UndoableEdit, ...]
     merge_keys: tuple[object, ...]
     gesture: object
     number: int | None

@@ -11,16 +11,29 @@ import time
 from itertools import count
 
 from sambot_viz import limits
+from sambot_viz.errors import SourceError
 from sambot_viz.messages import Schema
 from sambot_viz.sources import foxglove_wire as wire
+from sambot_viz.sources.action_names import (
+    result_service,
+    send_service,
+    status_topic,
+)
 from sambot_viz.sources.foxglove_services import FoxgloveServices
+from sambot_viz.sources.hidden_action import HiddenAction
 from sambot_viz.sources.message import (
     Recorded,
     SourceTopic,
     TopicChannel,
     is_latched_name,
 )
-from sambot_viz.sources.source import Capability, Encoding, Receivers
+from sambot_viz.sources.source import (
+    Capability,
+    Encoding,
+    OutgoingAction,
+    Receivers,
+    Source,
+)
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
@@ -146,6 +159,15 @@ class FoxgloveConversation(Conversation):
         """Tell the server that a topic is published no longer."""
         if self._outgoing.pop(outgoing.number, None) is not None:
             self.ends.send(wire.unadvertise(outgoing.number))
+
+    def action(self, name: str, type_name: str, source: Source) -> OutgoingAction:
+        """Return an action whose hidden services and topics the server shows."""
+        self._services.require(send_service(name))
+        self._services.require(result_service(name))
+        if status_topic(name) not in source.topics():
+            label = self.ends.address.label
+            raise SourceError(f"the server at {label} does not show {text(name, 80)}")
+        return HiddenAction(name, type_name, source, self.goals)
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the channels of the wanted topics, and to no others."""

@@ -44,7 +44,12 @@ class FoxgloveServices:
         else:
             self.calls.fail(frame.call_id, text(frame.message, 400) or "it failed")
 
-    def _send(self, number: int, service: str, request: bytes) -> None:
+    def require(self, service: str) -> int:
+        """Return the id of a service.
+
+        Raises:
+            SourceError: the server has no such service, or does not show it.
+        """
         label, found = self._ends.address.label, self._ids.get(service)
         if not self.are_offered:
             raise SourceError(
@@ -59,4 +64,8 @@ class FoxgloveServices:
             )
             why = f"the server at {label} has no service {text(service, 120)}"
             raise SourceError(f"{why}; {remedy}" if is_hidden else why)
+        return found
+
+    def _send(self, number: int, service: str, request: bytes) -> None:
+        found = self.require(service)
         self._ends.send(wire.call_service(found, number, request))

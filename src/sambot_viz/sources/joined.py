@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from sambot_viz.errors import Problem
+from sambot_viz.sources.action_names import status_topic
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.source import (
     Asset,
@@ -14,6 +15,7 @@ from sambot_viz.sources.source import (
     OnMessage,
     OnReply,
     Outgoing,
+    OutgoingAction,
     Playback,
     Source,
     SourceStatus,
@@ -177,6 +179,10 @@ class JoinedSources:
     ) -> None:
         """Call a service of the robot whose topics are called so, or of the first."""
         self._robot_of(service).call(service, write, answered)
+
+    def action(self, name: str, type_name: str) -> OutgoingAction:
+        """Return an action of the robot whose topics are called so, or of the first."""
+        return self._robot_of(status_topic(name)).action(name, type_name)
 
     def _robot_of(self, name: str) -> Source:
         """Return the robot that has a topic, or else topics of its name space."""

@@ -14,6 +14,7 @@ from sambot_viz.sources.source import (
     OnMessage,
     OnReply,
     Outgoing,
+    OutgoingAction,
     SourceStatus,
     no_file,
 )
@@ -118,6 +119,10 @@ class RecordingPlayback:
     def call(
         self, service: str, write: Callable[[Encoding], bytes], answered: OnReply
     ) -> None:
+        """Refuse, as `advertise` does."""
+        raise self._is_over()
+
+    def action(self, name: str, type_name: str) -> OutgoingAction:
         """Refuse, as `advertise` does."""
         raise self._is_over()
 

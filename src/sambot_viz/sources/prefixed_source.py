@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from sambot_viz.sources.action_names import action_of, status_topic
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.prefix import NO_NAMES, Prefix
 from sambot_viz.sources.source import (
@@ -13,6 +14,7 @@ from sambot_viz.sources.source import (
     OnMessage,
     OnReply,
     Outgoing,
+    OutgoingAction,
     Source,
     SourceStatus,
 )
@@ -70,6 +72,13 @@ class PrefixedSource:
     ) -> None:
         """Call a service; see `Source.call`."""
         self._source.call(self._prefix.inner(service), write, answered)
+
+    def action(self, name: str, type_name: str) -> OutgoingAction:
+        """Return an action; see `Source.action`."""
+        inner = action_of(self._prefix.inner(status_topic(name)))
+        made = self._source.action(inner, type_name)
+        made.frame_prefix = self._prefix.name
+        return made
 
     def of_session(self) -> Source:
         """Return it: one connection serves all sessions."""

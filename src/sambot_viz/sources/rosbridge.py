@@ -14,7 +14,9 @@ from functools import partial
 from itertools import count
 
 from sambot_viz import limits
+from sambot_viz.errors import SourceError
 from sambot_viz.sources import rosbridge_wire as wire
+from sambot_viz.sources.action_names import action_of, status_topic
 from sambot_viz.sources.message import (
     Recorded,
     SourceTopic,
@@ -22,7 +24,14 @@ from sambot_viz.sources.message import (
     is_latched_name,
 )
 from sambot_viz.sources.rosapi import Rosapi
-from sambot_viz.sources.source import Capability, Encoding, Receivers
+from sambot_viz.sources.rosbridge_actions import RosbridgeActions
+from sambot_viz.sources.source import (
+    Capability,
+    Encoding,
+    OutgoingAction,
+    Receivers,
+    Source,
+)
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.service_calls import ServiceCalls
@@ -67,6 +76,7 @@ class RosbridgeConversation(Conversation):
         super().__init__(ends)
         self.calls = ServiceCalls(self._call, self.publishes)
         self._outgoing: list[OutgoingTopic] = []
+        self._actions = RosbridgeActions(ends, self.goals)
         self._rosapi = Rosapi(ends.send, self._listed)
         self._subscriptions: dict[str, _Subscription] = {}
         self._wanted: frozenset[str] = frozenset()
@@ -91,11 +101,14 @@ class RosbridgeConversation(Conversation):
             self.is_ready = known or self.is_ready
         elif isinstance(operation, wire.StatusLine):
             self.is_ready = True
-            if operation.level in ("error", "warning"):
-                self._note_refusal(operation.msg)
+            is_about_goal = self._actions.is_about_goal(operation)
+            if operation.level in ("error", "warning") and not is_about_goal:
+                self._note_refusal(operation)
                 self._line = operation.msg
                 self._line_end = time.monotonic() + _LINE_LASTS
-        elif operation.op == "serverInfo":
+        elif isinstance(operation, wire.GoalResult):
+            self._actions.take(operation)
+        elif operation == wire.ForeignOperation("serverInfo"):
             raise WrongServer(
                 f"{self.ends.address.label} speaks Foxglove's protocol, not "
                 f"rosbridge's: {other_protocol(self.ends.address)}"
@@ -120,20 +133,29 @@ class RosbridgeConversation(Conversation):
 
     def advertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the server of a topic that is published."""
+        outgoing.number = next(self._ids)
         self._outgoing.append(outgoing)
-        self.ends.send(wire.advertise(outgoing.topic, self._spelled(outgoing)))
+        name, type_name = _name_of(outgoing), self._spelled(outgoing)
+        self.ends.send(wire.advertise(name, outgoing.topic, type_name))
         self._ask_receivers()
 
     def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
         """Send a message."""
         if outgoing in self._outgoing:
-            self.ends.send(wire.published(outgoing.topic, message))
+            name, topic = _name_of(outgoing), outgoing.topic
+            self.ends.send(wire.published(name, topic, message))
 
     def unadvertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the server that a topic is published no longer."""
         if outgoing in self._outgoing:
             self._outgoing.remove(outgoing)
-            self.ends.send(wire.unadvertise(outgoing.topic))
+            self.ends.send(wire.unadvertise(_name_of(outgoing), outgoing.topic))
+
+    def action(self, name: str, type_name: str, source: Source) -> OutgoingAction:
+        """Return an action, where the server has answered that it sends goals to it."""
+        if self._rosapi.is_there and status_topic(name) not in self._rosapi.types:
+            raise SourceError(f"the robot has no action {text(name, 80)}")
+        return self._actions.action(name, type_name)
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
@@ -143,6 +165,8 @@ class RosbridgeConversation(Conversation):
         self._wanted = wanted
         for topic in new:
             self._prepare(topic)
+            if name := action_of(topic):
+                self._actions.ask(name)
         self.ends.assets.refuse_all(
             "rosbridge hands out no files",
             "give the folder of the package with --package-path",
@@ -217,11 +241,14 @@ class RosbridgeConversation(Conversation):
         type_name = self._rosapi.types.get(outgoing.topic, "")
         outgoing.receivers = Receivers(names, type_name)
 
-    def _note_refusal(self, line: str) -> None:
+    def _note_refusal(self, line: wire.StatusLine) -> None:
         """Note a line of the server for the topic that it is about."""
-        about = [one for one in self._outgoing if one.topic in line] or self._outgoing
+        about = [one for one in self._outgoing if _name_of(one) == line.id]
+        if not line.id:
+            named = [one for one in self._outgoing if one.topic in line.msg]
+            about = named or self._outgoing
         if len(about) == 1:
-            about[0].refused = line
+            about[0].refused = line.msg
 
     def _note_changes(self) -> None:
         self.topics_changed = self.topics_changed or self._rosapi.has_changed
@@ -318,3 +345,8 @@ class RosbridgeConversation(Conversation):
         subscription = self._subscriptions.pop(topic, None)
         if subscription is not None:
             self.ends.send(wire.unsubscribe(subscription.name, topic))
+
+
+def _name_of(outgoing: OutgoingTopic) -> str:
+    """Return what the server knows a published topic by."""
+    return f"sambot-viz-topic-{outgoing.number}"

@@ -90,14 +90,18 @@ class ServiceResponse(msgspec.Struct):
 
 
 class StatusLine(msgspec.Struct):
-    """A line of the server: level "error", "warning", "info" or "none"."""
+    """A line of the server: level "error", "warning", "info" or "none".
+
+    Some servers repeat the id of the operation that it is about.
+    """
 
     level: str = ""
     msg: str = ""
+    id: Any = ""
 
 
 class ForeignOperation(msgspec.Struct):
-    """An operation that a client without services and actions does not need."""
+    """An operation that a client that offers nothing does not need."""
 
     op: str = ""
 
@@ -142,7 +146,44 @@ class MessageDetails(msgspec.Struct):
     typedefs: tuple[FieldList, ...] = ()
 
 
-Operation = Publication | ServiceResponse | StatusLine | ForeignOperation
+class GoalFeedback(msgspec.Struct):
+    """How far a goal is; `values` are the fields of the feedback."""
+
+    id: Any = ""
+    values: msgspec.Raw = msgspec.Raw(b"{}")
+
+
+class GoalResult(msgspec.Struct):
+    """The end of a goal: `values` is the result, or a text when it was not taken.
+
+    Some servers say `result` of an end that is not the wanted one, with its status.
+    """
+
+    id: Any = ""
+    action: str = ""
+    values: msgspec.Raw = msgspec.Raw(b"{}")
+    status: int = 0
+    result: bool = True
+
+
+Operation = (
+    Publication
+    | ServiceResponse
+    | StatusLine
+    | GoalFeedback
+    | GoalResult
+    | ForeignOperation
+)
+_OF_GOALS: dict[str, type[GoalFeedback | GoalResult]] = {
+    "action_feedback": GoalFeedback,
+    "action_result": GoalResult,
+}
+_PLAIN: dict[str, type[ServiceResponse | StatusLine | GoalFeedback | GoalResult]] = {
+    "service_response": ServiceResponse,
+    "status": StatusLine,
+    **_OF_GOALS,
+}
+"""Operations that are read as they are."""
 
 
 def topic_of(head: bytes) -> str:
@@ -174,11 +215,8 @@ def _from_text(frame: str) -> Operation:
         op = msgspec.json.decode(frame, type=ForeignOperation).op
         if op == "publish":
             return _from_json(frame)
-        if op == "service_response":
-            return msgspec.json.decode(frame, type=ServiceResponse)
-        if op == "status":
-            return msgspec.json.decode(frame, type=StatusLine)
-        return ForeignOperation(op)
+        kind = _PLAIN.get(op)
+        return msgspec.json.decode(frame, type=kind) if kind else ForeignOperation(op)
     except msgspec.DecodeError:
         if "NaN" not in frame and "Infinity" not in frame:
             raise
@@ -186,11 +224,14 @@ def _from_text(frame: str) -> Operation:
         return _with_nan(json.loads(frame))
 
 
-def _with_nan(operation: Any) -> Publication:
+def _with_nan(operation: Any) -> Operation:
     if not isinstance(operation, dict):
         raise MalformedOperation("not an operation")
     found = cast("dict[str, Any]", operation)
     topic = found.get("topic")
+    if kind := _OF_GOALS.get(str(found.get("op"))):
+        # What is not a number is null in this.
+        return msgspec.json.decode(msgspec.json.encode(found), type=kind)
     if found.get("op") != "publish" or not isinstance(topic, str) or "msg" not in found:
         raise MalformedOperation("a number that JSON does not have")
     return Publication(topic, json.dumps(found["msg"]).encode(), True)
@@ -243,7 +284,12 @@ def plain_name(type_name: str) -> str:
 
 def is_ros2(type_name: str) -> bool:
     """Return whether a type's name is one of ROS 2."""
-    return "/msg/" in type_name
+    return "/msg/" in type_name or is_of_action(type_name)
+
+
+def is_of_action(type_name: str) -> bool:
+    """Return whether a type is one that ROS makes of an action, as of its feedback."""
+    return "/action/" in type_name
 
 
 def encoding(type_name: str) -> str:
@@ -289,7 +335,8 @@ def subscribe(
         "subscribe",
         id=subscription,
         topic=topic,
-        **({"type": type_name} if type_name else {}),
+        # That of an action no server finds by its name, and some by the topic.
+        **({} if not type_name or is_of_action(type_name) else {"type": type_name}),
         compression="cbor-raw",
         # The server must drop what we are too slow for, or its memory grows.
         queue_length=QUEUE if each else 1,
@@ -302,20 +349,20 @@ def unsubscribe(subscription: str, topic: str) -> str:
     return _text("unsubscribe", id=subscription, topic=topic)
 
 
-def advertise(topic: str, type_name: str) -> str:
-    """Begin to publish a topic."""
-    return _text("advertise", topic=topic, type=type_name)
+def advertise(name: str, topic: str, type_name: str) -> str:
+    """Begin to publish a topic, by the name that its messages have too."""
+    return _text("advertise", id=name, topic=topic, type=type_name)
 
 
-def unadvertise(topic: str) -> str:
+def unadvertise(name: str, topic: str) -> str:
     """Publish a topic no longer."""
-    return _text("unadvertise", topic=topic)
+    return _text("unadvertise", id=name, topic=topic)
 
 
-def published(topic: str, message: bytes) -> str:
+def published(name: str, topic: str, message: bytes) -> str:
     """Publish a message, which is JSON already."""
-    head = f'{{"op":"publish","topic":{json.dumps(topic)},"msg":'
-    return f"{head}{message.decode()}}}"
+    head = _text("publish", id=name, topic=topic)
+    return f'{head[:-1]},"msg":{message.decode()}}}'
 
 
 def call_service(call: str, service: str, **arguments: object) -> str:
@@ -327,6 +374,23 @@ def call_with(call: str, service: str, request: bytes) -> str:
     """Call a service with a request that is JSON already."""
     head = _text("call_service", id=call, service=service)
     return f'{head[:-1]},"args":{request.decode()}}}'
+
+
+def send_goal(goal: str, action: str, type_name: str, fields: bytes) -> str:
+    """Send a goal, whose fields are JSON already, and ask how far it is."""
+    head = _text(
+        "send_action_goal",
+        id=goal,
+        action=action,
+        action_type=type_name,
+        feedback=True,
+    )
+    return f'{head[:-1]},"args":{fields.decode()}}}'
+
+
+def cancel_goal(goal: str, action: str) -> str:
+    """Cancel a goal."""
+    return _text("cancel_action_goal", id=goal, action=action)
 
 
 def _text(op: str, **content: Any) -> str:

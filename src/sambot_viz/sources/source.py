@@ -57,6 +57,65 @@ Encoding = Literal["cdr", "json"]
 OnReply = Callable[[Reply], object]
 
 
+@dataclass(frozen=True, slots=True)
+class GoalReport:
+    """What a robot says of a goal that was sent to one of its actions.
+
+    Attributes:
+        status: as in action_msgs/msg/GoalStatus; 0 where it is not said.
+        feedback: a message of the action's feedback topic.
+        result: of an end: the response of the action's service get_result.
+        refusal: why the goal is followed no further: it was not taken, or the
+            connection was lost; a phrase.
+    """
+
+    status: int = 0
+    feedback: Recorded | None = None
+    result: Reply | None = None
+    refusal: str = ""
+
+    @property
+    def is_last(self) -> bool:
+        """Whether nothing more is said of the goal."""
+        return bool(self.refusal) or self.status in GOAL_ENDS
+
+
+SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
+GOAL_ENDS = (SUCCEEDED, CANCELED, ABORTED)
+"""Numbers of action_msgs/msg/GoalStatus."""
+OnReport = Callable[[GoalReport], object]
+CancelGoal = Callable[[], object]
+"""Asks a robot to cancel one goal; what becomes of it is reported."""
+
+
+class OutgoingAction(Protocol):
+    """An action to which goals are sent, as long as the connection lasts.
+
+    Attributes:
+        name: of the action.
+        type_name: such as nav2_msgs/action/NavigateToPose.
+        encoding: how goals are to be written.
+        frame_prefix: as of `Outgoing`.
+    """
+
+    name: str
+    type_name: str
+    encoding: Encoding
+    frame_prefix: str
+
+    def send(self, goal: bytes, told: OnReport) -> CancelGoal:
+        """Send a goal once.
+
+        Args:
+            goal: the fields of the action's goal.
+            told: called with each report, the last of which says so; it must only post.
+
+        Raises:
+            SourceError: the connection has ended; nothing was sent.
+        """
+        ...
+
+
 class Outgoing(Protocol):
     """A topic that is published to a robot, as long as the connection lasts.
 
@@ -259,6 +318,22 @@ class Source(Protocol):
 
         Raises:
             SourceError: there is no connection, or nothing can be called.
+        """
+        ...
+
+    def action(self, name: str, type_name: str) -> OutgoingAction:
+        """Return an action that takes goals now; nothing is sent to it yet.
+
+        Whether the robot has it is known a moment after somebody has subscribed to the
+        topic of its status (`action_names.status_topic`).
+
+        Args:
+            name: of the action, such as /navigate_to_pose.
+            type_name: such as nav2_msgs/action/NavigateToPose.
+
+        Raises:
+            SourceError: there is no connection, or no such action is shown: then with
+                what would show it.
         """
         ...
 

@@ -19,6 +19,7 @@ from sambot_viz.publishing.outbound import (
     GOAL_TOPIC,
     ClickedPoint,
     Goal,
+    NavGoal,
     Outbound,
     PoseEstimate,
 )
@@ -167,12 +168,17 @@ class SetGoalTool(PoseTool):
 
 
 class NavGoalTool(SetGoalTool):
-    """Nav2's own tool, which sends the same goal."""
+    """Nav2's own tool, which sends the same goal to its action."""
 
     kind = "nav2_rviz_plugins/GoalTool"
     label = "Nav2 Goal"
     only_listed = True
+    message = NavGoal
     properties = ()
+
+    def pose(self, frame: str, x: float, y: float, yaw: float) -> Outbound:
+        """Return the goal."""
+        return NavGoal(frame, x, y, yaw)
 
     @property
     def topic(self) -> str:

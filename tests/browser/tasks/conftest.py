@@ -28,6 +28,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         items[place] = task
 
 
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A robot goes on driving, however long a page of a busy machine says nothing."""
+    from sambot_viz.panels import drive_panel
+
+    monkeypatch.setattr(drive_panel, "KEEP", 600.0)
+
+
 def pages_of(desk: Desk) -> Iterator[Callable[..., ViewerPage]]:
     """Open more pages of a desk: ``open_more(390, 844, touch=True)``."""
     opened: list[ViewerPage] = []

@@ -108,6 +108,105 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
     assert codes(package) == []
 
 
+@pytest.mark.parametrize(
+    ("declared", "found"), [(True, ["sim-time-off"] * 2), (False, [])]
+)
+def test_the_default_of_an_argument_that_is_not_declared_is_not_certain(
+    copied: Copied, declared: bool, found: list[str]
+) -> None:
+    package = copied("gz")
+    used = 'LaunchConfiguration("use_sim_time"'
+    edit(package / LAUNCH, used, f'{used}, default="false"')
+    line = 'DeclareLaunchArgument("use_sim_time", default_value="True"),'
+    edit(package / LAUNCH, line, line.replace("True", "False") if declared else "")
+    assert codes(package) == found
+
+
+ARGUMENTS = """
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(
+                    os.path.join(gz_share, "launch", "gz_sim.launch.py")
+                ),
+                launch_arguments={"gz_args": GIVEN}.items(),
+            ),
+            ExecuteProcess(cmd=["gz", "sim", world, "-r"]),
+            Node(package="ros_gz_sim", executable="server", arguments=[world, "-r"]),
+"""
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        'world + " -r"',
+        '"-r " + world',
+        'f"-r -v4 {world}"',
+        '[world, " -r -v 4"]',
+        '["-s -r --headless-rendering ", world]',
+    ],
+)
+def test_the_options_beside_a_world_are_not_of_its_name(
+    copied: Copied, given: str
+) -> None:
+    package = copied("gz")
+    start = "GzServer(world_sdf_file=world),"
+    edit(package / LAUNCH, start, ARGUMENTS.replace("GIVEN", given))
+    assert codes(package) == []
+    edit(package / LAUNCH, '"room.sdf"', '"rom.sdf"')
+    (problem,) = check(package / MODEL)
+    assert (problem.code, problem.hint) == (
+        "launch-file-missing",
+        "write world/room.sdf",
+    )
+
+
+@pytest.mark.parametrize("tool", ["catkin", "ament_cmake"])
+def test_a_package_of_ros_1_has_the_plugins_of_ros_1(copied: Copied, tool: str) -> None:
+    package = copied("classic")
+    for name in ("separation", "diameter"):
+        new = f"wheel{name.capitalize()}"
+        for end in ("<", "</"):
+            edit(package / MODEL, f"{end}wheel_{name}>", f"{end}{new}>")
+    for part in ("buildtool_depend", "build_type"):
+        edit(package / "package.xml", f"<{part}>ament_cmake", f"<{part}>{tool}")
+    edit(package / "CMakeLists.txt", "find_package(ament_cmake", "find_package(catkin")
+    found = codes(package)
+    assert (found == []) == (tool == "catkin")
+    # What is wrong in either ROS is said.
+    edit(package / MODEL, "<wheelSeparation>0.4", "<wheelSeparation>0.1")
+    assert "drive-wheel-separation" in codes(package)
+
+
+@pytest.mark.parametrize(
+    ("frame", "found"),
+    [("world", []), ("map", []), ("/odom", []), ("lidar_lnk", ["frame-unknown"])],
+)
+def test_a_sensor_may_report_in_the_world(
+    copied: Copied, frame: str, found: list[str]
+) -> None:
+    package = copied("classic")
+    own = "<frame_name>lidar_link<"
+    edit(package / MODEL, own, f"<frame_name>{frame}<")
+    assert codes(package) == found
+
+
+@pytest.mark.parametrize(
+    ("found", "known"),
+    [
+        ("", False),
+        ("find_package(Eigen3 REQUIRED)\nfind_package(Threads)", False),
+        ("find_package(geometry_msgs REQUIRED)", True),
+        ("find_package(Eigen3)\nfind_package(rclcpp REQUIRED)", True),
+        ("foreach(one ${ALL})\nfind_package(${one})\nendforeach()", True),
+    ],
+)
+def test_any_package_of_ros_brings_the_commands_of_ament(
+    copied: Copied, found: str, known: bool
+) -> None:
+    package = copied("gz")
+    edit(package / "CMakeLists.txt", "find_package(ament_cmake REQUIRED)", found)
+    assert codes(package) == ([] if known else ["cmake-command-missing"])
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')
@@ -199,7 +298,8 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
         "share/cart_description\n"
         '  PATTERN "*.orig" EXCLUDE)',
         "install(DIRECTORY urdf launch rviz DESTINATION share/cart_description)\n"
-        "install(FILES config/ekf.yaml DESTINATION share/${PROJECT_NAME}/config)\n"
+        "install(FILES config/ekf.yaml config/bridge_config.yaml\n"
+        "  DESTINATION share/${PROJECT_NAME}/config)\n"
         'install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/world" DESTINATION\n'
         "  ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})",
     ],
@@ -294,7 +394,7 @@ def test_a_python_file_that_is_none_does_no_harm(
     package = copied("classic")
     (package / name).write_text(text)
     begin = time.process_time()
-    assert set(codes(package)) <= {"launch-code"}
+    assert set(codes(package)) <= {"launch-code", "setup-py-code"}
     assert time.process_time() - begin < 3
 
 
@@ -463,3 +563,41 @@ NAMES_THAT_MUST_MEET = frozenset(
     "folder-not-installed footprint-size sensor-frame ekf-two-d-mode cmake-unclosed "
     "cmake-project-name install-folder-missing install-destination".split()
 )
+
+
+OTHER = """<robot name="truck"><link name="cab"/><link name="bed"/>
+<joint name="j" type="fixed"><parent link="cab"/><child link="bed"/></joint></robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("model", "config", "found"),
+    [
+        ("", "truck/nav2.yaml", ["footprint-size"]),
+        ("urdf/truck.urdf", "truck/nav2.yaml", []),
+        ("urdf/truck.urdf", "nav2_truck/nav2.yaml", []),
+        ("robots/truck/robot.urdf", "truck/nav2.yaml", []),
+        ("urdf/cart.sdf", "truck/nav2.yaml", ["footprint-size"]),
+    ],
+)
+def test_parameters_may_be_for_another_robot_of_the_package(
+    copied: Copied, model: str, config: str, found: list[str]
+) -> None:
+    package = copied("gz")
+    edit(package / NAV2, "robot_radius: 0.3", "robot_radius: 0.05")
+    other = package / "config" / config
+    other.parent.mkdir()
+    (package / NAV2).rename(other)
+    if model:
+        (package / model).parent.mkdir(parents=True, exist_ok=True)
+        (package / model).write_text(OTHER)
+    assert codes(package) == found
+
+
+def test_of_two_robots_each_has_the_parameters_that_fit(copied: Copied) -> None:
+    package = copied("gz")
+    second = package / "config" / "other_params.yaml"
+    second.write_text((package / NAV2).read_text().replace("0.3", "0.05"))
+    assert "footprint-size" in codes(package)
+    (package / "urdf" / "truck.urdf").write_text(OTHER)
+    assert "footprint-size" not in codes(package)

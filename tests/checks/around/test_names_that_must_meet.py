@@ -1,7 +1,7 @@
 """Each mistake in the files around a model is found, named at both places, and fixed.
 
 A small package in the style of the Nav2 guide gets one mistake at a time. The fix is
-what the finding says, and leaves nothing to report.
+the edits of the finding, or what it says, and leaves nothing to report.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks import check
+from sambot_viz.edits import edited_files
 from sambot_viz.errors import Problem
 
 MODEL = "urdf/cart.urdf.xacro"
@@ -39,7 +40,7 @@ class Mistake:
         at: the file and the text of the line of the finding, after the edits.
         other: the file and the text of the second line that the finding names, if any.
         advice: words of the hint.
-        fixed: the edits that follow the hint.
+        fixed: what the hint says, where the finding has no edits.
         count: so many findings of that code.
     """
 
@@ -48,7 +49,7 @@ class Mistake:
     at: tuple[str, str]
     other: tuple[str, str]
     advice: str
-    fixed: tuple[Edit, ...]
+    fixed: tuple[Edit, ...] = ()
     package: str = "gz"
     count: int = 1
     name: str = field(default="", compare=False)
@@ -65,10 +66,11 @@ def one(
     package: str = "gz",
     count: int = 1,
     name: str = "",
+    by_hand: bool = False,
 ) -> Mistake:
-    """A mistake in one line, whose fix is in the same line; `better` is not `old`."""
+    """A mistake in one line; fixed by hand in the same line, `better` is not `old`."""
     at = (file, new.strip().splitlines()[-1].strip())
-    fixed = ((file, new, better or old),)
+    fixed = ((file, new, better or old),) if by_hand else ()
     return Mistake(
         code, ((file, old, new),), at, other, advice, fixed, package, count, name
     )
@@ -119,7 +121,6 @@ MISTAKES = [
         "<topic>joint_states</topic><joint_name>right_whel_joint</joint_name>",
         (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
         "write right_wheel_joint",
-        "<topic>joint_states</topic><joint_name>right_wheel_joint</joint_name>",
         name="of a joint state publisher",
     ),
     one(
@@ -158,11 +159,6 @@ MISTAKES = [
         (MODEL, "<left_joint>right_wheel_joint<"),
         (MODEL, "<right_joint>left_wheel_joint<"),
         "exchange right_wheel_joint and left_wheel_joint",
-        (
-            (MODEL, ">right_wheel_joint</left_joint>", ">x</left_joint>"),
-            (MODEL, ">left_wheel_joint<", ">right_wheel_joint<"),
-            (MODEL, ">x<", ">left_wheel_joint<"),
-        ),
     ),
     Mistake(
         "drive-sides",
@@ -178,11 +174,6 @@ MISTAKES = [
         (EKF, 'left_wheel_names: ["right_wheel_joint"]'),
         (EKF, 'right_wheel_names: ["left_wheel_joint"]'),
         "exchange right_wheel_joint and left_wheel_joint",
-        (
-            (EKF, '["right_wheel_joint"]', '["x"]'),
-            (EKF, '["left_wheel_joint"]', '["right_wheel_joint"]'),
-            (EKF, '["x"]', '["left_wheel_joint"]'),
-        ),
         name="of a controller",
     ),
     *(
@@ -215,7 +206,6 @@ MISTAKES = [
         "<wheel_separation>0.6<",
         (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
         "write 0.36",
-        "<wheel_separation>0.36<",
     ),
     one(
         "drive-wheel-radius",
@@ -224,7 +214,6 @@ MISTAKES = [
         "<wheel_radius>0.2<",
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.1",
-        "<wheel_radius>0.1<",
     ),
     one(
         "drive-wheel-radius",
@@ -341,7 +330,6 @@ MISTAKES = [
         (EKF, "two_d_mode: false"),
         (EKF, "two_d_mode: true"),
         "write two_d_mode: true",
-        ((EKF, "two_d_mode: false", "two_d_mode: true"),),
     ),
     Mistake(
         "sensor-frame",
@@ -349,7 +337,7 @@ MISTAKES = [
         (MODEL, "<topic>scan</topic>"),
         (BRIDGE, 'gz_topic_name: "/scan"'),
         "add <gz_frame_id>lidar_link</gz_frame_id> to the sensor",
-        (
+        fixed=(
             (
                 MODEL,
                 "<topic>scan</topic>",
@@ -363,7 +351,7 @@ MISTAKES = [
         (MODEL, "<topic>demo/imu</topic>"),
         (BRIDGE, 'gz_topic_name: "/demo/imu"'),
         "add <gz_frame_id>imu_link</gz_frame_id> to the sensor",
-        (
+        fixed=(
             (
                 MODEL,
                 "<topic>demo/imu</topic>",
@@ -378,7 +366,6 @@ MISTAKES = [
         (EKF, "left_wheel_names:"),
         (MODEL, '<joint name="${prefix}_joint" type="continuous">'),
         "write left_wheel_joint",
-        ((EKF, "left_whel_joint", "left_wheel_joint"),),
         name="of a controller",
     ),
     Mistake(
@@ -387,7 +374,6 @@ MISTAKES = [
         (EKF, "wheel_radius: 0.2"),
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.1",
-        ((EKF, "wheel_radius: 0.2", "wheel_radius: 0.1"),),
         name="of a controller",
     ),
     Mistake(
@@ -396,7 +382,6 @@ MISTAKES = [
         (EKF, "base_frame_id: base_lnk"),
         (MODEL, '<link name="base_link">'),
         "write base_link",
-        ((EKF, "base_lnk", "base_link"),),
         name="of a controller",
     ),
     Mistake(
@@ -413,7 +398,7 @@ MISTAKES = [
         (BRIDGE, '- ros_topic_name: "/tf"'),
         (EKF, "publish_tf: true"),
         "delete this entry",
-        (
+        fixed=(
             (
                 BRIDGE,
                 '\n- ros_topic_name: "/tf"\n  gz_topic_name: "/tf"\n'
@@ -522,22 +507,17 @@ MISTAKES = [
         (BRIDGE, "gz.msgs.PointCloudPacked"),
         (MODEL, "<topic>scan</topic>"),
         "write gz.msgs.LaserScan, and sensor_msgs/msg/LaserScan in ROS",
-        (
-            (BRIDGE, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"),
-            (BRIDGE, "gz.msgs.PointCloudPacked", "gz.msgs.LaserScan"),
-        ),
         name="that the sensor does not send",
     ),
     Mistake(
         "bridge-types",
         (
             (BRIDGE, "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"),
-            (MODEL, "      <topic>scan</topic>\n", ""),
+            (MODEL, 'type="gpu_lidar"', 'type="custom"'),
         ),
         (BRIDGE, "sensor_msgs/msg/PointCloud2"),
         (BRIDGE, 'gz_type_name: "gz.msgs.LaserScan"'),
         "write sensor_msgs/msg/LaserScan",
-        ((BRIDGE, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"),),
         name="of the reader",
     ),
     *(
@@ -577,7 +557,6 @@ MISTAKES = [
         (BRIDGE, "direction:  GZ_TO_ROS"),
         (MODEL, "<topic>/demo/cmd_vel</topic>"),
         "write direction: ROS_TO_GZ",
-        ((BRIDGE, "direction:  GZ_TO_ROS", "direction: ROS_TO_GZ"),),
     ),
     one(
         "sim-time-off",
@@ -587,7 +566,9 @@ MISTAKES = [
         'os.path.join(share, "config/ekf.yaml"),\n            {"use_sim_time": False},',
         (LAUNCH, 'ExecuteProcess(cmd=["gz", "sim", "-g"]),'),
         "write True",
-        'os.path.join(share, "config/ekf.yaml"),\n            {"use_sim_time": True},',
+        better='os.path.join(share, "config/ekf.yaml"),\n            '
+        '{"use_sim_time": True},',
+        by_hand=True,
     ),
     Mistake(
         "sim-time-off",
@@ -595,8 +576,8 @@ MISTAKES = [
         (LAUNCH, '{"use_sim_time": use_sim_time},'),
         (LAUNCH, 'ExecuteProcess(cmd=["gazebo", "-s", "libgazebo_ros_factory.so"]),'),
         "write True",
-        ((LAUNCH, 'default_value="False"', 'default_value="True"'),),
-        "classic",
+        fixed=((LAUNCH, 'default_value="False"', 'default_value="True"'),),
+        package="classic",
         count=2,
         name="by default",
     ),
@@ -607,7 +588,8 @@ MISTAKES = [
         "<wheel_diameter>0.2</wheel_diameter>",
         (MODEL, '<plugin filename="gz-sim-diff-drive-system" name='),
         "write <wheel_radius>, with half of it",
-        "<wheel_radius>0.1</wheel_radius>",
+        better="<wheel_radius>0.1</wheel_radius>",
+        by_hand=True,
     ),
     Mistake(
         "gazebo-generation",
@@ -623,14 +605,14 @@ MISTAKES = [
         (MODEL, '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu_plugin">'),
         (LAUNCH, 'ExecuteProcess(cmd=["gz sim"]),'),
         'write filename="gz-sim-imu-system" name="gz::sim::systems::Imu"',
-        (
+        fixed=(
             (
                 MODEL,
                 'filename="libgazebo_ros_imu_sensor.so" name="imu_plugin"',
                 'filename="gz-sim-imu-system" name="gz::sim::systems::Imu"',
             ),
         ),
-        "classic",
+        package="classic",
     ),
     Mistake(
         "gazebo-both",
@@ -644,7 +626,7 @@ MISTAKES = [
         (LAUNCH, 'Node(package="gazebo_ros", executable="spawn_entity.py"),'),
         (LAUNCH, "bridge = RosGzBridge("),
         "or gz_sim.launch.py and create of ros_gz_sim",
-        (
+        fixed=(
             (
                 LAUNCH,
                 'Node(package="gazebo_ros", executable="spawn_entity.py"),',
@@ -668,6 +650,7 @@ MISTAKES = [
         'os.path.join(share, "rviz", "urdf_config.rviz")',
         ("rviz/cart.rviz", ""),
         "write rviz/cart.rviz",
+        by_hand=True,
     ),
     one(
         "launch-file-missing",
@@ -678,6 +661,7 @@ MISTAKES = [
         "write config/ekf.yaml",
         package="classic",
         name="folder",
+        by_hand=True,
     ),
     Mistake(
         "launch-parameters-unread",
@@ -685,7 +669,7 @@ MISTAKES = [
         (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
         (EKF, "frequency: 30.0"),
         "write name='ekf_filter_node'",
-        ((LAUNCH, 'name="ekf_filter_node_odom"', 'name="ekf_filter_node"'),),
+        fixed=((LAUNCH, 'name="ekf_filter_node_odom"', 'name="ekf_filter_node"'),),
     ),
     one(
         "launch-world-name",
@@ -710,7 +694,6 @@ MISTAKES = [
             (LAUNCH, given),
             ("world/room.sdf", '<world name="room">'),
             "write room",
-            ((LAUNCH, "my_world", "room"),),
             name=name,
         )
         for name, given in (
@@ -732,7 +715,6 @@ MISTAKES = [
         ("package.xml", "<name>cart</name>"),
         (CMAKE, "project(cart_description)"),
         "write <name>cart_description</name>",
-        (("package.xml", "<name>cart</name>", "<name>cart_description</name>"),),
         name="in the manifest",
     ),
     *(
@@ -742,7 +724,7 @@ MISTAKES = [
             (CMAKE, at),
             ("", ""),
             advice,
-            ((CMAKE, new, better or old),),
+            fixed=((CMAKE, new, better or old),),
             name=name,
         )
         for name, old, new, at, advice, better in (
@@ -814,6 +796,7 @@ MISTAKES = [
         ("", ""),
         "delete plans here, or make that folder",
         name="with no near one",
+        by_hand=True,
     ),
     *(
         Mistake(
@@ -822,7 +805,6 @@ MISTAKES = [
             (CMAKE, f"DESTINATION {target}"),
             (LAUNCH, "import os"),
             "write share/${PROJECT_NAME}",
-            ((CMAKE, f"DESTINATION {target}", "DESTINATION share/${PROJECT_NAME}"),),
             name=target,
         )
         for target in (
@@ -854,7 +836,6 @@ MISTAKES = [
         (CMAKE, "DESTINATION lib"),
         (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
         "write share/${PROJECT_NAME}/config",
-        ((CMAKE, "lib/${PROJECT_NAME}", "share/${PROJECT_NAME}"),),
         name="below the package",
     ),
     Mistake(
@@ -863,7 +844,7 @@ MISTAKES = [
         ("CMakeLists.txt", "ament_package()"),
         (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
         "add install(DIRECTORY config DESTINATION share/${PROJECT_NAME})",
-        (
+        fixed=(
             (
                 "CMakeLists.txt",
                 "ament_package()",
@@ -878,7 +859,7 @@ MISTAKES = [
         ("CMakeLists.txt", "ament_package()"),
         (LAUNCH, "import os"),
         "add install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})",
-        (
+        fixed=(
             (
                 "CMakeLists.txt",
                 "ament_package()",
@@ -903,7 +884,6 @@ MISTAKES = [
         '"[ [0.1, 0.1], [0.1, -0.1], [-0.1, -0.1], [-0.1, 0.1] ]"',
         (MODEL, '<link name="${prefix}_link">'),
         'write "[ [0.21, 0.2], [0.21, -0.2], [-0.22, -0.2], [-0.22, 0.2] ]"',
-        '"[ [0.21, 0.2], [0.21, -0.2], [-0.22, -0.2], [-0.22, 0.2] ]"',
         name="polygon",
     ),
     one(
@@ -973,7 +953,11 @@ def test_a_mistake_is_found_at_both_places_and_its_fix_leaves_nothing(
     name = f"line {line}" if same else f"{Path(file).name} line {line}"
     assert (name if line else file) in problem.message
     assert mistake.advice in problem.hint
+    edits = [edit for problem in problems for edit in problem.edits]
+    assert bool(edits) != bool(mistake.fixed)
     apply(package, mistake.fixed)
+    for name, data in edited_files(edits).items():
+        Path(name).write_bytes(data)
     assert found(package) == []
 
 

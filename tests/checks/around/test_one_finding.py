@@ -508,6 +508,8 @@ def test_a_mesh_of_the_package_with_half_its_name_is_told_the_whole(
     copied: Copied,
 ) -> None:
     model = model_in(copied, "urdf")
+    # Packages of other tests are no neighbours of it.
+    (model.parents[2] / ".git").mkdir()
     mesh = model.parents[1] / "meshes/lidar.stl"
     mesh.parent.mkdir()
     mesh.write_text(

@@ -173,6 +173,48 @@ def test_a_wrong_number_in_a_sensor_refuses_the_robot_at_its_line() -> None:
     assert "sensor s of link a" in error.message
 
 
+NOISE = "<noise{}><type>{}</type></noise>"
+SCAN = """<scan><horizontal><samples>1</samples><min_angle>0</min_angle>
+<max_angle>1</max_angle></horizontal></scan><range><min>0</min><max>1</max></range>"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "content"),
+    [
+        ("gpu_lidar", f"<lidar>{SCAN}{NOISE.format('', 'gauss')}</lidar>"),
+        ("ray", f"<ray>{SCAN}{NOISE.format('', 'gauss')}</ray>"),
+        ("magnetometer", "<magnetometer><x><noise type='gauss'/></x></magnetometer>"),
+    ],
+)
+def test_an_unknown_noise_of_these_sensors_is_taken_for_none(
+    kind: str, content: str
+) -> None:
+    """libsdformat drops what it finds wrong with their noise."""
+    robot = load_robot(
+        sdf(f'<link name="a"><sensor name="s" type="{kind}">{content}</sensor></link>')
+    )
+
+    said, _ = robot.problems
+    assert (said.code, said.severity) == ("sdf-value-default", "info")
+    assert "'gaussian'" in said.message
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "<imu><angular_velocity><x><noise type='gauss'/></x></angular_velocity></imu>",
+        "<altimeter><vertical_position><noise type='gauss'/></vertical_position>"
+        "</altimeter>",
+    ],
+)
+def test_an_unknown_noise_of_other_sensors_refuses_the_robot(content: str) -> None:
+    kind = content[1 : content.index(">")]
+    sensor = f'<sensor name="s" type="{kind}">{content}</sensor>'
+    (error,) = refusal(sdf(f'<link name="a">{sensor}</link>'))
+
+    assert error.code == "sdf-value"
+
+
 def test_the_material_is_mixed_and_named_as_ros_does() -> None:
     visual = (
         '<visual name="v"><geometry><box/></geometry><material>'
@@ -401,6 +443,20 @@ def test_a_joint_that_is_its_own_child_is_refused() -> None:
     text = sdf(TWO + joint(kind="fixed").replace("<child>b", "<child>j"))
 
     assert "sdf-joint-to-frame" in {problem.code for problem in refusal(text)}
+
+
+def test_a_frame_that_is_to_be_a_link_is_told_to_become_one() -> None:
+    text = (
+        '<sdf version="1.8"><model name="r"><link name="a"/>\n'
+        '<frame name="f" attached_to="a"/>\n'
+        '<joint name="j" type="fixed"><pose relative_to="a">0 0 1 0 0 0</pose>'
+        "<parent>a</parent><child>f</child></joint></model></sdf>"
+    )
+    (problem,) = (p for p in refusal(text) if p.code == "sdf-joint-to-frame")
+    link = '<link name="f"><pose relative_to="j"/></link>'
+    assert problem.hint == f"make it a link: write {link} for the <frame> in line 2"
+    better = text.replace('<frame name="f" attached_to="a"/>', link)
+    assert load_robot(better).problems == ()
 
 
 def test_a_nested_model_without_links_is_refused() -> None:

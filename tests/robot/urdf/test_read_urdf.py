@@ -155,6 +155,16 @@ def test_a_mistake_that_ros_accepts_is_drawn_and_reported(
     assert all(p.hint for p in problems)
 
 
+@pytest.mark.parametrize("leader", ["zz", "j", "i"])
+def test_the_mimic_of_a_joint_that_cannot_move_is_read_by_nobody(leader: str):
+    """joint_state_publisher skips the joint before it looks at <mimic>."""
+    text = joint(f'<mimic joint="{leader}"/>', 'type="fixed"')
+    other = joint("", 'name="i" type="fixed"').partition("<joint")[2]
+    other = other.replace('name="j" ', "").replace('"b"', '"c"')
+    robot = load(f'{text}<link name="c"/><joint {other}')
+    assert (set(robot.joints), robot.problems) == ({"i", "j"}, ())
+
+
 @pytest.mark.parametrize(
     ("text", "code", "severity"),
     [

@@ -96,8 +96,17 @@ def test_a_sensor_in_a_link_is_sent_into_a_gazebo_element_of_the_link() -> None:
     assert not found(URDF.replace("</robot>", f"{before}{sensor}</gazebo></robot>"))
 
 
-def test_a_sensor_of_urdf_is_left_alone() -> None:
-    sensor = '<sensor name="s"><parent link="base"/></sensor>'
+@pytest.mark.parametrize(
+    ("kind", "parent"),
+    [
+        ("", '<parent link="base"/>'),
+        ('type="accelerometer"', '<parent link="base"/>'),
+        ('type="force_torque"', '<parent joint="j"/>'),
+    ],
+)
+def test_a_sensor_of_urdf_is_left_alone(kind: str, parent: str) -> None:
+    """iDynTree reads such sensors, with and without a type."""
+    sensor = f'<sensor name="s" {kind}>{parent}</sensor>'
     assert not found(URDF.replace("</robot>", f"{sensor}</robot>"))
 
 

@@ -9,13 +9,15 @@ robot or a node that is not looked at.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Problem
 
 if TYPE_CHECKING:
+    from sambot_viz.checks.around.rules import Check
+    from sambot_viz.checks.around.surroundings import Surroundings
     from sambot_viz.checks.around.workspace import Package
     from sambot_viz.robot.model import Robot
 
@@ -30,18 +32,23 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     if not subject.packages and not robot.gazebo:
         return
     # The import is late: most models have nothing for these rules.
-    from sambot_viz.checks.around.rules import IN_MODEL, OF_FILES, OF_ROBOT
+    from sambot_viz.checks.around.other_robots import of_this_robot
+    from sambot_viz.checks.around.rules import IN_MODEL, OF_FILES, OF_ROBOT, OF_ROS2
     from sambot_viz.checks.around.surroundings import Surroundings
 
     if any(p.code in _INCOMPLETE for p in robot.problems):
         # A part of the robot is missing, and with it what others name.
         return
+    # Packages for the other ROS are not started together with that of the model.
+    is_ros1 = bool(subject.packages) and subject.packages[0].is_ros1
+    packages = tuple(p for p in subject.packages if p.is_ros1 == is_ros1)
+    left_out = OF_ROS2 if is_ros1 else ()
     for rule in IN_MODEL:
-        yield from rule(robot)
-    if subject.packages and not _is_part(robot):
-        around = Surroundings(robot, subject.packages)
-        for check in (*OF_FILES, *OF_ROBOT):
-            yield from check(around)
+        if rule not in left_out:
+            yield from rule(robot)
+    if packages and not _is_part(robot):
+        around = Surroundings(robot, packages)
+        yield from of_this_robot(around, _found((*OF_FILES, *OF_ROBOT), around))
 
 
 def wrong_files(package: Package) -> Iterator[Problem]:
@@ -49,9 +56,7 @@ def wrong_files(package: Package) -> Iterator[Problem]:
     from sambot_viz.checks.around.rules import OF_FILES
     from sambot_viz.checks.around.surroundings import Surroundings
 
-    around = Surroundings(None, (package,))
-    for check in OF_FILES:
-        yield from check(around)
+    yield from _found(OF_FILES, Surroundings(None, (package,)))
 
 
 def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
@@ -64,9 +69,16 @@ def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
     from sambot_viz.checks.around.rules import OF_BUILD
     from sambot_viz.checks.around.surroundings import Surroundings
 
-    around = Surroundings(robot, (package,))
-    for check in OF_BUILD:
-        yield from check(around)
+    yield from _found(OF_BUILD, Surroundings(robot, (package,)))
+
+
+def _found(checks: Iterable[Check], around: Surroundings) -> Iterator[Problem]:
+    from sambot_viz.checks.around.rules import OF_ROS2
+
+    left_out = OF_ROS2 if around.is_ros1 else ()
+    for check in checks:
+        if check not in left_out:
+            yield from check(around)
 
 
 def _is_part(robot: Robot) -> bool:

@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import pairs, place_of
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.unreadable import parameter_files
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _TYPES = ("ros_type_name", "gz_type_name")
@@ -46,7 +47,7 @@ def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
                     "bridge-entry",
                     f"the bridge does not know the direction {way.value}: it leaves "
                     "this topic out",
-                    f"write direction: {near}",
+                    write(way.place, way.value, near, hint=f"write direction: {near}"),
                 )
 
 
@@ -91,7 +92,7 @@ def _misspelt_keys(entry: dict[str, Fact]) -> Iterator[Problem]:
                 "error" if near in _TYPES else "warning",
                 "bridge-entry",
                 f"the bridge does not know the key {key}: {follows}",
-                f"write {near}",
+                write(fact.place, key, near),
             )
 
 

@@ -11,12 +11,24 @@ from sambot_viz.checks.around.manifest import named_as_its_folder
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
 _NOT_MEANT = frozenset({"build", "install", "log", ".git"})
 _UNKNOWN = frozenset({"include", "macro", "function", "add_subdirectory"})
+_WITHOUT_AMENT = frozenset(
+    """
+    assimp benchmark blas boost bullet catkin ceres cgal curl curses doxygen eigen
+    eigen3 fcl fmt freetype git glew glfw3 glm glog glut gtest jsoncpp lapack
+    libusb libxml2 nlohmann_json octomap ompl opencv opengl openmp openssl orocos_kdl
+    pcl pkgconfig protobuf python python3 pythoninterp pythonlibs qt5 qt6 sdl sdl2
+    spdlog sqlite3 threads tinyxml tinyxml2 urdfdom urdfdom_headers vtk x11 yaml-cpp
+    zlib
+    """.split()
+)
+"""What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
@@ -43,7 +55,7 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
         for command in cmake.commands
         if command.name == "find_package" and command.words
     }
-    finds = any(name.startswith("ament_cmake") for name in found)
+    finds = any(name.lower() not in _WITHOUT_AMENT for name in found)
     if not cmake.is_package and "ament_cmake" in found and cmake.certain("install"):
         last = cmake.commands[-1]
         yield _missing_command(
@@ -79,7 +91,12 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
                 "error",
                 "install-folder-as-file",
                 f"install(FILES … ) is given {_kinds(folders)}: colcon build stops",
-                "write DIRECTORY for FILES",
+                write(
+                    cmake.place(command.line),
+                    "FILES",
+                    "DIRECTORY",
+                    hint="write DIRECTORY for FILES",
+                ),
             )
 
 
@@ -115,7 +132,9 @@ def _missing(cmake: CMakeFile, word: CMakeWord, near: str | None) -> Problem:
         "install-folder-missing",
         f"the folder {name} is to be installed, but the package does not have it{has}: "
         "colcon build stops",
-        f"write {near}" if near else f"delete {name} here, or make that folder",
+        write(cmake.place(word.line), name, near)
+        if near
+        else f"delete {name} here, or make that folder",
     )
 
 
@@ -165,12 +184,14 @@ def project_name(around: Surroundings) -> Iterator[Problem]:
         place, second = other, here
         says = f"package.xml calls the package {name}, but files of it are used from "
         says += f"{project.text}, as CMakeLists.txt calls it"
-        hint = f"write <name>{project.text}</name>"
+        hint = write(
+            place, name or "", project.text, hint=f"write <name>{project.text}</name>"
+        )
     else:
         place, second = here, other
         says = f"CMakeLists.txt calls the package {project.text}, "
         says += f"package.xml calls it {name}"
-        hint = f"write project({name})"
+        hint = write(place, project.text, name or "", hint=f"write project({name})")
     yield Problem.at(
         place,
         "error",

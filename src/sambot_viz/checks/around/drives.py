@@ -10,6 +10,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.wheel_joints import meant_wheel, side_in
 from sambot_viz.checks.rule import axis_text, listed, number
+from sambot_viz.edits import rename_element, together, write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
@@ -56,7 +57,7 @@ def misspelt_elements(robot: Robot) -> Iterator[Problem]:
                     "gazebo-element-unknown",
                     f"{plugin.filename} ({where(plugin.element.place, child.place)}) "
                     f"does not read <{child.tag}>: it uses its own default",
-                    f"write <{near}>",
+                    rename_element(child.place, child.tag, near, f"write <{near}>"),
                 )
 
 
@@ -152,7 +153,9 @@ def _driven_twice(
         f"{wrong.joint.name} is the left joint and the right joint "
         f"({where(other.fact.place, wrong.fact.place)}): the robot cannot turn, and "
         f"the {side} wheel is not driven",
-        f"write {near}" if near else f"write the joint of the {side} wheel",
+        write(wrong.fact.place, wrong.fact.value, near)
+        if near
+        else f"write the joint of the {side} wheel",
     )
 
 
@@ -169,7 +172,11 @@ def _exchanged(left: _DriveWheel, right: _DriveWheel) -> Problem | None:
         f"{number(left.y)} m ({where(left.joint.place, of.place)}), and that of "
         f"{right.joint.name} ({where(right.fact.place, of.place)}) on the left: the "
         "robot turns the wrong way",
-        f"exchange {name} and {right.joint.name}",
+        together(
+            f"exchange {name} and {right.joint.name}",
+            write(of.place, name, right.joint.name),
+            write(right.fact.place, right.joint.name, name),
+        ),
     )
 
 

@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.navigation import is_open
 from sambot_viz.checks.around.parameter_types import type_of
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -123,5 +124,5 @@ def _misspelt(
             "footprint-text",
             f"{node} reads footprint or robot_radius and not {parameter.name}: it "
             "takes the robot for a circle of 0.1 m",
-            f"write {near}",
+            write(parameter.place, parameter.name, near),
         )

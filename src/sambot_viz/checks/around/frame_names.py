@@ -23,6 +23,7 @@ from sambot_viz.checks.around.navigation import (
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _BASES: dict[str, tuple[str, ...]] = {
@@ -43,8 +44,10 @@ _ODOMS: dict[str, tuple[str, ...]] = {
 """Parameter for the frame of odometry → the nodes that have it."""
 
 _DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
-_DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
+DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
+"""Elements in which a drive names the frame of odometry."""
 _NO_BASE = frozenset({"map", "odom", "world"})
+"""Frames that are no part of a robot; sensors may report in them."""
 
 
 def unknown_frames(around: Surroundings) -> Iterator[Problem]:
@@ -70,19 +73,22 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             "frame-unknown",
             f"{user} uses the frame {name}, which is not a link of the model: it has "
             f"{near} ({where(links[near].place, fact.place)})",
-            f"write {near}",
+            write(fact.place, fact.value, near),
         )
 
 
 def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     """Give each frame of the robot, who names it, and the link it probably is."""
     for plugin in around.plugins:
-        tags = _DRIVE_BASES if plugin.is_drive else ()
-        for fact in plugin.all(*tags, *(SENSOR_FRAMES if plugin.sensor else ())):
+        for fact in plugin.all(*(_DRIVE_BASES if plugin.is_drive else ())):
             yield fact, f"the plugin {plugin.filename}", plugin.link
+        for fact in plugin.all(*(SENSOR_FRAMES if plugin.sensor else ())):
+            if bare_frame(fact.value) not in _NO_BASE:
+                yield fact, f"the plugin {plugin.filename}", plugin.link
     for link, sensor in sensors(around.robot.gazebo):
         for fact in facts(sensor, *SENSOR_FRAMES):
-            yield fact, f"the sensor {sensor.get('name')}", link
+            if bare_frame(fact.value) not in _NO_BASE:
+                yield fact, f"the sensor {sensor.get('name')}", link
     for one in filters(around):
         if "base_link_frame" in one.given:
             yield one.given["base_link_frame"].fact, one.node, ""
@@ -118,7 +124,9 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
                 f"{joint.child}, but in the model {joint.child} hangs at "
                 f"{joint.parent} ({where(joint.place, fact.place)}): a frame has only "
                 "one parent, and the robot flickers between both",
-                f"write {around.robot.root}, the root of the model",
+                write(
+                    fact.place, fact.value, around.robot.root, ", the root of the model"
+                ),
             )
 
 
@@ -131,7 +139,7 @@ def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     for plugin in around.plugins:
         fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
         if fact is not None and drive_tf(around, plugin) is not None:
-            odom = plugin.one(*_DRIVE_ODOMS)
+            odom = plugin.one(*DRIVE_ODOMS)
             name = bare_frame(odom.value) if odom is not None else "odom"
             yield fact, f"the plugin {plugin.filename}", name
 
@@ -155,7 +163,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
                 f"the transform from {one.world_frame} to {base.value} is published "
                 f"twice: by {plugin.filename} because of this line, and by {one.node} "
                 f"({where(other, told.place)}): the robot jumps between both",
-                "write false"
+                write(told.place, told.value, "false")
                 if plugin.generation == "classic"
                 else "delete this entry of the bridge",
             )
@@ -186,7 +194,7 @@ def odometry_frames(around: Surroundings) -> Iterator[Problem]:
             "frame-odom",
             f"{user} takes {name} for the frame of odometry, but {source} publishes "
             f"it as {bare_frame(right.value)} ({where(right.place, fact.place)})",
-            f"write {bare_frame(right.value)}",
+            write(fact.place, fact.value, bare_frame(right.value)),
         )
 
 
@@ -195,7 +203,7 @@ def _published_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
         if one.moves_base and "odom_frame" in one.given and not _is_odd(around, one):
             yield one.given["odom_frame"].fact, one.node
     for plugin in around.plugins:
-        fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+        fact = plugin.one(*DRIVE_ODOMS) if plugin.is_drive else None
         if fact is not None and drive_tf(around, plugin) is not None:
             yield fact, f"the plugin {plugin.filename}"
 
@@ -209,7 +217,7 @@ def _used_odoms(around: Surroundings) -> Iterator[tuple[Fact, str]]:
     for one in filters(around):
         fused = (p for p in one.inputs("odom") if one.fuses(p, range(6)))
         for plugin in around.plugins if any(fused) else ():
-            fact = plugin.one(*_DRIVE_ODOMS) if plugin.is_drive else None
+            fact = plugin.one(*DRIVE_ODOMS) if plugin.is_drive else None
             if fact is not None and one.started:
                 yield fact, f"the plugin {plugin.filename}"
 
@@ -230,7 +238,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
                 f"odom_frame is {one.odom_frame}, but world_frame is {one.world_frame} "
                 f"({where(world.place, other.place)}), and so it is for "
                 f"{listed(dict.fromkeys(users))}: {one.node} publishes no transform",
-                f"write {one.world_frame}",
+                write(other.place, other.fact.value, one.world_frame),
             )
             continue
         what = where(other.place, world.place) if other else "the default"
@@ -241,7 +249,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
             f"world_frame is {one.world_frame}, but it has to be the odom_frame "
             f"{one.odom_frame} ({what}) or the map_frame {one.map_frame}: {one.node} "
             "publishes no transform",
-            f"write {one.odom_frame}",
+            write(world.place, world.fact.value, one.odom_frame),
         )
 
 
@@ -271,6 +279,7 @@ def planes(around: Surroundings) -> Iterator[Problem]:
         mode = one.given.get("two_d_mode")
         place = mode.place if mode else _line_of(one)
         other = planar.given["two_d_mode"].place
+        hint = "write two_d_mode: true"
         yield Problem.at(
             place,
             "warning",
@@ -278,7 +287,7 @@ def planes(around: Surroundings) -> Iterator[Problem]:
             f"{one.node} may leave the floor, because its two_d_mode is false"
             f"{'' if mode else ' by default'}, but that of {planar.node} is true "
             f"({where(other, place)}): the robot tilts between both",
-            "write two_d_mode: true",
+            write(place, mode.fact.value, "true", hint=hint) if mode else hint,
         )
 
 

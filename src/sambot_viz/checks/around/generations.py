@@ -10,6 +10,7 @@ from sambot_viz.checks.around.files.gazebo import Generation, Plugin
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import attributes
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
 
 _NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
@@ -124,5 +125,5 @@ def xacro_py(around: Surroundings) -> Iterator[Problem]:
                     "launch-xacro-py",
                     f"xacro.py is of ROS 1, but this package is for ROS 2 "
                     f"({build[1]} in {where(other, place)}): it does not exist there",
-                    "write xacro",
+                    write(place, "xacro.py", "xacro"),
                 )

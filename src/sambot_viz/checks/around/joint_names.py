@@ -10,7 +10,8 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.wheel_joints import Side, meant_wheel, side_in
 from sambot_viz.checks.rule import listed
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.edits import write, write_attribute
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.xml.element import Element
@@ -82,16 +83,16 @@ def _unknown_joints(
             )
             wheel = meant_wheel(robot, "", user.side, user.taken)[0]
             hint = (
-                f"write {wheel}"
+                write(fact.place, fact.value, wheel)
                 if wheel is not None and user.side
-                else 'write type="continuous" for that joint'
+                else Fix('write type="continuous" for that joint')
             )
         else:
             message, hint = _unknown(robot, fact, user)
-        if joint is not None and (hint, joint.place) in said:
+        if joint is not None and (hint.hint, joint.place) in said:
             # A macro has made both joints.
             continue
-        said.add((hint, joint.place if joint is not None else None))
+        said.add((hint.hint, joint.place if joint is not None else None))
         yield Problem.at(fact.place, "warning", "gazebo-joint", message, hint)
 
 
@@ -133,7 +134,7 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
                 yield fact, _User("<ros2_control>", drives=False)
 
 
-def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
+def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
     wheels: list[str] = []
     if user.drives:
         near, wheels = meant_wheel(robot, fact.value, user.side, user.taken)
@@ -142,7 +143,7 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
             return (
                 f"{user.name} names the joint {fact.value}, which does not exist: the "
                 f"model has {listed(wheels)}",
-                f"write the joint of the {side}wheel",
+                Fix(f"write the joint of the {side}wheel"),
             )
     else:
         near = nearest(fact.value, robot.joints)
@@ -155,7 +156,7 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, str]:
     return (
         f"{user.name} names the joint {fact.value}, which does not exist: {what} "
         f"({where(place, fact.place)})",
-        f"write {near}" if near else "delete it",
+        write(fact.place, fact.value, near) if near else Fix("delete it"),
     )
 
 
@@ -192,7 +193,7 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
             "gazebo-reference",
             f"<gazebo> refers to {name}, which does not exist{has}; Gazebo ignores its "
             f"{lost}",
-            f"write {near}"
+            write_attribute(part.place, "reference", name, near, hint=f"write {near}")
             if near
             else f"write the link that it belongs to, such as {robot.root}",
         )

@@ -13,9 +13,10 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
-_OWN_NAMES = {
+OWN_NAMES = {
     "ekf_node": "ekf_filter_node",
     "ukf_node": "ukf_filter_node",
     "navsat_transform_node": "navsat_transform",
@@ -76,7 +77,7 @@ def _is_missing(below: str, package: Package) -> bool:
 def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:
     """The one file with parameters for the node that is given a missing one."""
     for node in launch.nodes:
-        name = node.name or _OWN_NAMES.get(node.executable)
+        name = node.name or OWN_NAMES.get(node.executable)
         if name and any(given.value == fact.value for given in node.files):
             files = (file for file in package.yaml_files if file.nodes)
             fitting = [file.path for file in files if _has(file, name)]
@@ -107,7 +108,7 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
     files = {file.shown: file for file in around.yaml_files}
     for launch in around.launches:
         for node in launch.nodes:
-            name = node.name or _OWN_NAMES.get(node.executable)
+            name = node.name or OWN_NAMES.get(node.executable)
             for given in node.files if node.complete and name else ():
                 file = files.get(around.shown(given.value) or "")
                 if file is not None and name and not _has(file, name):
@@ -129,7 +130,12 @@ def _unread(node: LaunchNode, name: str, given: Fact, file: YamlFile) -> Problem
         "launch-parameters-unread",
         f"the node {name} reads none of these parameters: they are for {near} "
         f"({where(place, given.place)})",
-        f"write name='{bare}' for the node, or {name}: in the file",
+        write(
+            node.place,
+            name,
+            bare,
+            hint=f"write name='{bare}' for the node, or {name}: in the file",
+        ),
     )
 
 
@@ -140,14 +146,24 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
         named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
         for fact in named:
             (name, place), *_ = worlds.items()
-            if fact.value != name:
+            if fact.value != name and " " in name:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-world-name",
+                    f"the name of the world, {name}, has a blank, which names in "
+                    f"Gazebo must not have; {where(fact.place, place)} puts the robot "
+                    f"into {fact.value}: it does not appear",
+                    f'write name="{fact.value}"',
+                )
+            elif fact.value != name:
                 yield Problem.at(
                     fact.place,
                     "warning",
                     "launch-world-name",
                     f"the robot is put into the world {fact.value}, but the world is "
                     f"called {name} ({where(place, fact.place)}): it does not appear",
-                    f"write {name}",
+                    write(fact.place, fact.value, name),
                 )
 
 

@@ -13,7 +13,8 @@ from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.errors import Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Problem
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
@@ -41,11 +42,13 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
     )
 
 
-def _reason(one: StateFilter) -> tuple[Parameter, str] | None:
+def _reason(one: StateFilter) -> tuple[Parameter, Fix] | None:
     publishes, world = one.given.get("publish_tf"), one.given.get("world_frame")
     if publishes is not None and publishes.flag is False:
-        return publishes, "write true"
-    return None if world is None else (world, f"write {one.odom_frame}")
+        return publishes, write(publishes.value_place, publishes.fact.value, "true")
+    if world is None:
+        return None
+    return world, write(world.place, world.fact.value, one.odom_frame)
 
 
 def _user(around: Surroundings, odom: str) -> Parameter | None:

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
-from sambot_viz.errors import Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.element import Element
 
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
@@ -26,19 +27,19 @@ _PARTS = frozenset(
 
 def setup_name(around: Surroundings) -> Iterator[Problem]:
     """Compare the name in setup.py with the one in the package.xml beside it."""
-    name, tree = around.files.name, around.files.setup
-    for node in ast.walk(tree) if tree is not None else ():
+    name, setup = around.files.name, around.setup
+    for node in ast.walk(setup.tree) if setup is not None else ():
         named = _assigned_name(node)
         if named is None or named[0] == name:
             continue
-        yield Problem(
+        place = Place(around.files.shown("setup.py"), named[1])
+        yield Problem.at(
+            place,
             "error",
             "setup-py-name",
             f"setup.py calls the package {named[0]}, package.xml calls it "
             f"{name}: colcon and ros2 launch will not find it",
-            f"write {name} here",
-            around.files.shown("setup.py"),
-            named[1],
+            write(place, named[0], name, " here"),
         )
         return
 
@@ -68,6 +69,9 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
     """Report a name like that of the package, in a file without the right name."""
     for package in around.packages:
         others = around.names | _dependencies(package.manifest)
+        if package.cmake is not None and package.cmake.project is not None:
+            # Where they ask for the name there, that of package.xml is wrong.
+            others |= {package.cmake.project.text}
         for launch in package.launches:
             asked = [
                 (text, call)
@@ -80,13 +84,14 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
                 continue
             for text, call in asked:
                 if text not in others and _alike(text, package.name):
+                    place = launch.place(call)
                     yield Problem.at(
-                        launch.place(call),
+                        place,
                         "error",
                         "launch-package-unknown",
                         f"the launch file asks for the package {text}, but the package "
                         f"here is called {package.name} (package.xml)",
-                        f"write {package.name}",
+                        write(place, text, package.name),
                     )
                     break
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import yaml
 
 from sambot_viz.checks.around.files.parameters import Parameter, flag, place_of
 from sambot_viz.checks.around.navigation import filters
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem
 
 Type = Literal["double", "integer", "bool", "string", "list", "none"]
 
@@ -67,7 +68,7 @@ class _Repair(NamedTuple):
 
     place: Place
     written: str
-    hint: str
+    hint: str | Fix
 
 
 def parameter_types(around: Surroundings) -> Iterator[Problem]:
@@ -131,11 +132,11 @@ def _repair(parameter: Parameter, wanted: Type, around: Surroundings) -> _Repair
         return _Repair(place, "a list", f"write {_WANTED[wanted]}")
     better = _converted(text, wanted)
     if better is None:
-        hint = f"write {_WANTED[wanted]}"
+        hint = Fix(f"write {_WANTED[wanted]}")
     else:
-        hint = f"write {better}"
-        if kind == "string" and text == better:
-            hint += " without quotation marks"
+        marks = " without quotation marks"
+        more = marks if kind == "string" and text == better else ""
+        hint = _instead(parameter.written, place.file, better, f"write {better}{more}")
     return _Repair(place, _as_written(parameter.written, kind), hint)
 
 
@@ -204,7 +205,17 @@ def _truth(item: yaml.ScalarNode, file: str) -> _Repair:
     if better is None:
         return _Repair(place, written, "write true or false")
     marks = " without quotation marks" if better == item.value else ""
-    return _Repair(place, written, f"write {better}{marks}")
+    hint = _instead(item, file, better, f"write {better}{marks}")
+    return _Repair(place, written, hint)
+
+
+def _instead(node: yaml.Node, file: str, right: str, hint: str) -> Fix:
+    """Return the fix that writes another value; a list is left to the user."""
+    if not isinstance(node, yaml.ScalarNode):
+        return Fix(hint)
+    end: Any = node.end_mark
+    behind = Place(file, end.line + 1, end.column + 1)
+    return write_between(place_of(node, file), behind, right, hint)
 
 
 def type_of(node: yaml.Node) -> Type:

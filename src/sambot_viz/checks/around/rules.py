@@ -13,6 +13,7 @@ from sambot_viz.checks.around.bridge_files import (
 )
 from sambot_viz.checks.around.bridge_types import (
     bridge_types,
+    topics_of_other_types,
     unknown_bridge_types,
     wrong_data_types,
 )
@@ -35,6 +36,7 @@ from sambot_viz.checks.around.drives import (
     wrong_sides,
     wrong_sides_of_controllers,
 )
+from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
 from sambot_viz.checks.around.frame_names import (
@@ -60,8 +62,17 @@ from sambot_viz.checks.around.joint_names import (
 from sambot_viz.checks.around.joint_states import no_joint_states
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
+    missing_commas,
     missing_entries,
     unknown_names,
+)
+from sambot_viz.checks.around.launch_nodes import (
+    arguments_without_list,
+    descriptions,
+    namespaces,
+    parameters_left_out,
+    rviz_without_option,
+    state_publishers,
 )
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
@@ -77,10 +88,16 @@ from sambot_viz.checks.around.launch_uses import (
     unknown_programs,
     unused_actions,
 )
-from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
+from sambot_viz.checks.around.manifest import (
+    build_types,
+    incomplete_manifest,
+    misspelt_dependencies,
+    unreadable_manifest,
+)
 from sambot_viz.checks.around.nav2_sections import (
     frames_with_slash,
     odd_clocks,
+    unknown_plugins,
     unknown_sections,
     unread_sections,
 )
@@ -93,6 +110,13 @@ from sambot_viz.checks.around.sensors import (
     lidars_of_the_other,
     sensor_values,
     sensors_without_link,
+    unknown_types,
+)
+from sambot_viz.checks.around.setup_files import (
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
 )
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -100,6 +124,7 @@ from sambot_viz.checks.around.systems import (
     both_generations,
     malformed_numbers,
     unknown_classes,
+    unknown_files,
 )
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -108,7 +133,11 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_yaml,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
-from sambot_viz.checks.around.world_systems import missing_systems
+from sambot_viz.checks.around.world_systems import (
+    missing_systems,
+    plugins_of_worlds,
+    unreadable_worlds,
+)
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -120,8 +149,10 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     misspelt_elements,
     both_generations,
     unknown_classes,
+    unknown_files,
     malformed_numbers,
     sensors_without_link,
+    unknown_types,
     lidars_of_the_other,
     sensor_values,
     frames_of_sensors,
@@ -134,10 +165,16 @@ Check = Callable[[Surroundings], Iterable[Problem]]
 OF_BUILD: tuple[Check, ...] = (
     unreadable_cmake,
     unreadable_manifest,
+    incomplete_manifest,
+    misspelt_dependencies,
     build_types,
     missing_commands,
     folders_as_files,
     setup_name,
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
     xacro_py,
     project_name,
     missing_folders,
@@ -157,6 +194,7 @@ OF_FILES: tuple[Check, ...] = (
     parameter_types,
     unreadable_footprints,
     unread_sections,
+    unknown_plugins,
     unknown_sections,
     frames_with_slash,
     odd_clocks,
@@ -164,6 +202,13 @@ OF_FILES: tuple[Check, ...] = (
     empty_launch_files,
     missing_entries,
     unknown_names,
+    missing_commas,
+    arguments_without_list,
+    descriptions,
+    rviz_without_option,
+    parameters_left_out,
+    state_publishers,
+    namespaces,
     unused_actions,
     undeclared_arguments,
     unknown_programs,
@@ -174,12 +219,15 @@ OF_FILES: tuple[Check, ...] = (
     times_as_text,
     spawned_topics,
     planes,
+    inputs_without_config,
     unknown_bridge_types,
     different_clocks,
     started_twice,
     missing_files,
     unread_parameters,
     world_names,
+    unreadable_worlds,
+    plugins_of_worlds,
 )
 """The rules about launch files and parameters, with or without a robot."""
 
@@ -193,6 +241,7 @@ OF_ROBOT: tuple[Check, ...] = (
     odometry_frames,
     world_frames,
     unpublished_odometry,
+    topics_of_other_types,
     unknown_topics,
     wrong_data_types,
     bridge_types,
@@ -208,3 +257,20 @@ OF_ROBOT: tuple[Check, ...] = (
     footprints,
 )
 """The rules about a robot and the files around it."""
+
+OF_ROS2: frozenset[Callable[..., Iterable[Problem]]] = frozenset(
+    (*OF_BUILD, *OF_FILES, *OF_ROBOT)
+) - {
+    unreadable_yaml,
+    unreadable_cmake,
+    unreadable_manifest,
+    setup_name,
+    unknown_packages,
+    no_joint_states,
+} | {
+    misspelt_elements,
+    both_generations,
+    unknown_classes,
+    lidars_of_the_other,
+}
+"""The rules that know only the plugins, parameters and launch files of ROS 2."""

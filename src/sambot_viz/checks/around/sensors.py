@@ -13,13 +13,18 @@ from sambot_viz.checks.around.files.gazebo import (
     sensors,
 )
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
-from sambot_viz.errors import Problem
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import together, write
+from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
+_LIKENESS = 0.75
 _FULL_TURN = 2 * math.pi + 0.01
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
@@ -98,6 +103,23 @@ def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
             )
 
 
+def unknown_types(robot: Robot) -> Iterator[Problem]:
+    """Report types of sensors that are almost one of Gazebo's."""
+    known = vocabulary("sensor_types")
+    for _, sensor in sensors(robot.gazebo):
+        kind = (sensor.get("type") or "").strip().removesuffix("_sensor")
+        near = None if kind in known else nearest(kind.lower(), known, _LIKENESS)
+        if near is not None:
+            yield Problem.at(
+                sensor.place,
+                "warning",
+                "gazebo-sensor",
+                f'Gazebo has no sensors of type "{kind}": it leaves {_named(sensor)} '
+                "out",
+                f'write type="{near}"',
+            )
+
+
 def sensor_values(robot: Robot) -> Iterator[Problem]:
     """Report angles of sensors in degrees, and limits that are exchanged."""
     for _, sensor in sensors(robot.gazebo):
@@ -109,14 +131,15 @@ def sensor_values(robot: Robot) -> Iterator[Problem]:
 
 
 def _in_degrees(sensor: Element, fact: Fact, degrees: float) -> Problem:
-    return Problem.at(
+    clues = {"size", "usual degrees"} if usual_degrees(degrees) else {"size"}
+    return guess(
         fact.place,
-        "warning",
         "gazebo-sensor",
         f"{fact.value} is more than a full turn for the sensor {_named(sensor)} "
         f"({where(sensor.place, fact.place)}): it looks like degrees, but Gazebo "
         "reads radians",
-        f"write {number(math.radians(degrees))}",
+        write(fact.place, fact.value, number(math.radians(degrees))),
+        clues,
     )
 
 
@@ -134,7 +157,11 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
                 f"<{low}> of the sensor {_named(sensor)} is {number(one)} m, and "
                 f"<{high}> ({where(most[0].place, least[0].place)}) is less: nothing "
                 "is in its range",
-                f"exchange {number(one)} and {number(other)}",
+                together(
+                    f"exchange {number(one)} and {number(other)}",
+                    write(least[0].place, least[0].value, most[0].value),
+                    write(most[0].place, most[0].value, least[0].value),
+                ),
             )
 
 
@@ -157,7 +184,7 @@ def frames_of_sensors(robot: Robot) -> Iterator[Problem]:
                 f"{fact.value}, which carries {_named(other)} "
                 f"({where(other.place, fact.place)}): what it sees is drawn in the "
                 "wrong place",
-                f"write {link}",
+                write(fact.place, fact.value, link),
             )
 
 

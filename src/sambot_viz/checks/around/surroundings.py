@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
+from sambot_viz.checks.around.files.setup_py import SetupFile
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
@@ -83,6 +84,11 @@ class Surroundings:
         return self.files.manifest
 
     @property
+    def is_ros1(self) -> bool:
+        """True when catkin alone builds the package: it is not for ROS 2."""
+        return self.files.is_ros1
+
+    @property
     def cmake(self) -> CMakeFile | None:
         """CMakeLists.txt; None when there is none, or a very long one."""
         return self.files.cmake
@@ -91,6 +97,11 @@ class Surroundings:
     def names(self) -> frozenset[str]:
         """The names of the packages."""
         return frozenset(package.name for package in self.packages)
+
+    @property
+    def setup(self) -> SetupFile | None:
+        """setup.py; None when there is none that is Python, or a very long one."""
+        return self.files.setup
 
     @cached_property
     def namespaced(self) -> bool:
@@ -131,7 +142,28 @@ class Surroundings:
         named = self.named(path)
         return None if named is None else named[0].text(named[1])
 
-    def said_elsewhere(self, name: str, *, as_topic: bool = False) -> bool:
+    @cached_property
+    def _own_names(self) -> frozenset[str]:
+        """The names of the files of the robot."""
+        files = self.known.files if self.known is not None else ()
+        return frozenset(file.name for file in files)
+
+    @cached_property
+    def _unlaunched(self) -> frozenset[tuple[Package, str]]:
+        """Other models that no launch file names, where one names this one."""
+        said = [text for launch in self.launches for text in launch.strings]
+        if not any(text.endswith(tuple(self._own_names)) for text in said):
+            return frozenset()
+        return frozenset(
+            (package, path)
+            for package in self.packages
+            for path in package.ending(*_MODELS)
+            if not any(path.rpartition("/")[2] in text for text in said)
+        )
+
+    def said_elsewhere(
+        self, name: str, *, as_topic: bool = False, launched: bool = False
+    ) -> bool:
         """Tell whether a launch file, a program or another model says this name.
 
         A node or a robot that is not looked at may then have it.
@@ -140,6 +172,7 @@ class Surroundings:
             name: of a topic, a node or a frame.
             as_topic: of a model count only topics, whole: neither the frame of a
                 <frame_id>, nor the end of a longer topic.
+            launched: leave out models that no launch file names.
         """
         bare = name.strip("/")
         if any(
@@ -151,12 +184,13 @@ class Surroundings:
         end = rf"{re.escape(bare)}[\"'< ]"
         in_program = re.compile(rf"[\"'>/ ]{end}")
         in_model = re.compile(rf"{_AS_TOPIC}{end}") if as_topic else in_program
-        own = {file.name for file in self.known.files} if self.known else set[str]()
         for package in self.packages:
             for path in package.ending(*_SOURCES, *_MODELS):
                 is_model = path.endswith(_MODELS)
+                if launched and (package, path) in self._unlaunched:
+                    continue
                 if path.endswith("launch.py") or (
-                    is_model and path.rpartition("/")[2] in own
+                    is_model and path.rpartition("/")[2] in self._own_names
                 ):
                     continue
                 text = package.text(path)

@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.yaml_repair import fault_in
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _KNOWN = re.compile(
@@ -79,7 +80,7 @@ def misspelt_key(around: Surroundings) -> Iterator[Problem]:
                 "parameters-key",
                 f"the key {key} is no {_KEY}, with two underscores: the node that the "
                 f"file is for{named} finds no parameters and stops",
-                f"write {_KEY}",
+                write(place, key, _KEY),
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Set
 from typing import Literal
 
+from sambot_viz.checks.wheel_clues import is_rotor
 from sambot_viz.errors import nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -47,7 +48,7 @@ def meant_wheel(
     turning = [
         joint.name
         for joint in robot.joints.values()
-        if joint.type != "fixed" and joint.name not in taken
+        if joint.type != "fixed" and joint.name not in taken and not is_rotor(joint)
     ]
     for joint in turning:
         if name and is_one_slip(name, joint):

@@ -9,6 +9,7 @@ from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number
+from sambot_viz.edits import write
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
@@ -109,7 +110,7 @@ def _separation(
             f"the wheel separation is {number(fact.number)} m here, but the wheels of "
             f"{left.name} and {right.name} ({where(left.place, fact.place)}) are "
             f"{number(apart)} m apart: odometry turns by wrong angles",
-            f"write {number(apart)}",
+            write(fact.place, fact.value, number(apart)),
         )
 
 
@@ -140,7 +141,7 @@ def _radius(robot: Robot, drive: _Drive, pair: Joint) -> Iterator[Problem]:
         f"{pair.name} has the {what} {number(times * wheel.radius)} m "
         f"({where(robot.links[pair.child].place, fact.place)}): speed and odometry "
         "are wrong",
-        f"write {number(times * wheel.radius)}",
+        write(fact.place, fact.value, number(times * wheel.radius)),
     )
 
 

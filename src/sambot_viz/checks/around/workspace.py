@@ -6,7 +6,6 @@ for them, within limits, and kept for all rules and all models of one check.
 
 from __future__ import annotations
 
-import ast
 import os
 import re
 from collections.abc import Iterator, Sequence
@@ -19,7 +18,7 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
-from sambot_viz.checks.launch_files import parse_python
+from sambot_viz.checks.around.files.setup_py import SetupFile, read_setup
 from sambot_viz.files import is_below, read_limited
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.packages.resolve import FileResolver, inside_package
@@ -181,10 +180,20 @@ class Package:
         return CMakeFile(text, self.shown(name))
 
     @cached_property
-    def setup(self) -> ast.Module | None:
-        """setup.py, read as Python; None when there is none that is Python."""
-        text = self.text("setup.py")
-        return None if text is None else parse_python(text)
+    def is_ros1(self) -> bool:
+        """True when catkin alone builds it: it is not for ROS 2."""
+        root = self.manifest
+        tools = [] if root is None else root.find_all("buildtool_depend")
+        return {tool.text.strip() for tool in tools} == {"catkin"}
+
+    @cached_property
+    def setup(self) -> SetupFile | None:
+        """setup.py; None when there is none that is Python, or a very long one."""
+        name = "setup.py"
+        text = self.text(name) if name in self.paths else None
+        if text is None or len(text) > limits.BUILD_FILE.value:
+            return None
+        return read_setup(text, self.shown(name), self.folder, trusted=self.trusted)
 
 
 class Workspace:

@@ -7,11 +7,16 @@ import { refusals, refuse } from "../window/notices.js";
 
 /** @typedef {import("../wire/rows.js").Row} Row */
 
+/** Told to the tree when Enter has accepted the text of a row: its next key is for a tool. */
+export const ACCEPTED = "accepted";
+
 /** Enter in a cell of a tree: the text is accepted, and its row has the focus again.
  * @param {HTMLElement} field */
 export function leave(field) {
   const row = field.closest("[data-row]");
-  if (row instanceof HTMLElement) row.focus();
+  if (!(row instanceof HTMLElement)) return;
+  row.focus();
+  row.dispatchEvent(new CustomEvent(ACCEPTED, { bubbles: true, detail: row.dataset.row }));
 }
 
 /** The first click marks the whole text, as typing is meant to replace it. @param {Press} event */

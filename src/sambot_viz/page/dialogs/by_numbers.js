@@ -67,7 +67,8 @@ export function ByNumbersButton() {
   useData("tools/list");
   if (!poseTool()) return null;
   return html`<button class="needs-control" title="Type x, y and heading (Enter)"
-    onClick=${() => show(ByNumbers)}>By numbers…</button>`;
+    aria-label="By numbers…" onClick=${() => show(ByNumbers)}><span class="brief">x, y…</span
+      ><span class="words">By numbers…</span></button>`;
 }
 
 /** After a refusal that the frame map would not have had. */

@@ -23,7 +23,7 @@ export function OpenAgain({ name, close }) {
     <${Again} name=${name} close=${close} /></${AskFirst}>`;
 }
 
-/** Opens at once; a dialog is there only to say why not. @param {{name: string, close: () => void}} props */
+/** Opens at once; a dialog comes only to say why not. @param {{name: string, close: () => void}} props */
 function Again({ name, close }) {
   const { refused, answer, begin } = useAnswer("file/open");
   useEffect(() => {
@@ -33,9 +33,10 @@ function Again({ name, close }) {
   useEffect(() => {
     if (answer?.done) close();
   }, [answer?.number]);
+  if (!refused) return null;
   return html`<${Dialog} title="Open Config" close=${close} submit=${close}>
     <p>${name}</p>
-    ${refused && html`<p class="refused" role="alert">${refused}</p>`}
+    <p class="refused" role="alert">${refused}</p>
     <div class="buttons end"><button type="submit" class="main" data-first>Close</button></div>
   </${Dialog}>`;
 }

@@ -3,8 +3,10 @@
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act, ONLINE, rows } from "../wire/channel.js";
+import { ACCEPTED } from "../cells/field.js";
 import { isTyping } from "../window/keys.js";
 import { Menu } from "../window/menu.js";
+import { refusals } from "../window/notices.js";
 import { Divider } from "./divider.js";
 import { RowList, rowElement } from "./row_list.js";
 import { copyRow, valueText } from "./row_text.js";
@@ -101,7 +103,7 @@ function RowTree(props) {
   const [opened, setOpened] = useState(/** @type {{row: Row, at: Place} | null} */ (null));
   const shown = visible(panel, wanted);
   const current = shown.some(({ id }) => id === chosen) ? chosen : shown[0]?.id;
-  /** The row that `reveal` has led to, until it is touched. */
+  /** The row that `reveal` has led to, or whose text Enter has accepted, until it is touched. */
   const led = useRef("");
 
   /** @param {string | undefined} id */
@@ -143,13 +145,20 @@ function RowTree(props) {
     go(id);
     led.current = id;
   });
+  useLayoutEffect(() => {
+    /** @param {any} event */
+    const accepted = (event) => (led.current = event.detail);
+    element.current.addEventListener(ACCEPTED, accepted);
+    return () => element.current?.removeEventListener(ACCEPTED, accepted);
+  }, []);
   const { onKey } = props;
   /** @param {Key} event */
   const key = (event) =>
     treeKey(event, {
       ids: shown.map(({ id }) => id),
       current,
-      led: led.current,
+      // What was refused is typed once more.
+      led: refusals.has(led.current) ? "" : led.current,
       go,
       openMenu,
       onKey,

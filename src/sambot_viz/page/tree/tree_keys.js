@@ -13,7 +13,8 @@ import { edits } from "./row_view.js";
  *   openMenu: (event: Key, row: Row) => void,
  *   onKey?: (event: Key, row: Row) => boolean | void}} KeyedTree
  *   ids: of the rows that are shown; onKey: the keys of the panel; led: the row that the user was
- *   led to, and has not touched yet: only Enter and F2 begin to edit it, other keys are for tools
+ *   led to, or has accepted the text of, and has not touched since: only Enter and F2 begin to edit
+ *   it, other keys are for tools
  */
 
 const FAR = 10;

@@ -62,6 +62,8 @@ const PATHS = {
   fold: "M10 3L5 8l5 5",
   unfold: "M6 3l5 5-5 5",
   open: "M2 13V3.5h4l1.5 2H13V7M2 13l2.5-6H15l-2.5 6z",
+  people:
+    "M6 2.5a2.5 2.5 0 1 0 .01 0M1.5 13.5c0-6.5 9-6.5 9 0M11 3a2.2 2.2 0 0 1 0 4.4M12 9c1.8.6 2.5 2.2 2.5 4.5",
   menu: "M2 4h12M2 8h12M2 12h12",
 };
 const FILLED = new Set(["play", "pause", "stop", "forwards", "back", "left", "right"]);

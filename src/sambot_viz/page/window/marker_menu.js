@@ -6,6 +6,10 @@ import { act, rows } from "../wire/channel.js";
 import { Menu } from "./menu.js";
 
 /** @typedef {{id: number, title: string, runs: boolean, entries: Entry[]}} Entry */
+/** A menu; of one below an entry, the one with the entry. first: what has the focus first.
+ * @typedef {{number: any, title: string, entries: Entry[], above?: Shown, first?: string}} Shown */
+
+const BACK = "‹ Back";
 
 /** Where a button was pressed or released last. */
 let at = { x: 0, y: 0 };
@@ -17,9 +21,7 @@ function showHand() {
 }
 
 export function MarkerMenu() {
-  const [opened, setOpened] = useState(
-    /** @type {{number: any, title: string, entries: Entry[]} | null} */ (null),
-  );
+  const [opened, setOpened] = useState(/** @type {Shown | null} */ (null));
   useEffect(() => {
     let seen = rows.data("tools/menu")?.number ?? 0;
     const told = () => {
@@ -38,15 +40,32 @@ export function MarkerMenu() {
     };
   }, []);
   if (!opened) return null;
-  return html`<${Menu} key=${`${opened.number} ${opened.title}`} label=${opened.title} at=${at}
-    items=${opened.entries.map((entry) => item(entry, (below) => setOpened(below)))}
+  const { number, title, entries, above, first } = opened;
+  const back = above && (() => setOpened({ ...above, first: opens(title) }));
+  /** @param {Entry} entry */
+  const below = (entry) => {
+    const first = labelOf(entry.entries[0]);
+    setOpened({ ...entry, number: `${number} ${entry.id}`, above: opened, first });
+  };
+  const items = entries.map((entry) => item(entry, below));
+  return html`<${Menu} key=${`${number} ${first}`} label=${title} at=${at} first=${first} back=${back}
+    items=${back ? [{ label: BACK, act: back }, null, ...items] : items}
     close=${() => setOpened(null)} />`;
 }
 
-/** @param {Entry} entry @param {(menu: any) => void} open shows the menu below an entry */
-function item({ id, title, runs, entries }, open) {
-  if (entries.length)
-    return { label: `${title} ▸`, act: () => open({ number: `below ${id}`, title, entries }) };
-  const label = runs ? `${title} (runs a command on RViz's machine: not done here)` : title;
+/** @param {string} title of an entry with a menu */
+const opens = (title) => `${title} ▸`;
+
+/** @param {Entry} entry */
+function labelOf({ title, runs, entries }) {
+  if (entries.length) return opens(title);
+  return runs ? `${title} (runs a command on RViz's machine: not done here)` : title;
+}
+
+/** @param {Entry} entry @param {(entry: Entry) => void} open shows the menu below an entry */
+function item(entry, open) {
+  const { id, runs, entries } = entry;
+  const label = labelOf(entry);
+  if (entries.length) return { label, below: true, act: () => open(entry) };
   return { label, off: runs || !id, act: () => act("tools/entry", [id]) };
 }

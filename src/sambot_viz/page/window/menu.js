@@ -4,8 +4,8 @@
 import { html, useEffect, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 /**
- * @typedef {{label: string, keys?: string, off?: boolean, act: () => void} | null} Item null is a
- *   line
+ * @typedef {{label: string, keys?: string, off?: boolean, below?: boolean, act: () => void} | null}
+ *   Item null is a line; below: it opens a menu of its own
  * @typedef {{x: number, y: number}} Place
  */
 
@@ -50,9 +50,11 @@ export function usePressOutside(elements, close, open = true) {
 
 /**
  * The menu; it closes itself. The focus then goes back to where it was.
- * @param {{items: Item[], at: Place, label: string, close: () => void}} props
+ * @param {{items: Item[], at: Place, label: string, close: () => void, back?: () => void,
+ *   first?: string}} props
+ *   back: to the menu above this one; first: the label of the entry that has the focus first
  */
-export function Menu({ items, at, label, close }) {
+export function Menu({ items, at, label, close, back, first }) {
   /** @type {Ref} */
   const element = useRef(null);
   const before = useRef(document.activeElement);
@@ -64,7 +66,8 @@ export function Menu({ items, at, label, close }) {
     const { width, height } = element.current.getBoundingClientRect();
     element.current.style.left = `${Math.max(0, Math.min(at.x, innerWidth - width - 4))}px`;
     element.current.style.top = `${Math.max(0, at.y + height > innerHeight ? at.y - height : at.y)}px`;
-    entries()[0]?.focus();
+    const all = entries();
+    (all.find((one) => one.textContent?.trim() === first) ?? all[0])?.focus();
   }, []);
   usePressOutside([element], close);
   useEffect(() => {
@@ -78,6 +81,10 @@ export function Menu({ items, at, label, close }) {
   /** @param {Key} event */
   const key = (event) => {
     if (event.key === "Escape" || event.key === "Tab") end();
+    else if (event.key === "ArrowLeft" && back) {
+      end();
+      back();
+    } else if (event.key === "ArrowRight" && event.target.ariaHasPopup) event.target.click();
     else if (!menuKey(event, entries())) return;
     event.preventDefault();
     event.stopPropagation();
@@ -89,6 +96,7 @@ export function Menu({ items, at, label, close }) {
         ? html`<li role="separator"></li>`
         : html`<li role="menuitem" tabindex="-1"
         aria-disabled=${item.off ? "true" : undefined}
+        aria-haspopup=${item.below ? "menu" : undefined}
         onClick=${() => {
           if (!item.off) {
             end();

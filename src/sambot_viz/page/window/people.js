@@ -6,6 +6,7 @@
 import { html } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { PeopleList } from "../dialogs/people.js";
+import { Icon } from "./icons.js";
 import { Popup } from "./popup.js";
 import { ownName, peopleOpen, usePeople } from "./users.js";
 
@@ -21,7 +22,8 @@ export function People() {
   const { state, me, people } = now;
   if (!state.copy && !state.presented && people.length < 2 && !state.copies) return null;
   return html`<${Popup} name="People" role="dialog" title=${inWords(now)} opened=${peopleOpen}
-    label=${short(now)}>${(/** @type {() => void} */ close) =>
+    label=${short(now)} brief=${html`<${Icon} name="people" /> ${people.length}`}
+    >${(/** @type {() => void} */ close) =>
       html`<div class="people">
       <p>${inWords(now)}</p>
       ${!state.copy && html`<${PeopleList} now=${now} close=${close} />`}

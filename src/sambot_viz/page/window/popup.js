@@ -10,12 +10,12 @@ import { Cell } from "../state.js";
 const EDGE = 4;
 
 /**
- * @param {{label: any, name: string, role: "menu" | "dialog", title?: string,
+ * @param {{label: any, brief?: any, name: string, role: "menu" | "dialog", title?: string,
  *   opened?: Cell<boolean>, children: (close: () => void) => any}} props
- *   label: what the button shows; name: what it, and the panel, is called; opened: for those who
- *   open it from elsewhere
+ *   label: what the button shows; brief: what it shows on a phone instead; name: what it, and the
+ *   panel, is called; opened: for those who open it from elsewhere
  */
-export function Popup({ label, name, role, title, opened, children }) {
+export function Popup({ label, brief, name, role, title, opened, children }) {
   const own = useRef(/** @type {Cell<boolean>} */ (new Cell(/** @type {boolean} */ (false))));
   const state = opened || own.current,
     open = state.use();
@@ -69,7 +69,9 @@ export function Popup({ label, name, role, title, opened, children }) {
   return html`<span class="popup">
     <button ref=${button} aria-haspopup=${role} aria-expanded=${String(open)} aria-label=${spoken}
       title=${title}
-      onClick=${() => setOpen(!open)}>${label}</button>
+      onClick=${() => setOpen(!open)}>${
+        brief ? html`<span class="brief">${brief}</span><span class="words">${label}</span>` : label
+      }</button>
     ${
       open &&
       html`<div class="popped" tabindex="-1" ref=${panel} role=${role} aria-label=${name}

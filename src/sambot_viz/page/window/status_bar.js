@@ -5,13 +5,14 @@
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { CutText } from "./cut_text.js";
+import { Icon } from "./icons.js";
 import { notice } from "./notices.js";
 import { ErrorCount, ProblemCount } from "../panels/problems.js";
 import { People } from "./people.js";
 import { Driving } from "../panels/drive.js";
 import { ByNumbersButton, UseMapButton } from "../dialogs/by_numbers.js";
 import { LiveDriving, LiveGoal } from "../panels/live_drive.js";
-import { useData } from "../state.js";
+import { useData, wantedRow } from "../state.js";
 
 /** How long a sentence stays, and how long one about a mistake, which is also at its row [ms]. */
 const SAID = 8000;
@@ -21,15 +22,20 @@ const REFUSED = 20000;
 export function StatusBar({ problems }) {
   const tool = useData("tools/hint");
   const hint = (matchMedia("(pointer: coarse)").matches ? tool?.touch : tool?.text) || "";
-  return html`<footer class="statusbar" aria-label="Status bar">
-    <button class="needs-control" title="Reset (R): reload meshes and redraw"
-      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>Reset</button>
+  /** @type {{current: boolean, first: boolean}[]} */
+  const tools = useData("tools/list") || [];
+  const chosen = tools.some(({ current, first }) => current && !first);
+  return html`<footer class=${`statusbar${chosen ? " by-tool" : ""}`} aria-label="Status bar">
+    <button class="needs-control" title="Reset (R): reload meshes and redraw" aria-label="Reset"
+      aria-keyshortcuts="R" onClick=${() => act("tools/reset")}>
+      <span class="brief"><${Icon} name="turn" /></span><span class="words">Reset</span></button>
     <${ProblemCount} ...${problems} />
     <${ErrorCount} />
     <${Selected} />
     <${CutText} is="hint" role="status" text=${hint} />
     <${UseMapButton} /><${ByNumbersButton} />
     <${Said} />
+    <${NotFollowing} />
     <${Driving} />
     <${LiveDriving} />
     <${LiveGoal} />
@@ -45,6 +51,16 @@ function Selected() {
   if (!names.length) return null;
   const words = names.length === 1 ? `Selected: ${names[0]}` : `${names.length} items selected`;
   return html`<${CutText} is="selected" role="status" text=${words} />`;
+}
+
+/** While the sliders move the joints, and not the messages of the live robot: leads to Follow. */
+function NotFollowing() {
+  if (!useData("joints/unfollowed")) return null;
+  return html`<button class="not-following" aria-label="Not following the robot"
+    title="The sliders move the joints, and not the robot's messages: show Follow"
+    onClick=${() => wantedRow.set({ panel: "joints", id: "joints/follow" })}>
+    <span class="brief">Not following</span><span class="words">Not following the robot</span>
+  </button>`;
 }
 
 /** What was said last. */

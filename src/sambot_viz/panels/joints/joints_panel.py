@@ -119,7 +119,12 @@ class JointsPanel(Panel):
         if self._robot.joints is None:
             return ()
         first = {joint_id(n): q for n, q in self._robot.first.items() if q != 0}
+        data = self._sources.data
+        # Sliders that are published move the robot, too.
+        is_free = self._sliders() is not None and not self._out.publishes
+        is_apart = is_free and data is not None and data.is_unfollowed
         return [
+            *([Data("joints/unfollowed", True)] if is_apart else []),
             *(Data(key, value) for key, value in self._states().items()),
             Data("joints/first", first),
             Data("joints/links", self._links(self._robot.joints)),

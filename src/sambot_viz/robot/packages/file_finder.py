@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 
-from sambot_viz.errors import Problem
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, Problem
 from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.packages.package_index import PackageIndex, places_of
@@ -141,7 +142,7 @@ class FileFinder:
         if found.form is not None:
             cause, hint = found.form.cause, found.form.hint
         text = message.format(path=path, name=name, cause=cause)
-        hint = self._with_near_package(filename, found) or hint
+        hint = self._with_near_package(filename, found, element) or hint
         self._warn(code, f"the {kind} {filename}: {text}", hint, cause, element)
 
     def _report_missing(
@@ -154,7 +155,7 @@ class FileFinder:
             searched = places_of(found.searched)
             reason = f"the package {package} is not known (searched: {searched})"
             hint = f"add --package-path FOLDER-THAT-HOLDS-{package}"
-            hint = self._with_near_package(filename, found) or hint
+            hint = self._with_near_package(filename, found, element) or hint
         elif found.searched == (_OUTSIDE,):
             reason = _OUTSIDE
             hint = "put the file below the model's folder, or open a model you trust"
@@ -170,32 +171,28 @@ class FileFinder:
         if found.form is not None:
             right = found.form.right
             reason = f"{found.form.cause} (tried: {', '.join(found.searched[:4])})"
-            hint = f"write {right}" if right.startswith("pack") else found.form.hint
+            in_package = right.startswith("pack")
+            hint = _write(element, filename, right) if in_package else found.form.hint
         stand_in = _STAND_IN if kind == "mesh" else ""
         text = f"the {kind} {filename}{_NOT_FOUND}{reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, _home_of(filename), element)
 
-    def _with_near_package(self, filename: str, found: Resolution) -> str:
+    def _with_near_package(
+        self, filename: str, found: Resolution, element: Element
+    ) -> str | Fix:
         """Advise to name a package with a name like it, or with words behind it."""
-        right = _with_right_package(filename, found)
-        return right or self._with_longer_name(filename, found)
-
-    def _with_longer_name(self, filename: str, found: Resolution) -> str:
-        """Advise to name the only package that has the name and words behind it."""
-        package = found.missing_package
-        longer = [n for n in found.known_packages if n.startswith(f"{package}_")]
-        if package is None or len(longer) != 1:
-            return ""
-        right = filename.replace(package, longer[0], 1)
-        if self._resolver.resolve(right).path is not None:
-            return f"write {right}"
+        if right := _with_right_package(filename, found):
+            return _write(element, filename, right)
+        right = _with_longer_name(filename, found)
+        if not right or self._resolver.resolve(right).path is not None:
+            return _write(element, filename, right) if right else ""
         return (
             f"did you mean {right}? If not, add --package-path "
-            f"FOLDER-THAT-HOLDS-{package}"
+            f"FOLDER-THAT-HOLDS-{found.missing_package}"
         )
 
     def _warn(
-        self, code: str, text: str, hint: str, cause: str, element: Element
+        self, code: str, text: str, hint: str | Fix, cause: str, element: Element
     ) -> None:
         self._findings.warn(code, text, hint, element, "filename", cause=cause)
 
@@ -214,12 +211,27 @@ def why_not_found(problems: Iterable[Problem]) -> str:
 
 
 def _with_right_package(filename: str, found: Resolution) -> str:
-    """Advise to name the package that was meant by a misspelt one, if one is here."""
+    """Name the package that was meant by a misspelt one, if one is here."""
     package = found.missing_package
     near = meant(package, found.known_packages) if package else None
     if package is None or near is None or not is_one_slip(package, near):
         return ""
-    return f"write {filename.replace(package, near, 1)}"
+    return filename.replace(package, near, 1)
+
+
+def _with_longer_name(filename: str, found: Resolution) -> str:
+    """Name the only package that has the name and words behind it, if one is here."""
+    package = found.missing_package
+    longer = [n for n in found.known_packages if n.startswith(f"{package}_")]
+    if package is None or len(longer) != 1:
+        return ""
+    return filename.replace(package, longer[0], 1)
+
+
+def _write(element: Element, filename: str, right: str) -> Fix:
+    """Return the fix that names a file by its right package."""
+    hint = f"write {right}"
+    return write_attribute(element.place, "filename", filename, right, hint=hint)
 
 
 def _file_in(folder: Path, filename: str) -> str:

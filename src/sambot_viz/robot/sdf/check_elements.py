@@ -114,6 +114,20 @@ class _ElementChecker:
                 element,
                 name,
             )
+        self._note_default(element, f"{shown} in {described(element)}", text, wanted)
+
+    def _note_default(
+        self, element: Element, shown: str, text: str, wanted: Values
+    ) -> None:
+        """Note a word that is taken for the first of those that are known."""
+        near = _unlike(trimmed(text), wanted)
+        if wanted.lenient and trimmed(text) and near:
+            self._findings.remark(
+                "sdf-value-default",
+                f"{shown} is not known ({near}); it is taken for {wanted.words[0]}",
+                f"write one of {', '.join(wanted.words)}",
+                element,
+            )
 
     def _report_missing(self, element: Element, name: str) -> None:
         message, hint = f"this <{element.tag}> has no {name}", f'write {name}="…"'
@@ -173,6 +187,7 @@ class _ElementChecker:
             return
         if ignored:
             self._report_ignored(element, shown, text, wanted)
+        self._note_default(element, shown, text, wanted)
 
     def _check_loose_text(self, element: Element) -> None:
         """Warn of a text that belongs into an element of its own."""
@@ -322,11 +337,18 @@ def _check_range(number: float, wanted: Values) -> None:
 
 
 def _check_word(text: str, wanted: Values) -> None:
+    near = "" if wanted.lenient else _unlike(text, wanted)
+    if near:
+        words = ", ".join(wanted.words)
+        raise BadValue(f"is not known ({near})", f"write one of {words}")
+
+
+def _unlike(text: str, wanted: Values) -> str:
+    """Return which words are known or near where a text is none of them; else ""."""
     word = text.lower() if wanted.any_case else text
     if not wanted.words or word in wanted.words:
-        return
-    near = did_you_mean(word, wanted.words)
-    raise BadValue(f"is not known ({near})", f"write one of {', '.join(wanted.words)}")
+        return ""
+    return did_you_mean(word, wanted.words)
 
 
 def _short(text: str) -> str:

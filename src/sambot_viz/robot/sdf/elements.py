@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 _TABLE = Path(__file__).with_name("elements.txt")
-_WORDS = re.compile(r"(\w+)(?:([=~])(.+))?")
+_WORDS = re.compile(r"(\w+)(?:([=~?])(.+))?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,7 @@ class Values:
         high: the greatest number.
         words: the only words that are taken; empty for any.
         any_case: whether capitals of these words do not count.
+        lenient: whether another word is taken for the first one.
     """
 
     kind: str = ""
@@ -33,6 +34,7 @@ class Values:
     high: float = math.inf
     words: tuple[str, ...] = ()
     any_case: bool = False
+    lenient: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,4 +117,6 @@ def _values(text: str, required: bool) -> Values:
     if match is None:
         return Values("", required)
     words = tuple(match[3].split("|")) if match[3] else ()
-    return Values(match[1], required, words=words, any_case=match[2] == "~")
+    mark = match[2] or ""
+    any_case, lenient = mark in ("~", "?"), mark == "?"
+    return Values(match[1], required, words=words, any_case=any_case, lenient=lenient)

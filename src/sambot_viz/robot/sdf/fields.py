@@ -15,6 +15,7 @@ from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf import values
 from sambot_viz.robot.sdf.values import LARGEST, BadValue, PoseText, trimmed
 from sambot_viz.robot.sdf.wording import described
+from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
 
@@ -99,12 +100,17 @@ def pose_of(owner: Element, findings: ModelFindings) -> Matrix:
 
 
 def _check_degrees(pose: PoseText, element: Element, findings: ModelFindings) -> None:
-    """Warn of round angles of more than a turn, which are meant as degrees."""
+    """Report round angles of more than a turn, which are meant as degrees.
+
+    A guess from one clue is a remark; as usual degrees they are two.
+    """
     angles = pose.numbers[3:6] if len(pose.numbers) == 6 else ()
     if not any(abs(angle) > 2 * math.pi + 1e-3 for angle in angles):
         return
     if all((2 * angle).is_integer() for angle in angles):
-        findings.warn(
+        usual = all(map(usual_degrees, angles))
+        report = findings.warn if usual else findings.remark
+        report(
             "rpy-in-degrees",
             f"the angles of <pose> in {described(element)} look like degrees, but SDF "
             "uses radians",

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sambot_viz.errors import nearest
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, nearest
 from sambot_viz.robot.sdf.fields import text_in
 from sambot_viz.robot.sdf.scopes import OWN, Frame, Scope
 from sambot_viz.robot.sdf.values import trimmed
@@ -24,7 +25,7 @@ class FrameWords(NamedTuple):
     """The parts of a problem."""
 
     message: str
-    hint: str
+    hint: str | Fix
 
 
 def unknown_frame(
@@ -70,7 +71,9 @@ def unknown_frame(
     words = f"did you mean '{meant}'?" if meant else _listed(names)
     return FrameWords(
         f"{message} ({words}); {REFUSED}",
-        f"write {meant}" if meant else "name one of these, or delete it",
+        write_attribute(at.place, attribute, name, meant, hint=f"write {meant}")
+        if meant
+        else "name one of these, or delete it",
     )
 
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from sambot_viz.edits import rename_element
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
@@ -139,7 +140,7 @@ def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
         "xacro-prefix-missing",
         f"<{tag}> looks like {what} without its prefix: xacro copies it to the "
         "URDF, where ROS ignores it",
-        f"write <xacro:{tag}>",
+        rename_element(place, tag, f"xacro:{tag}", f"write <xacro:{tag}>"),
     )
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sambot_viz.edits import rename_attribute, rename_element
+from sambot_viz.errors import Fix
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.slips.misspelt import CALL, Slip
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS, missing_prefix
@@ -22,7 +24,7 @@ class SlipWords(NamedTuple):
 
     code: str
     message: str
-    hint: str
+    hint: str | Fix
 
 
 def slip_in_words(slip: Slip, refused: bool) -> SlipWords:
@@ -41,12 +43,15 @@ def slip_in_words(slip: Slip, refused: bool) -> SlipWords:
     if right.startswith(CALL):
         is_macro = element.tag not in OWN_TAGS
         problem = missing_prefix(element.tag, is_macro, element.place)
-        return SlipWords(problem.code, f"{problem.message}{effect}", problem.hint)
+        hint = Fix(problem.hint, problem.edits)
+        return SlipWords(problem.code, f"{problem.message}{effect}", hint)
     message = (
         f"{tag_text(element)} {_inside(element)}is not known; did you mean "
         f"<{right}>? ROS ignores it{effect}"
     )
-    return SlipWords("element-misspelt", message, f"write {_renamed(element, right)}")
+    hint = f"write {_renamed(element, right)}"
+    fix = rename_element(element.place, element.tag, right, hint)
+    return SlipWords("element-misspelt", message, fix)
 
 
 def _renamed(element: Element, right: str) -> str:
@@ -67,8 +72,10 @@ def _attribute(slip: Slip, attribute: str, effect: str) -> SlipWords:
         f"the attribute {attribute} of {tag_text(element)} {_inside(element)}is not "
         f"known; did you mean {right}? ROS ignores it{effect}"
     )
-    hint = f'write {right}="{_completed(right, value)}"'
-    return SlipWords("attribute-misspelt", message, hint)
+    value = _completed(right, value)
+    hint = f'write {right}="{value}"'
+    fix = rename_attribute(element.place, attribute, right, value, hint)
+    return SlipWords("attribute-misspelt", message, fix)
 
 
 def _completed(name: str, value: str) -> str:

@@ -65,3 +65,8 @@ def _in_si(number: str, unit: str, degrees: bool) -> str:
     # A converted length is short; an angle is as long as one writes π.
     digits = 5 if unit in _ANGLES else 10
     return f"{float(number) * factor:.{digits}g}"
+
+
+def usual_degrees(value: float) -> bool:
+    """Tell whether a number is an angle that people write in degrees."""
+    return any(abs(value / step - round(value / step)) < 1e-9 for step in (15, 22.5))

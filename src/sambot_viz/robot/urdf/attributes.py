@@ -6,8 +6,11 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Origin
@@ -28,12 +31,26 @@ class BadNumber(ValueError):
     Attributes:
         reason: what is wrong, worded to follow the attribute's text.
         hint: what to write.
+        right: the right value, where it is certain.
     """
 
-    def __init__(self, reason: str, hint: str) -> None:
+    def __init__(self, reason: str, hint: str, right: str = "") -> None:
         super().__init__(reason)
         self.reason = reason
         self.hint = hint
+        self.right = right
+
+
+class _Bad(NamedTuple):
+    """The arguments of `BadNumber`."""
+
+    reason: str
+    hint: str
+    right: str = ""
+
+
+def _rather(reason: str, right: str) -> _Bad:
+    return _Bad(reason, f'write "{right}"', right)
 
 
 def read_number(text: str) -> float:
@@ -75,7 +92,7 @@ def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
     return numbers
 
 
-def _without_commas(text: str, count: int) -> tuple[str, str]:
+def _without_commas(text: str, count: int) -> _Bad:
     """Return what is wrong with commas, and the text without them.
 
     A comma between two digits is a decimal comma where only that gives as many numbers
@@ -85,13 +102,13 @@ def _without_commas(text: str, count: int) -> tuple[str, str]:
     cause = f"has {marks}; numbers are separated by blanks only"
     apart = _SEPARATORS.split(without_units(text).strip(" ,;"))
     if len(apart) == count:
-        return cause, f'write "{" ".join(apart)}"'
+        return _rather(cause, " ".join(apart))
     pointed = without_units(re.sub(r"(?<=\d),(?=\d)", ".", text))
     with_points = _SEPARATORS.split(pointed.strip(" ;,"))
     if len(with_points) == count:
         better = " ".join(with_points)
-        return "has a decimal comma; numbers have a point", f'write "{better}"'
-    return cause, _filled_up(apart, count)
+        return _rather("has a decimal comma; numbers have a point", better)
+    return _Bad(cause, _filled_up(apart, count))
 
 
 def _filled_up(parts: list[str], count: int, name: str = "") -> str:
@@ -112,42 +129,44 @@ def _component(part: str, whole: str) -> float:
     raise BadNumber(*_complaint(part, whole))
 
 
-def _complaint(part: str, whole: str) -> tuple[str, str]:
+def _complaint(part: str, whole: str) -> _Bad:
     if not part:
-        return "is empty", "write a number"
+        return _Bad("is empty", "write a number")
     if "$" in part:
-        return (
+        return _Bad(
             f"still contains the expression {part}, {NOT_REPLACED}",
             "declare xmlns:xacro on <robot>, or write the number",
         )
     if part.lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        return f"contains {part}, which is not a finite number", "write a finite number"
+        return _Bad(
+            f"contains {part}, which is not a finite number", "write a finite number"
+        )
     if is_with_unit(part):
         shown = whole.strip() if part.isalpha() or part == "°" else part
-        return (
+        return _rather(
             f"has a unit in {shown}; URDF knows only metres, radians and kilograms",
-            f'write "{without_units(whole.strip())}"',
+            without_units(whole.strip()),
         )
     if re.fullmatch(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?[A-Za-z°]+", part):
-        return (
+        return _Bad(
             f"has a unit in {part}; URDF knows only metres and radians",
             "write the bare number",
         )
     if re.search(r"pi|[*/()]|\d[+-]\d", part):
         shown = whole.replace(part, f"${{{part}}}")
-        return (
+        return _Bad(
             f"contains {part}, which is not a number: plain URDF cannot calculate",
             f'write the number{_value_of(part)}, or use xacro: "{shown}"',
         )
     if re.fullmatch(r"[+-]?\d+,\d+", part) or is_with_unit(part.replace(",", ".", 1)):
         better = without_units(whole.strip().replace(",", "."))
-        return "has a decimal comma; numbers have a point", f'write "{better}"'
+        return _rather("has a decimal comma; numbers have a point", better)
     if re.fullmatch(r"\{[^{}]+\}", part):
-        return (
+        return _rather(
             f"contains {part}, which is not a number: a $ is missing before it",
-            f'write "{whole.replace(part, f"${part}")}"',
+            whole.replace(part, f"${part}"),
         )
-    return f"contains {part}, which is not a number", "write a number such as 0.1"
+    return _Bad(f"contains {part}, which is not a number", "write a number such as 0.1")
 
 
 def _value_of(part: str) -> str:
@@ -165,7 +184,7 @@ def _text_inside(element: Element, name: str) -> str:
     return " ".join(text.split())
 
 
-Report = Callable[[str, str, str, Element, "str | None"], None]
+Report = Callable[[str, str, "str | Fix", Element, "str | None"], None]
 """`ModelFindings.reject`, `.error` or `.warn`: code, text, hint, element, attribute."""
 
 LARGEST = float(limits.NUMBER.value)
@@ -199,7 +218,12 @@ class AttributeReader:
     loss: str
 
     def fail(
-        self, code: str, message: str, hint: str, at: Element, name: str | None = None
+        self,
+        code: str,
+        message: str,
+        hint: str | Fix,
+        at: Element,
+        name: str | None = None,
     ) -> Unreadable:
         """Report and give the exception to raise."""
         self.report(code, f"{message}; {self.loss}", hint, at, name)
@@ -241,7 +265,7 @@ class AttributeReader:
                 "number-with-blank",
                 f'{name}="{text}" of {self.owner} ends with a blank, which ROS '
                 "refuses in a single number",
-                f'write {name}="{text.strip()}"',
+                write_attribute(element.place, name, text, text.strip()),
                 element,
                 name,
             )
@@ -323,7 +347,9 @@ class AttributeReader:
         return self.fail(
             "number-malformed",
             f'{name}="{text}" in <{element.tag}> of {self.owner} {bad.reason}',
-            bad.hint,
+            write_attribute(element.place, name, text, bad.right, hint=bad.hint)
+            if bad.right
+            else bad.hint,
             element,
             name,
         )

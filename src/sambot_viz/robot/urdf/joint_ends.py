@@ -6,11 +6,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
-from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint
 from sambot_viz.robot.slips.blanks import written_with_blank
 from sambot_viz.robot.urdf.robot_parts import RobotParts
+from sambot_viz.robot.xml.element import Element
 
 
 class _Unknown(NamedTuple):
@@ -55,6 +57,7 @@ def _without_blanks(
         if name is None or name in reported:
             continue
         reported.add(name)
+        named_here = parts.link_elements.get(name, parts.robot)
         verb = "begins with" if name[0].isspace() else "ends with"
         if name == name.strip():
             verb = "contains"
@@ -62,8 +65,8 @@ def _without_blanks(
             "link-name-blank",
             f'the link name "{name}" {verb} a blank, so joint {joint.name} does '
             f"not find the link {link}; ROS refuses the model",
-            f'write name="{link}"',
-            parts.link_elements.get(name, parts.robot),
+            write_attribute(named_here.place, "name", name, link),
+            named_here,
             "name",
         )
     return [one for one in unknown if one.link not in with_blank]
@@ -78,6 +81,7 @@ def _report_unknown(
     is_whole = len(roots) == 1
     for joint, tag, link in unknown:
         element = parts.joint_elements[joint.name]
+        end = element.find(tag) or element
         other = joint.child if tag == "parent" else joint.parent
         possible = [name for name in parts.links if name and name != other]
         if tag == "child":
@@ -87,18 +91,21 @@ def _report_unknown(
             f"joint-{tag}-unknown",
             f"joint {joint.name} names the {tag} link '{link}', which does not exist"
             f"{near}; ROS refuses the model",
-            _advice(link, tag, possible, is_whole),
-            element.find(tag) or element,
+            _advice(end, link, tag, possible, is_whole),
+            end,
             "link",
             cause=f"link {link}",
         )
 
 
-def _advice(link: str, tag: str, possible: Iterable[str], is_whole: bool) -> str:
+def _advice(
+    end: Element, link: str, tag: str, possible: Iterable[str], is_whole: bool
+) -> str | Fix:
     near = nearest(link, possible)
     ways = [f'write link="{near}"' if near else "correct the name"]
     if is_whole:
         ways.append(f'add <link name="{link}"/>')
     elif not near:
         return f"name a link of this robot as the {tag}"
-    return ", or ".join(ways)
+    hint = ", or ".join(ways)
+    return write_attribute(end.place, "link", link, near, hint=hint) if near else hint

@@ -203,10 +203,13 @@ def check_mimics(
     elements: Mapping[str, Element],
     findings: ModelFindings,
 ) -> None:
-    """Report unknown, immovable and circular mimic joints, which urdfdom accepts."""
+    """Report unknown, immovable and circular mimic joints, which urdfdom accepts.
+
+    joint_state_publisher looks only at the <mimic> of joints that move.
+    """
     reported: set[str] = set()
     for name, joint in joints.items():
-        if joint.mimic is None or name in reported:
+        if joint.mimic is None or name in reported or not joint.movable:
             continue
         element = elements[name].find("mimic") or elements[name]
         leader = joints.get(joint.mimic.joint)

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.geometry import Rgba
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Material
@@ -168,7 +169,7 @@ class MaterialTable:
                 "color-malformed",
                 f"rgba=\"{text}\" of material '{name}' {bad.reason}; ROS cannot "
                 "use the colour",
-                _better_colour(text, bad),
+                _better_colour(color, text, bad),
                 color,
                 "rgba",
             )
@@ -180,20 +181,22 @@ class MaterialTable:
             "color-range",
             f"rgba=\"{text}\" of material '{name}' leaves the range 0 to 1 (it looks "
             "like 0 to 255); ROS cannot use the colour",
-            f'write rgba="{better}"',
+            write_attribute(color.place, "rgba", text, better),
             color,
             "rgba",
         )
         return None
 
 
-def _better_colour(text: str, bad: BadNumber) -> str:
+def _better_colour(color: Element, text: str, bad: BadNumber) -> str | Fix:
     """Advise what to write for a colour that cannot be read."""
+    if bad.right:
+        return write_attribute(color.place, "rgba", text, bad.right)
     if bad.hint.startswith('write "'):
         return bad.hint.replace("write ", "write rgba=", 1)
     parts = text.replace(",", " ").replace(";", " ").split()
     if len(parts) == 3 and _all_numbers(" ".join(parts), 3):
-        return f'write rgba="{_four(" ".join(parts))}"'
+        return write_attribute(color.place, "rgba", text, _four(" ".join(parts)))
     return (
         "write four numbers from 0 to 1 with blanks between them, such as "
         'rgba="1 0 0 1"'

@@ -42,8 +42,16 @@ def is_model_of_sdf(group: Element) -> bool:
 
 
 def _is_sdf(element: Element) -> bool:
-    """Tell whether it is no sensor of URDF, which has no type."""
-    return element.tag != "sensor" or element.get("type") is not None
+    """Tell whether it is not a sensor of URDF.
+
+    Such a sensor has no type, or names a link or joint as its parent, as iDynTree
+    reads it.
+    """
+    if element.tag != "sensor":
+        return True
+    parent = element.find("parent")
+    named = parent is not None and {"link", "joint"} & parent.attributes.keys()
+    return element.get("type") is not None and not named
 
 
 def _check_link(link: Element, robot: Element, findings: ModelFindings) -> None:

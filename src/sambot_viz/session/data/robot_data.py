@@ -239,6 +239,12 @@ class RobotData:
         if follow:
             self.resume()
 
+    @property
+    def is_unfollowed(self) -> bool:
+        """Whether a live robot tells how it moves, and Follow is off."""
+        is_followed = bool(self._robot.followed.value)
+        return self.source.live is not None and self._moves and not is_followed
+
     def time_s(self) -> float:
         """Return the time of the messages [s since 1970]."""
         return self.source.clock_ns() * 1e-9

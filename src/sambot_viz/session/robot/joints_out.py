@@ -32,6 +32,7 @@ class JointsOut:
 
     Attributes:
         said: who takes them, or why they are not sent; "" where nothing is wanted.
+        publishes: whether they were sent the last time.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class JointsOut:
         worker: Worker,
     ) -> None:
         self.said = Signal(change, "")
+        self.publishes = False
         self._robot, self._publisher = robot, publisher
         self._change, self._worker = change, worker
         self._ticks = self._closed = False
@@ -71,7 +73,7 @@ class JointsOut:
     def _tick(self) -> None:
         joints = self._robot.joints
         if self._closed or not self._is_wanted or joints is None:
-            self._ticks = self._robot.leads = False
+            self._ticks = self._robot.leads = self.publishes = False
             self._say("")
             return
         self._worker.post_later(PERIOD, self._tick)
@@ -80,10 +82,11 @@ class JointsOut:
         try:
             told = self._publisher.send_joints(joints.all_positions())
         except (PublishError, SourceError) as error:
+            self.publishes = False
             self._say(capitalized(str(error)))
         else:
             # What comes back of it, also as transforms, does not take the joints.
-            self._robot.leads = True
+            self._robot.leads = self.publishes = True
             self._say(f"Published on {told}")
 
     def _knows_others(self) -> bool:

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sambot_viz.sources.message import Recorded, SourceTopic, too_large
-from sambot_viz.sources.source import Capability
+from sambot_viz.sources.source import Capability, OutgoingAction, Source
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.websocket.assets import AssetStore
 from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 from sambot_viz.sources.websocket.outgoing_topic import TopicSender
 from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.text import text
@@ -46,6 +47,7 @@ class Ends:
         put: hands a message to the subscribers.
         clock: notes the peer's time.
         assets: files of the peer.
+        post: has something done in the thread of the connection.
         session_id: of the last conversation, None if there was none.
     """
 
@@ -54,6 +56,7 @@ class Ends:
     put: Callable[[Recorded], None]
     clock: SourceClock
     assets: AssetStore
+    post: Callable[[Callable[[], object]], object]
     session_id: str | None = None
 
 
@@ -70,6 +73,7 @@ class Conversation(TopicSender):
         large: topic → sizes of its messages that were too large [bytes]; that of "" is
             not known.
         calls: of services of the peer.
+        goals: that were sent over this connection.
     """
 
     calls: ServiceCalls
@@ -84,6 +88,7 @@ class Conversation(TopicSender):
         self.unreadable = 0
         self.large: dict[str, LargeMessages] = {}
         self.is_over = False
+        self.goals = FollowedGoals()
 
     @abstractmethod
     def begin(self) -> None:
@@ -134,6 +139,25 @@ class Conversation(TopicSender):
     @abstractmethod
     def offers(self) -> frozenset[Capability]:
         """What the source can do with this peer, beside what each of its kind can."""
+
+    @abstractmethod
+    def action(self, name: str, type_name: str, source: Source) -> OutgoingAction:
+        """Return an action that takes goals; asked in any thread.
+
+        Args:
+            name: of the action.
+            type_name: of the action.
+            source: that of this connection.
+
+        Raises:
+            SourceError: it is not shown, or the server sends no goals.
+        """
+
+    def end(self) -> None:
+        """The connection has ended."""
+        self.is_over = True
+        self.calls.end()
+        self.goals.end()
 
     @abstractmethod
     def update(self, wanted: frozenset[str]) -> None:

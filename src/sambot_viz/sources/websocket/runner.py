@@ -14,6 +14,8 @@ TICK = 0.5
 """Between two looks at what is due [s]."""
 LONGEST_SILENCE = 10.0
 """The server has so long to say who it is [s]."""
+LAST_WORDS = 1.0
+"""What waits to be sent at the end has so long [s]."""
 
 
 class ConversationRunner:
@@ -47,6 +49,9 @@ class ConversationRunner:
         tasks = [asyncio.ensure_future(job) for job in jobs]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        except asyncio.CancelledError:
+            await self._send_rest(tasks[1])
+            raise
         finally:
             for task in tasks:
                 task.cancel()
@@ -62,6 +67,16 @@ class ConversationRunner:
     async def _write(self) -> None:
         while True:
             await self._websocket.send(await self._outbound.get())
+            self._outbound.task_done()
+
+    async def _send_rest(self, writing: asyncio.Future[None]) -> None:
+        """Send what waits, such as that a robot is to stop, unless that takes long."""
+        sent = asyncio.ensure_future(self._outbound.join())
+        try:
+            first = asyncio.FIRST_COMPLETED
+            await asyncio.wait((sent, writing), timeout=LAST_WORDS, return_when=first)
+        finally:
+            sent.cancel()
 
     async def _tick(self) -> None:
         loop = asyncio.get_running_loop()

@@ -29,6 +29,7 @@ from sambot_viz.sources.source import (
     Encoding,
     OnMessage,
     OnReply,
+    OutgoingAction,
     Source,
     SourceStatus,
 )
@@ -210,6 +211,10 @@ class WebsocketSource:
         request = write(conversation.publishes)
         self._post(partial(conversation.calls.call, service, request, answered))
 
+    def action(self, name: str, type_name: str) -> OutgoingAction:
+        """Return an action over the present connection; see `Source.action`."""
+        return self._ready().action(name, type_name, self)
+
     def _ready(self) -> Conversation:
         """Return what is said over the present connection."""
         conversation = self._conversation
@@ -230,6 +235,7 @@ class WebsocketSource:
         try:
             with suppress(asyncio.CancelledError):
                 loop.run_until_complete(task)
+            loop.run_until_complete(_end_others())
         finally:
             loop.close()
 
@@ -246,8 +252,7 @@ class WebsocketSource:
             finally:
                 self._tell_topics()
                 if self._conversation is not None:
-                    self._conversation.is_over = True
-                    self._conversation.calls.end()
+                    self._conversation.end()
                 self._conversation = None
             lasted = asyncio.get_running_loop().time() - begun
             attempt = 0 if lasted > STEADY else attempt
@@ -284,6 +289,7 @@ class WebsocketSource:
             self._put,
             self._clock,
             self._assets,
+            self._post,
             self._session_id,
         )
         conversation = self._conversation = self._begin(ends)
@@ -398,6 +404,12 @@ def next_pause(attempt: int) -> float:
     """Return the pause before the next attempt [s], after so many that failed."""
     grown = FIRST_PAUSE * GROWTH ** min(attempt, 20)
     return min(LONGEST_PAUSE, grown * random.uniform(1.0, 1.5))
+
+
+async def _end_others() -> None:
+    """Wait until the connections of goals, which are told to end, have done so."""
+    if left := asyncio.all_tasks() - {asyncio.current_task()}:
+        await asyncio.wait(left, timeout=LONGEST_STOP / 2.0)
 
 
 def _nothing() -> None:

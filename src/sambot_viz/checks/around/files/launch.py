@@ -15,6 +15,7 @@ from sambot_viz.checks.around.files.launch_values import (
     keyword,
     values_for,
 )
+from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 
@@ -44,6 +45,10 @@ _SIMULATORS = (
     "gazebo.launch.py",
 )
 _ACTIONS: dict[str, Generation] = {"GzServer": "gz", "RosGzBridge": "gz"}
+_LISTS = frozenset({"arguments", "cmd", "parameters", "remappings"})
+"""Arguments that are lists of several texts, and not the parts of one."""
+_OPTION = re.compile(r"--?[a-z][\w-]*(=\S*)?|\d+", re.IGNORECASE)
+"""An option of a program, or the number that one has."""
 _BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
 
 
@@ -200,7 +205,12 @@ class LaunchFile:
     def _sim_time(self, given: ast.Dict) -> Fact | None:
         for value in values_for(given, "use_sim_time"):
             text = self.values.text(value)
-            return None if text is None else Fact(text, self.place(value))
+            if text is None or (
+                flag(text) is False and not self.values.is_declared(value)
+            ):
+                # Another launch file, which includes this one, may say true.
+                return None
+            return Fact(text, self.place(value))
         return None
 
     def _remappings(self, call: ast.Call) -> Iterator[tuple[str, str]]:
@@ -246,13 +256,19 @@ class LaunchFile:
     def paths(self) -> list[Fact]:
         """All paths in the share folders of packages, such as package://p/config."""
         found: dict[tuple[str, int], Fact] = {}
-        joined = {id(self.values.joined(call)) for call in self.calls}
+        lists = {id(self.values.joined(call)) for call in self.calls}
+        lists |= {
+            id(given.value)
+            for call in self.calls
+            for given in call.keywords
+            if given.arg in _LISTS
+        }
         for node in ast.walk(self.tree):
             built = isinstance(node, (ast.Call, ast.BinOp, ast.JoinedStr, ast.List))
-            if not built or id(node) in joined:
+            if not built or id(node) in lists:
                 continue
-            text = self.values.text(node)
-            if text is not None and text.startswith(SHARE) and ".." not in text:
+            text = _without_options(self.values.text(node) or "")
+            if text.startswith(SHARE) and ".." not in text:
                 found.setdefault((text, node.lineno), Fact(text, self.place(node)))
         return sorted(found.values(), key=lambda fact: fact.place.line)
 
@@ -260,6 +276,14 @@ class LaunchFile:
         """Return what a bridge's arguments say: topic, ROS type, [ ] or @, type."""
         found = (_BRIDGED.fullmatch(text) for text in node.arguments)
         return [(m[1], m[2], m[3], m[4]) for m in found if m is not None]
+
+
+def _without_options(text: str) -> str:
+    """Return the path among options such as "-r -v 4", or the text as it is."""
+    words = text.split()
+    options = [word for word in words if _OPTION.fullmatch(word)]
+    paths = [word for word in words if word not in options]
+    return paths[0] if options and len(paths) == 1 else text
 
 
 def read_launch(text: str, path: str, shown: str) -> LaunchFile | None:

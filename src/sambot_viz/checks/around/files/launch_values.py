@@ -122,6 +122,23 @@ class LaunchValues:
             if value is not None:
                 yield name, value
 
+    def is_declared(self, node: ast.expr) -> bool:
+        """Tell whether an expression has no launch argument that is not declared."""
+        waiting: list[ast.AST] = [node]
+        seen: set[str] = set()
+        while waiting:
+            inner = waiting.pop()
+            waiting += ast.iter_child_nodes(inner)
+            if isinstance(inner, ast.Name) and inner.id not in seen:
+                seen.add(inner.id)
+                waiting += filter(None, [self._variables.get(inner.id)])
+            elif isinstance(inner, ast.Call) and (
+                call_name(inner.func) == "LaunchConfiguration"
+                and self.text(keyword(inner, "variable_name", 0)) not in self._arguments
+            ):
+                return False
+        return True
+
     def joined(self, call: ast.Call) -> ast.expr | None:
         """Return the list whose items a call joins to a path, or None."""
         inner = call.args[0] if call.args else None
@@ -177,3 +194,21 @@ class LaunchValues:
     def _item(self, part: ast.expr) -> ast.expr:
         value = self._variables.get(part.id) if isinstance(part, ast.Name) else None
         return part if value is None else value
+
+    def resolved(self, node: ast.expr | None) -> ast.expr | None:
+        """Return the expression that variables and wrappers stand for."""
+        for _ in range(limits.YAML_DEPTH.value):
+            value = self._item(node) if node is not None else None
+            if isinstance(value, ast.Call) and call_name(value.func) in _WRAPPERS:
+                value = value.args[0] if value.args else value
+            if value is node:
+                break
+            node = value
+        return node
+
+    def named(self, text: str) -> str | None:
+        """Return the variable that stands for a text, or None."""
+        for name, value in self._variables.items():
+            if value is not None and self.text(value) == text:
+                return name
+        return None

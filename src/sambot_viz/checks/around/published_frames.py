@@ -1,0 +1,79 @@
+"""Frames that nodes beside the robot publish: odometry, maps, fixed transforms."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.frame_names import DRIVE_ODOMS
+from sambot_viz.checks.around.known_nodes import PACKAGES, is_known
+from sambot_viz.checks.around.navigation import bare_frame, filters
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.robot.slips.vocabulary import is_one_slip
+
+_FRAME = re.compile(r"(^|_)frame(_id)?$", re.IGNORECASE)
+"""Parameters with such a name say a frame."""
+_MAPS = re.compile(
+    r"\b(nav2_\w+|amcl|map_server|slam_toolbox|cartographer_ros|rtabmap\w*"
+    r"|robot_localization)\b"
+)
+_OF_MAPS = frozenset({"map", "odom"})
+"""Frames that localization publishes, and needs."""
+_LAUNCHED = (".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
+_PACKAGE = re.compile(r"pkg\s*[=:]\s*[\"']?([\w$()-]+)")
+_PUBLISHERS = (*DRIVE_ODOMS, "odom_frame")
+
+
+def may_be_published(around: Surroundings, frame: str) -> bool:
+    """Tell whether a node of the packages may publish a frame that is no link.
+
+    It does where it names the frame, or starts a node that is not known. Then only a
+    frame that is a misspelt link is certainly none.
+    """
+    name = bare_frame(frame)
+    if name in _named(around) or around.said_elsewhere(name):
+        return True
+    if any(is_one_slip(name, link) for link in around.links):
+        return False
+    prefixed = name.rpartition("/")[2] in around.links
+    return (prefixed and around.namespaced) or not _starts_only_known(around)
+
+
+def _named(around: Surroundings) -> Iterator[str]:
+    """Give the frames that plugins, parameters and localization have."""
+    for plugin in around.plugins:
+        for fact in plugin.all(*_PUBLISHERS):
+            yield bare_frame(fact.value)
+        if plugin.is_drive or "odometry" in plugin.filename:
+            yield "odom"
+    for one in filters(around):
+        yield from (one.odom_frame, one.map_frame, one.world_frame)
+    for parameter in around.parameters:
+        if _FRAME.search(parameter.name):
+            yield bare_frame(parameter.fact.value)
+        elif parameter.name == "left_wheel_names":
+            yield "odom"
+    if any(_MAPS.search(text) for text in _started(around)):
+        yield from _OF_MAPS
+    if any(_MAPS.search(node) for file in around.yaml_files for node in file.nodes):
+        yield from _OF_MAPS
+
+
+def _started(around: Surroundings) -> Iterator[str]:
+    for launch in around.launches:
+        yield from launch.strings
+        yield from (fact.value for fact in launch.paths)
+    yield from _launch_texts(around)
+
+
+def _launch_texts(around: Surroundings) -> Iterator[str]:
+    for package in around.packages:
+        for path in package.ending(*_LAUNCHED):
+            yield package.text(path) or ""
+
+
+def _starts_only_known(around: Surroundings) -> bool:
+    named = {
+        package for text in _launch_texts(around) for package in _PACKAGE.findall(text)
+    }
+    return named <= PACKAGES and all(is_known(one, around) for one in around.launches)

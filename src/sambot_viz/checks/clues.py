@@ -1,0 +1,39 @@
+"""How certain a guess is: one clue makes it a note, two that are independent a warning.
+
+A rule that takes a unit or an intention from numbers collects its clues by name; what
+a guess says is never an error, for ROS accepts the numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Set
+
+from sambot_viz.errors import Fix, Place, Problem, Severity
+
+Clues = Set[str]
+"""Names of what speaks for a guess, such as "size" and "density"."""
+
+
+def severity(clues: Clues) -> Severity:
+    """Return how serious a guess is by the number of its clues."""
+    return "warning" if len(clues) > 1 else "info"
+
+
+def guess(
+    place: Place | None, code: str, message: str, hint: str | Fix, clues: Clues
+) -> Problem:
+    """Report a guess as seriously as its clues allow."""
+    return Problem.at(place, severity(clues), code, message, hint)
+
+
+def is_written_whole(value: float) -> bool:
+    """Tell whether a measured number has no fraction."""
+    return is_measured(value) and abs(value - round(value)) < 1e-9
+
+
+def is_measured(value: float) -> bool:
+    """Tell whether a number is neither 0 nor 1, 10, 0.1 or the like.
+
+    Powers of ten are what people write for what they do not know.
+    """
+    return f"{abs(value):.9f}".replace(".", "").strip("0") not in ("", "1")

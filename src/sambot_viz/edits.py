@@ -1,0 +1,340 @@
+"""Edits that fix problems: where text is replaced in a file, and by what.
+
+A rule says which word is wrong at a place, and the right one; here it is found in the
+file. There is an edit only where the file has the wrong word itself at one place of the
+line: a value that xacro computes, or one that is there twice, has none.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import NamedTuple
+
+from sambot_viz.errors import Edit, Fix, Place
+
+_ENCODING = re.compile(
+    rb"""\s*<\?xml\b[^>]{0,200}?\bencoding\s*=\s*["']([\w.-]+)["']"""
+)
+_LARGEST = 5_000_000
+"""Larger files have no edits [bytes]."""
+_NAME = re.compile(r"<([^\s<>/=\"']+)")
+_ATTRIBUTE = re.compile(r"""\s+([^\s<>/=\"']+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
+_END = re.compile(r"\s*(/?)>")
+_SKIPPED = r"<!--.*?-->|<!\[CDATA\[.*?\]\]>"
+_KEY = re.compile(r"[\"']?\s*:(?=\s)")
+"""What is behind a key of YAML or of Python."""
+_OUTSIDE = r"(?<![\w./-])(?<!::){}(?![\w./-]|::)"
+"""A name is a whole word, and no part of a path, a number or a type."""
+
+
+class Extent(NamedTuple):
+    """A piece of a text: its first offset, and the one behind its last."""
+
+    start: int
+    end: int
+
+
+class Tag(NamedTuple):
+    """A start tag in a text.
+
+    Attributes:
+        name: where its name is.
+        names: attribute → where its name is.
+        values: attribute → where its value is, without the quotes.
+        rest: where another attribute can be added.
+        end: the offset behind it.
+        is_empty: it ends with "/>".
+    """
+
+    name: Extent
+    names: dict[str, Extent]
+    values: dict[str, Extent]
+    rest: int
+    end: int
+    is_empty: bool
+
+
+def apply_edits(edits: Iterable[Edit], text: str) -> str:
+    """Return a text with its edits made; the line ends stay as they are.
+
+    Args:
+        edits: those of one file, in any order; the same one counts once.
+        text: what is in the file, decoded.
+
+    Raises:
+        ValueError: two edits replace the same text.
+    """
+    made: list[str] = []
+    done = 0
+    for start, end, new in sorted({(e.start, e.end, e.text) for e in edits}):
+        if start < done:
+            raise ValueError("two edits replace the same text")
+        made += text[done:start], new
+        done = end
+    return "".join(made) + text[done:]
+
+
+def edited_files(edits: Iterable[Edit]) -> dict[str, bytes]:
+    """Return the files that edits change, each with its new content.
+
+    Encoding and line ends are those of the file. A file that cannot be read is left
+    out.
+
+    Raises:
+        ValueError: two edits replace the same text.
+    """
+    of_file: dict[str, list[Edit]] = {}
+    for edit in edits:
+        of_file.setdefault(edit.file, []).append(edit)
+    changed: dict[str, bytes] = {}
+    for file, own in of_file.items():
+        if (source := source_of(file)) is not None:
+            changed[file] = apply_edits(own, source.text).encode(source.encoding)
+    return changed
+
+
+def write(
+    place: Place, wrong: str, right: str, after: str = "", *, hint: str = ""
+) -> Fix:
+    """Return the fix that writes one word for another.
+
+    Args:
+        place: the line with the wrong word; with a column, it is at or behind that. In
+            XML the word is in the element that begins there.
+        wrong: the word as the file has it.
+        right: what to write.
+        after: the end of the hint.
+        hint: the hint, where it is not "write" and the right word.
+    """
+    edits: tuple[Edit, ...] = ()
+    if (source := source_of(place.file)) is not None:
+        spans = list(source.words(wrong, source.offset(place)))
+        if len(spans) == 1:
+            edits = (Edit(place.file, *spans[0], right),)
+    return Fix(hint or f"write {right}{after}", edits)
+
+
+def write_between(place: Place, end: Place, right: str, hint: str) -> Fix:
+    """Return the fix that writes a text for all that is between two places."""
+    source = source_of(place.file)
+    if source is None:
+        return Fix(hint)
+    return Fix(
+        hint, (Edit(place.file, source.offset(place), source.offset(end), right),)
+    )
+
+
+def write_attribute(
+    place: Place | None,
+    name: str,
+    wrong: str | Sequence[float],
+    right: str,
+    *,
+    hint: str = "",
+) -> Fix:
+    """Return the fix that gives an attribute another value.
+
+    Args:
+        place: where the element begins.
+        name: the attribute.
+        wrong: its value as the file has it, or the numbers in it.
+        right: its right value.
+        hint: the hint, where it is not "write" and the attribute.
+    """
+    edits: tuple[Edit, ...] = ()
+    found = _tag_at(place) if place is not None else None
+    if place is not None and found is not None:
+        source, tag = found
+        span = tag.values.get(name)
+        if span is not None and _says(source.text[span.start : span.end], wrong):
+            edits = (Edit(place.file, *span, right),)
+    return Fix(hint or f'write {name}="{right}"', _plain(edits))
+
+
+def rename_attribute(
+    place: Place, wrong: str, right: str, value: str, hint: str
+) -> Fix:
+    """Return the fix that gives an attribute another name.
+
+    Args:
+        place: where the element begins.
+        wrong: the name as the file has it.
+        right: its right name.
+        value: what its value is to be; the same is left as it is in the file.
+        hint: the hint.
+    """
+    edits: list[Edit] = []
+    found = _tag_at(place)
+    if found is not None and wrong in found[1].names and right not in found[1].names:
+        source, tag = found
+        edits.append(Edit(place.file, *tag.names[wrong], right))
+        span = tag.values[wrong]
+        if value.startswith(written := source.text[span.start : span.end]):
+            added = value.removeprefix(written)
+            edits += [Edit(place.file, span.end, span.end, added)] if added else []
+    return Fix(hint, _plain(tuple(edits)))
+
+
+def rename_element(place: Place, wrong: str, right: str, hint: str) -> Fix:
+    """Return the fix that gives an element another name, in its end tag too.
+
+    Args:
+        place: where it begins.
+        wrong: the name as the file has it.
+        right: its right name.
+        hint: the hint.
+    """
+    found = _tag_at(place)
+    if found is None:
+        return Fix(hint)
+    source, tag = found
+    last = tag.name if tag.is_empty else source.closing_name(tag)
+    if last is None or source.text[tag.name.start : tag.name.end] != wrong:
+        return Fix(hint)
+    spans = dict.fromkeys((tag.name, last))
+    return Fix(hint, tuple(Edit(place.file, *span, right) for span in spans))
+
+
+def together(hint: str, *fixes: Fix) -> Fix:
+    """Return one fix that does what several do, or that has no edits."""
+    if not all(fix.edits for fix in fixes):
+        return Fix(hint)
+    return Fix(hint, tuple(edit for fix in fixes for edit in fix.edits))
+
+
+def _says(written: str, value: str | Sequence[float]) -> bool:
+    if isinstance(value, str):
+        return written == value
+    try:
+        return [float(part) for part in written.split()] == list(value)
+    except ValueError:
+        return False
+
+
+def _tag_at(place: Place) -> tuple[SourceFile, Tag] | None:
+    source = source_of(place.file)
+    tag = source.tag(source.offset(place)) if source is not None else None
+    return None if source is None or tag is None else (source, tag)
+
+
+def _plain(edits: tuple[Edit, ...]) -> tuple[Edit, ...]:
+    """Leave out what would be markup in a value."""
+    return () if any(set(edit.text) & set("<&\"'") for edit in edits) else edits
+
+
+@dataclass(frozen=True)
+class SourceFile:
+    """What is in a file.
+
+    Attributes:
+        text: decoded, without a byte order mark, with its line ends.
+        encoding: by which it is encoded again.
+    """
+
+    text: str
+    encoding: str
+
+    @cached_property
+    def _lines(self) -> list[int]:
+        return [0, *(match.end() for match in re.finditer("\n", self.text))]
+
+    def offset(self, place: Place) -> int:
+        """Return the offset of a place; of a line without a column its begin."""
+        if place.line > len(self._lines):
+            return len(self.text)
+        return self._lines[place.line - 1] + (place.column or 1) - 1
+
+    def words(self, word: str, offset: int) -> list[Extent]:
+        """Return where a word is in an element of XML, or in the rest of a line."""
+        pieces = self._pieces(offset) or [self._rest_of_line(offset)]
+        whole = [span for span in pieces if self.text[span.start : span.end] == word]
+        if whole:
+            return whole
+        pattern = re.compile(_OUTSIDE.format(re.escape(word)))
+        found = [
+            Extent(*match.span())
+            for piece in pieces
+            for match in pattern.finditer(self.text, *piece)
+        ]
+        values = [s for s in found if not _KEY.match(self.text, s.end)]
+        return values or found
+
+    def _rest_of_line(self, offset: int) -> Extent:
+        end = self.text.find("\n", offset)
+        return Extent(offset, len(self.text) if end < 0 else end)
+
+    def _pieces(self, offset: int) -> list[Extent]:
+        """Return the values of an element's attributes, and its text."""
+        tag = self.tag(offset)
+        if tag is None:
+            return []
+        text = [] if tag.is_empty else [self.text_behind(tag)]
+        return [*tag.values.values(), *text]
+
+    def text_behind(self, tag: Tag) -> Extent:
+        """Return the text between a tag and the next, without blanks around it."""
+        end = self.text.find("<", tag.end)
+        written = self.text[tag.end : len(self.text) if end < 0 else end]
+        start = tag.end + len(written) - len(written.lstrip())
+        return Extent(start, start + len(written.strip()))
+
+    def tag(self, offset: int) -> Tag | None:
+        """Read the start tag that begins at an offset; None when there is none."""
+        name = _NAME.match(self.text, offset)
+        if name is None:
+            return None
+        names: dict[str, Extent] = {}
+        values: dict[str, Extent] = {}
+        at = name.end()
+        while match := _ATTRIBUTE.match(self.text, at):
+            names[match[1]] = Extent(*match.span(1))
+            values[match[1]] = Extent(*match.span(2 if match[2] is not None else 3))
+            at = match.end()
+        end = _END.match(self.text, at)
+        if end is None:
+            return None
+        return Tag(Extent(*name.span(1)), names, values, at, end.end(), bool(end[1]))
+
+    def closing_name(self, tag: Tag) -> Extent | None:
+        """Return where the name is in the end tag that belongs to a start tag."""
+        name = re.escape(self.text[tag.name.start : tag.name.end])
+        inside = r"(?:\"[^\"]*\"|'[^']*'|[^\"'>])*?"
+        pattern = re.compile(
+            rf"{_SKIPPED}|<{name}(?=[\s/>]){inside}(/?)>|</({name})\s*>", re.DOTALL
+        )
+        depth = 1
+        for match in pattern.finditer(self.text, tag.end):
+            if match[2] is not None:
+                depth -= 1
+            elif match[1] == "":
+                depth += 1
+            if not depth:
+                return Extent(*match.span(2))
+        return None
+
+
+def source_of(file: str) -> SourceFile | None:
+    """Return what is in a file; None when it cannot be read as text."""
+    try:
+        stat = os.stat(file)
+        if not os.path.isfile(file) or stat.st_size > _LARGEST:
+            return None
+        return _read(file, stat.st_mtime_ns, stat.st_size)
+    except (OSError, ValueError, LookupError):
+        return None
+
+
+@lru_cache(maxsize=8)
+def _read(file: str, saved: int, size: int) -> SourceFile:
+    """Read a file once for many problems, until it is saved."""
+    data = Path(file).read_bytes()
+    if data.startswith(b"\xef\xbb\xbf"):
+        return SourceFile(data.decode("utf-8-sig"), "utf-8-sig")
+    declared = _ENCODING.match(data)
+    encoding = declared[1].decode("ascii") if declared else "utf-8"
+    return SourceFile(data.decode(encoding), encoding)
