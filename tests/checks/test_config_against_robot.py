@@ -17,6 +17,7 @@ from sambot_viz.rviz import Declarations, RvizConfig
 
 Checked = Callable[[str], list[Problem]]
 
+BOTH = "Visual Enabled: false\n      Collision Enabled: true"
 GOOD = """\
 Visualization Manager:
   Displays:
@@ -53,6 +54,25 @@ def checked(tmp_path: Path, robot: Robot) -> Checked:
 
 def test_a_config_that_fits_has_no_problems(checked: Checked) -> None:
     assert checked(GOOD) == []
+
+
+def test_a_misspelt_class_is_the_only_finding(checked: Checked) -> None:
+    (problem,) = checked(GOOD.replace("plugins/RobotModel", "plugins/RobotModle"))
+    assert problem.code == "config-class"
+    assert problem.line == 3
+    assert problem.hint == "write rviz_default_plugins/RobotModel"
+    other = GOOD.replace("  Global", "    - Class: my_plugins/RobotModels\n  Global")
+    assert checked(other) == []
+
+
+def test_a_robot_without_shapes_is_noted(checked: Checked) -> None:
+    off = GOOD.replace(
+        "Name: RobotModel", "Name: RobotModel\n      Visual Enabled: false"
+    )
+    (problem,) = checked(off)
+    assert (problem.severity, problem.line) == ("info", 10)
+    assert problem.hint == "write Visual Enabled: true"
+    assert checked(off.replace("Visual Enabled: false", BOTH)) == []
 
 
 def test_a_fixed_frame_that_does_not_exist_is_pointed_at(checked: Checked) -> None:
@@ -189,6 +209,18 @@ def test_a_launch_file_that_asks_for_a_nearly_right_package_is_explained(
     assert problem.line == 8
     assert problem.hint == "write mbot_pkg"
     assert check_launch_file(file, "turtlebot3_gazebo") == []
+
+
+def test_of_two_names_of_the_package_one_is_wrong(tmp_path: Path) -> None:
+    launch = tmp_path / "launch" / "a.launch.py"
+    launch.parent.mkdir()
+    launch.write_text('FindPackageShare("my_robot_description")')
+    (tmp_path / "package.xml").write_text("<package><name>my_robot</name></package>")
+    (problem,) = check_package(tmp_path)
+    assert problem.code == "launch-package-unknown"
+    # The finding at package.xml has the other fix.
+    (tmp_path / "CMakeLists.txt").write_text("project(my_robot_description)")
+    assert check_package(tmp_path) == []
 
 
 def test_setup_py_and_package_xml_have_to_agree(shared: Path) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
 from sambot_viz.checks.falling import falls_over
+from sambot_viz.checks.flat_wheels import flat_wheels
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.lengths import lengths_in_another_unit, robot_in_metres
 from sambot_viz.checks.masses import masses_in_grams
@@ -54,6 +55,7 @@ RULES: tuple[Rule, ...] = (
     meshes_of_wrong_size,
     wheels_off_the_ground,
     wheels_across_their_axles,
+    flat_wheels,
     wheels_in_one_place,
     falls_over,
     names_that_differ_in_case,
@@ -202,7 +204,8 @@ def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
     if _has_degrees(in_metres):
         return [problem for problem in found if problem.code not in _OF_ANGLES]
     reach = {problem for problem in found if problem.code == "footprint-size"}
-    if reach and any(wheels_across_their_axles(in_metres)):
+    turned = (wheels_across_their_axles, flat_wheels)
+    if reach and any(any(rule(in_metres)) for rule in turned):
         found = [problem for problem in found if problem not in reach]
     return found
 

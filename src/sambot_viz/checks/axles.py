@@ -31,11 +31,11 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     robot = subject.robot
     across: dict[str, tuple[Joint, Shape, Vector3]] = {}
     for joint in robot.joints.values():
-        axle = _axle(joint)
+        axle = axle_of(joint)
         if axle is None:
             continue
         upright = abs(robot.at_start[joint.child].turned(axle)[2])
-        if upright > _ACROSS and (upright < _ALONG or not _only_rolls(joint, robot)):
+        if upright > _ACROSS and (upright < _ALONG or not only_rolls(joint, robot)):
             continue
         link = robot.links[joint.child]
         for shapes in (link.visuals, link.collisions):
@@ -104,7 +104,7 @@ def _ways_to_others(joint: Joint, shape: Shape, robot: Robot) -> Iterator[Vector
     for other in robot.joints.values():
         link = robot.links[other.child]
         for found in (link.visuals or link.collisions)[:1]:
-            if _axle(other) is None or not _is_like(found, shape):
+            if axle_of(other) is None or not _is_like(found, shape):
                 continue
             there = robot.at_start[other.child].of(found.origin.xyz)
             length = math.dist(there, here)
@@ -130,7 +130,7 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
     for joint in robot.joints.values():
         link = robot.links[joint.child]
         shapes = link.collisions or link.visuals
-        if _axle(joint) is None or not shapes:
+        if axle_of(joint) is None or not shapes:
             continue
         places = tuple((shape.geometry, shape.origin) for shape in shapes)
         other = seen.setdefault((joint.parent, joint.origin, places), joint)
@@ -161,7 +161,7 @@ def _are_sides(one: str, other: str) -> bool:
     return "left" in one and "right" in other
 
 
-def _axle(joint: Joint) -> Vector3 | None:
+def axle_of(joint: Joint) -> Vector3 | None:
     """Return the unit axis of a joint that turns without end, in the child link."""
     if joint.type not in ("continuous", "revolute") or is_rotor(joint):
         return None
@@ -172,7 +172,7 @@ def _axle(joint: Joint) -> Vector3 | None:
     return (x / length, y / length, z / length) if length > 0 else None
 
 
-def _only_rolls(joint: Joint, robot: Robot) -> bool:
+def only_rolls(joint: Joint, robot: Robot) -> bool:
     """Tell whether a link at the end of the tree is a wheel that does not swivel."""
     names = f"{joint.name} {joint.child}".lower()
     at_end = all(other.parent != joint.child for other in robot.joints.values())

@@ -10,9 +10,11 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import is_bundled
-from sambot_viz.errors import Place, Problem, did_you_mean
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.errors import Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import QOS_PROPERTIES
+from sambot_viz.rviz.declarations import kind_of
 from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar
 
 if TYPE_CHECKING:
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from sambot_viz.rviz.class_items import DisplayConfig
 
 _DESCRIPTION = "robot_description"
+_ROBOT_MODEL = "rviz_default_plugins/RobotModel"
+_LIKENESS = 0.87
 
 
 def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
@@ -38,11 +42,39 @@ def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
         # A user cannot fix the config that comes with the program.
         for display in models:
             problems += _description(display, config.file)
-    if not models:
+    misspelt = list(_misspelt_classes(config))
+    problems += misspelt
+    meant = any(_ROBOT_MODEL in problem.hint for problem in misspelt)
+    if not models and not meant:
         problems.append(_no_robot_model(config.file))
-    elif not any(display.enabled for display in models):
+    elif models and not any(display.enabled for display in models):
         problems.append(_switched_off(models[0], config.file))
+    elif models and all(_shows_nothing(display) for display in models):
+        problems.append(_without_shapes(models[0], config.file))
     return sorted(problems, key=lambda p: p.line or 0)
+
+
+def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
+    """Find displays of a class that is almost one of RViz."""
+    known = [
+        f"{package}/{name}"
+        for package, names in vocabulary("rviz_classes").items()
+        for name in names
+    ]
+    for display in _all(config.displays):
+        kind = kind_of(display.class_id)
+        if kind in known:
+            continue
+        near = nearest(kind, known, _LIKENESS)
+        if near is not None:
+            yield Problem.at(
+                _place(config.file, display.node.get("Class")),
+                "warning",
+                "config-class",
+                f"RViz has no display {display.class_id}: it shows an error in its "
+                "place",
+                f"write {near}",
+            )
 
 
 def _no_robot_model(file: str | None) -> Problem:
@@ -51,7 +83,7 @@ def _no_robot_model(file: str | None) -> Problem:
         "info",
         "setup-no-robot-model",
         "the RobotModel display is missing: only the frames of the robot are shown",
-        "add a display of the class rviz_default_plugins/RobotModel",
+        f"add a display of the class {_ROBOT_MODEL}",
     )
 
 
@@ -63,6 +95,24 @@ def _switched_off(display: DisplayConfig, file: str | None) -> Problem:
         "the RobotModel display is switched off: only the frames of the robot are "
         "shown",
         "switch it on in the Displays panel",
+    )
+
+
+def _shows_nothing(display: DisplayConfig) -> bool:
+    """True for a robot of which neither visuals nor collisions are drawn."""
+    node = display.node
+    shown = node.text("Collision Enabled") or "false"
+    return node.text("Visual Enabled") == "false" and shown == "false"
+
+
+def _without_shapes(display: DisplayConfig, file: str | None) -> Problem:
+    return Problem.at(
+        _place(file, display.node.get("Visual Enabled")),
+        "info",
+        "setup-no-robot-model",
+        "the RobotModel display draws neither visuals nor collisions: only the frames "
+        "of the robot are shown",
+        "write Visual Enabled: true",
     )
 
 

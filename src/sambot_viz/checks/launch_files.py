@@ -31,9 +31,22 @@ def check_package(folder: Path | str, robot: Robot | None = None) -> list[Proble
     """
     root = Path(folder)
     problems = check_setup_py(root / "setup.py")
+    name, project = package_name(root), _project(root / "CMakeLists.txt")
     for path in launch_files(root):
-        problems += check_launch_file(path, package_name(root), robot)
+        found = check_launch_file(path, name, robot)
+        # Where they ask for the name in CMakeLists.txt, that of package.xml is wrong.
+        problems += [p for p in found if f"for the package {project}," not in p.message]
     return problems
+
+
+def _project(cmake: Path) -> str | None:
+    """Return the name of the project in a CMakeLists.txt, None when it is not plain."""
+    try:
+        text = cmake.read_text("utf-8", "replace")
+    except OSError:
+        return None
+    named = re.search(r"^\s*project\s*\(\s*([\w.-]+)", text, re.MULTILINE)
+    return named[1] if named else None
 
 
 def check_launch_file(

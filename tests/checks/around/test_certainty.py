@@ -298,7 +298,8 @@ def test_a_bridge_in_the_arguments_of_a_node_is_read_too(copied: Copied) -> None
         "share/cart_description\n"
         '  PATTERN "*.orig" EXCLUDE)',
         "install(DIRECTORY urdf launch rviz DESTINATION share/cart_description)\n"
-        "install(FILES config/ekf.yaml DESTINATION share/${PROJECT_NAME}/config)\n"
+        "install(FILES config/ekf.yaml config/bridge_config.yaml\n"
+        "  DESTINATION share/${PROJECT_NAME}/config)\n"
         'install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/world" DESTINATION\n'
         "  ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})",
     ],
@@ -393,7 +394,7 @@ def test_a_python_file_that_is_none_does_no_harm(
     package = copied("classic")
     (package / name).write_text(text)
     begin = time.process_time()
-    assert set(codes(package)) <= {"launch-code"}
+    assert set(codes(package)) <= {"launch-code", "setup-py-code"}
     assert time.process_time() - begin < 3
 
 

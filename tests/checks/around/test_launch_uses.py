@@ -122,7 +122,7 @@ def edit(file: Path, edits: Edits) -> None:
             "launch-spawn-topic",
             [('"/robot_description"', '"/robot_descriptions"')],
             55,
-            "robot_state_publisher (line 27) publishes it as robot_description",
+            "robot_state_publisher (line 27) publishes it as /robot_description",
             "write /robot_description",
             [('"/robot_descriptions"', '"/robot_description"')],
         ),

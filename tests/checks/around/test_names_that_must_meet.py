@@ -513,7 +513,7 @@ MISTAKES = [
         "bridge-types",
         (
             (BRIDGE, "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"),
-            (MODEL, "      <topic>scan</topic>\n", ""),
+            (MODEL, 'type="gpu_lidar"', 'type="custom"'),
         ),
         (BRIDGE, "sensor_msgs/msg/PointCloud2"),
         (BRIDGE, 'gz_type_name: "gz.msgs.LaserScan"'),

@@ -80,6 +80,36 @@ Copied = Callable[[str], Path]
             TWICE,
         ),
         (
+            "nav2-node-name",
+            "global_costmap:\n  global_costmap:",
+            "global_costmap:\n  global_costmp:",
+            30,
+            "global_costmap reads its parameters below global_costmap: and again "
+            "global_costmap:, but this is global_costmap: and global_costmp:",
+            "write global_costmap:",
+            "global_costmap:\n  global_costmap:",
+        ),
+        (
+            "nav2-plugin",
+            "      voxel_layer:\n",
+            LAYER.replace("::VoxelLayer", "::VoxlLayer"),
+            25,
+            "Nav2 has no plugin nav2_costmap_2d::VoxlLayer: local_costmap stops with",
+            "write nav2_costmap_2d::VoxelLayer",
+            LAYER,
+        ),
+        (
+            "parameters-yaml",
+            TWICE,
+            TWICE.replace("  global_costmap:\n", "")
+            + "  global_costmap_client:\n    ros__parameters:\n      a: 1\n",
+            29,
+            "global_costmap: has to be there twice, and the second, two blanks further "
+            "in, is missing",
+            "add a line global_costmap: below this one, with 2 blanks before it",
+            TWICE,
+        ),
+        (
             "frame-slash",
             "robot_base_frame: base_link",
             "robot_base_frame: /base_link",

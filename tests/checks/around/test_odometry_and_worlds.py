@@ -14,6 +14,10 @@ LAUNCH = "launch/display.launch.py"
 EKF, WORLD = "config/ekf.yaml", "world/room.sdf"
 SENSORS = '<plugin filename="gz-sim-sensors-system" name="gz::sim::systems::Sensors"/>'
 PHYSICS = '<plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>'
+PHYSICS += (
+    '<plugin filename="gz-sim-user-commands-system" '
+    'name="gz::sim::systems::UserCommands"/>'
+)
 IMU = '<plugin filename="gz-sim-imu-system" name="gz::sim::systems::Imu"/>'
 
 Copied = Callable[[str], Path]

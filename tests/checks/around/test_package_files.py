@@ -200,3 +200,39 @@ def test_what_colcon_reads_is_not_reported(
     assert right in text
     (package / file).write_text(text.replace(right, other, 1))
     assert check(package / MODEL) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "<version>0.0.1</version>",
+        '<maintainer email="cart@example.org">cart</maintainer>',
+        LICENSE,
+    ],
+)
+def test_what_each_manifest_needs_is_told(copied: Copied, line: str) -> None:
+    package = copied("gz")
+    manifest = package / MANIFEST
+    text = manifest.read_text()
+    assert line in text
+    manifest.write_text(text.replace(line, ""))
+    (problem,) = check(package / MODEL)
+    assert (problem.code, problem.line) == ("package-xml", 2)
+    added = problem.hint.removeprefix("add ")
+    manifest.write_text(text.replace(line, added))
+    assert check(package / MODEL) == []
+
+
+def test_a_misspelt_dependency_on_a_package_that_is_used(copied: Copied) -> None:
+    package = copied("gz")
+    manifest = package / MANIFEST
+    text = manifest.read_text()
+
+    def depend_on(*names: str) -> list[str]:
+        lines = "".join(f"<exec_depend>{name}</exec_depend>" for name in names)
+        manifest.write_text(text.replace("  <export>", f"{lines}\n  <export>"))
+        return [problem.hint for problem in check(package / MODEL)]
+
+    assert depend_on("xcaro", "rviz2") == ["write xacro"]
+    assert depend_on("robot_localisation") == ["write robot_localization"]
+    assert depend_on("xacro", "xcaro", "rviz_common", "cart_bringup") == []

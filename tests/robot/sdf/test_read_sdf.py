@@ -445,6 +445,20 @@ def test_a_joint_that_is_its_own_child_is_refused() -> None:
     assert "sdf-joint-to-frame" in {problem.code for problem in refusal(text)}
 
 
+def test_a_frame_that_is_to_be_a_link_is_told_to_become_one() -> None:
+    text = (
+        '<sdf version="1.8"><model name="r"><link name="a"/>\n'
+        '<frame name="f" attached_to="a"/>\n'
+        '<joint name="j" type="fixed"><pose relative_to="a">0 0 1 0 0 0</pose>'
+        "<parent>a</parent><child>f</child></joint></model></sdf>"
+    )
+    (problem,) = (p for p in refusal(text) if p.code == "sdf-joint-to-frame")
+    link = '<link name="f"><pose relative_to="j"/></link>'
+    assert problem.hint == f"make it a link: write {link} for the <frame> in line 2"
+    better = text.replace('<frame name="f" attached_to="a"/>', link)
+    assert load_robot(better).problems == ()
+
+
 def test_a_nested_model_without_links_is_refused() -> None:
     (error,) = refusal(sdf('<link name="a"/><model name="m"/>'))
 

@@ -7,57 +7,25 @@ from collections.abc import Iterator, Sequence
 from sambot_viz.checks.around.bridges import BridgeEntry, entries
 from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, taken
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.read_topics import kinds_read, published_topics
+from sambot_viz.checks.around.read_topics import (
+    kinds_read,
+    published_topics,
+    used_topics,
+)
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem, nearest
 
-_PAIRS: dict[str, tuple[str, ...]] = {
-    "geometry_msgs/msg/Pose": ("Pose",),
-    "geometry_msgs/msg/PoseArray": ("Pose_V",),
-    "geometry_msgs/msg/PoseStamped": ("Pose",),
-    "geometry_msgs/msg/PoseWithCovariance": ("PoseWithCovariance",),
-    "geometry_msgs/msg/PoseWithCovarianceStamped": ("PoseWithCovariance",),
-    "geometry_msgs/msg/TransformStamped": ("Pose",),
-    "geometry_msgs/msg/Twist": ("Twist",),
-    "geometry_msgs/msg/TwistStamped": ("Twist",),
-    "geometry_msgs/msg/Wrench": ("Wrench",),
-    "geometry_msgs/msg/WrenchStamped": ("Wrench",),
-    "nav_msgs/msg/Odometry": ("Odometry", "OdometryWithCovariance"),
-    "rosgraph_msgs/msg/Clock": ("Clock",),
-    "sensor_msgs/msg/BatteryState": ("BatteryState",),
-    "sensor_msgs/msg/CameraInfo": ("CameraInfo",),
-    "sensor_msgs/msg/FluidPressure": ("FluidPressure",),
-    "sensor_msgs/msg/Image": ("Image",),
-    "sensor_msgs/msg/Imu": ("IMU",),
-    "sensor_msgs/msg/JointState": ("Model",),
-    "sensor_msgs/msg/LaserScan": ("LaserScan",),
-    "sensor_msgs/msg/MagneticField": ("Magnetometer",),
-    "sensor_msgs/msg/NavSatFix": ("NavSat",),
-    "sensor_msgs/msg/PointCloud2": ("PointCloudPacked",),
-    "tf2_msgs/msg/TFMessage": ("Pose_V",),
-}
-"""ROS type → the types of Gazebo that ros_gz_bridge turns it into, as of Jazzy."""
+_PAIRS = vocabulary("ros_gz_bridge")
+"""ROS type → the types of Gazebo that ros_gz_bridge turns it into."""
 
 _GZ_TYPES = frozenset(kind for kinds in _PAIRS.values() for kind in kinds)
 _OTHER_GZ_TYPES = frozenset(
     """
-    Actuators AirSpeed Altimeter AnnotatedAxisAligned2DBox AnnotatedAxisAligned2DBox_V
-    AnnotatedOriented3DBox AnnotatedOriented3DBox_V Boolean Color Contact Contacts
-    Dataframe Double Double_V DVLVelocityTracking Empty Entity EntityFactory
-    EntityFactory_V EntityWrench Float Float_V GUICamera Header Int32 Joy
-    JointTrajectory JointWrench Light Light_V LogPlaybackControl LogPlaybackStatistics
-    LogicalCameraImage Material MaterialColor Param Param_V Pose2D Quaternion
-    SensorNoise StringMsg StringMsg_V Time TrackVisual Twist TwistWithCovariance
-    UInt32 Vector2d Vector3d VideoRecord Visual WorldControl WorldControlState
-    WorldStatistics WrenchVisual
-    """.split()
-)
-_OTHER_ROS_TYPES = frozenset(
-    """
-    geometry_msgs/msg/Point geometry_msgs/msg/Quaternion geometry_msgs/msg/Transform
-    geometry_msgs/msg/TwistWithCovariance geometry_msgs/msg/TwistWithCovarianceStamped
-    geometry_msgs/msg/Vector3 sensor_msgs/msg/Joy sensor_msgs/msg/Range
+    AirSpeed Double_V DVLVelocityTracking EntityFactory EntityFactory_V Light_V
+    LogPlaybackControl LogPlaybackStatistics Material Pose2D Vector2d Visual
+    WorldControlState WrenchVisual
     """.split()
 )
 _GZ_PACKAGES = ("gz.msgs", "ignition.msgs")
@@ -93,7 +61,7 @@ def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
 
 def _near_ros_type(written: str) -> str | None:
     """The known type that is meant; None for a known one and for a quite other one."""
-    known = {*_PAIRS, *_OTHER_ROS_TYPES}
+    known = {*_PAIRS}
     parts = [part for part in written.replace(".", "/").split("/") if part]
     if written in known or len(parts) < 2:
         return None
@@ -130,7 +98,7 @@ def bridge_types(around: Surroundings) -> Iterator[Problem]:
     left = {t.kind for t in topics if t.wanted and bare(t.name.value) not in carried}
     for entry in every:
         fitting = _PAIRS.get(entry.ros_type.value)
-        if fitting is None or entry.kind not in _GZ_TYPES:
+        if fitting is None or not _is_gz_type(entry.gz_type.value):
             continue
         own = [t for t in topics if bare(t.name.value) == bare(entry.gz.value)]
         if entry.kind not in fitting:
@@ -139,9 +107,49 @@ def bridge_types(around: Surroundings) -> Iterator[Problem]:
             yield _misfit(entry, own[0])
 
 
+def _is_gz_type(written: str) -> bool:
+    """True for a type of Gazebo, also one that does not exist, unless misspelt."""
+    in_package = written.rpartition(".")[0] in _GZ_PACKAGES
+    return in_package and _near_gz_type(written) is None
+
+
+def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
+    """Report topics that are published, with a type that the reader does not take."""
+    if around.namespaced or _has_wrong_types(around):
+        return
+    published = list(published_topics(around))
+    for parameter, kind in used_topics(around):
+        name = bare(parameter.fact.value)
+        sources = [p for p in published if bare(p.topic.value) == name]
+        # The types of a costmap's sensors are compared with their data_type.
+        if not sources or parameter.name.endswith(".topic"):
+            continue
+        if any(p.kind == kind for p in sources):
+            continue
+        fitting = [p for p in published if p.kind == kind]
+        source = sources[0]
+        yield Problem.at(
+            parameter.value_place,
+            "warning",
+            "topic-type",
+            f"{parameter.node.rpartition('/')[2]} reads {parameter.fact.value} as "
+            f"{kind} for {parameter.name}, but {source.what} publishes it as "
+            f"{source.kind} ({where(source.topic.place, parameter.place)}): nothing "
+            "arrives",
+            f"write {fitting[0].topic.value}"
+            if len(fitting) == 1
+            else f"write the topic of an {kind}",
+        )
+
+
+def _has_wrong_types(around: Surroundings) -> bool:
+    """True where the types of a bridge are the finding."""
+    return any(bridge_types(around)) or any(unknown_bridge_types(around))
+
+
 def wrong_data_types(around: Surroundings) -> Iterator[Problem]:
     """Report sensors of a costmap whose topic has the other type."""
-    if around.namespaced or any(bridge_types(around)):
+    if around.namespaced or _has_wrong_types(around):
         return
     published = list(published_topics(around))
     topics = {

@@ -8,7 +8,7 @@ from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.systems import attributes
+from sambot_viz.checks.around.systems import attributes, near_system
 from sambot_viz.errors import Problem
 
 _SENDER = "joint-state-publisher-system"
@@ -18,6 +18,9 @@ def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
     """Report a bridge for joint states, and no plugin that sends them there."""
     drives = [p for p in around.plugins if p.is_drive and p.generation == "gz"]
     if not drives or any("ros2_control" in p.filename for p in around.plugins):
+        return
+    if any(near_system(plugin.filename) for plugin in around.plugins):
+        # One of them may be meant to.
         return
     carried = (e for e in entries(around) if e.kind == "Model")
     entry = next((e for e in carried if e.reaches_ros), None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.checks.around.files.gazebo import Fact, sensors
@@ -13,6 +13,7 @@ from sambot_viz.checks.around.gazebo_topics import (
     sent,
     taken,
     topics_of_sensor,
+    unnamed,
 )
 from sambot_viz.checks.around.navigation import filters
 from sambot_viz.checks.around.place import where
@@ -138,8 +139,54 @@ def bridge_topics(around: Surroundings) -> Iterator[Problem]:
         for name, topic in names
         if name not in pictures and not name.startswith(doubled)
     ]
-    yield from _misnamed(every, free, (_TO_ROS, _BOTH), "sends")
-    yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes")
+    own = _own_names(around)
+    yield from _misnamed(every, free, (_TO_ROS, _BOTH), "sends", own)
+    yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes", own)
+    yield from _unnamed(every, around)
+
+
+def _own_names(around: Surroundings) -> dict[str, frozenset[str]]:
+    """What the model may be called in Gazebo, for types whose topics it all names."""
+    names = {around.robot.name, *(t for one in around.launches for t in one.strings)}
+    open_ = {one.kind for one in unnamed(around)}
+    named = {topic.kind for topic in (*sent(around), *taken(around))}
+    return dict.fromkeys(named - open_, frozenset(names))
+
+
+def _is_own(entry: BridgeEntry, own: Mapping[str, frozenset[str]]) -> bool:
+    """True for a name that Gazebo would make up for this model, if it did."""
+    parts = bare(entry.gz.value).split("/")
+    at = parts.index("model") + 1 if "model" in parts else len(parts)
+    return at < len(parts) and parts[at] in own.get(entry.kind, ())
+
+
+def _unnamed(every: Sequence[BridgeEntry], around: Surroundings) -> Iterator[Problem]:
+    """Report topics without a name in the model that a bridge carries by one."""
+    known = {bare(t.name.value) for t in (*sent(around), *taken(around))}
+    found = unnamed(around)
+    for entry in every:
+        name = bare(entry.gz.value)
+        alike = [one for one in found if one.kind == entry.kind]
+        # Of joint states there is a finding of their own.
+        if entry.scoped or name in known or len(alike) != 1 or entry.kind == "Model":
+            continue
+        if any(t.kind == entry.kind for t in (*sent(around), *taken(around))):
+            continue
+        (one,) = alike
+        topic = name.removesuffix(one.more)
+        if not name.endswith(one.more):
+            continue
+        if around.said_elsewhere(name, as_topic=True, launched=True):
+            continue
+        yield Problem.at(
+            one.place,
+            "warning",
+            "bridge-topic",
+            f"{one.what} has no <{one.tag}>, so its topic in Gazebo is a long one "
+            f"below the name of the model, but the bridge carries {entry.gz.value} "
+            f"({where(entry.gz.place, one.place)}): nothing passes",
+            f"add <{one.tag}>{topic}</{one.tag}> to it",
+        )
 
 
 def _misnamed(
@@ -147,6 +194,7 @@ def _misnamed(
     topics: Sequence[GazeboTopic],
     ways: Sequence[str],
     verb: str,
+    own: Mapping[str, frozenset[str]],
 ) -> Iterator[Problem]:
     carried = {bare(entry.gz.value) for entry in every}
     for entry in every:
@@ -154,7 +202,7 @@ def _misnamed(
         name = bare(entry.gz.value)
         if name in alike or entry.direction.value not in ways:
             continue
-        if entry.scoped:
+        if entry.scoped and not _is_own(entry, own):
             continue
         left = {k: t for k, t in alike.items() if t.wanted and k not in carried}
         alone = len(alike) == 1 and sum(e.kind == entry.kind for e in every) == 1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Place, nearest
 from sambot_viz.robot.xml.element import Element
 
 _SENSORS: dict[str, tuple[tuple[str, str], ...]] = {
@@ -36,6 +37,7 @@ _SENDS = (
     ("mecanum-drive-system", "odom_topic", "Odometry"),
     ("joint-state-publisher-system", "topic", "Model"),
 )
+_MISSPELT = 0.75
 _TAKES = ("diff-drive-system", "ackermann-steering-system", "mecanum-drive-system")
 
 
@@ -77,6 +79,47 @@ def topics_of_sensor(sensor: Element) -> Iterator[GazeboTopic]:
             name = Fact(fact.value + more, fact.place)
             wanted = not more or "camera" in kind
             yield GazeboTopic(name, gz_type, f"the sensor {sensor.get('name')}", wanted)
+
+
+@dataclass(frozen=True, slots=True)
+class Unnamed:
+    """A sensor or a plugin whose topic Gazebo makes up, below the name of the model.
+
+    Attributes:
+        place: its line.
+        kind: the type of the topic.
+        what: what it is.
+        tag: the element that would name the topic.
+        more: what Gazebo adds to that name.
+    """
+
+    place: Place
+    kind: str
+    what: str
+    tag: str
+    more: str
+
+
+def unnamed(around: Surroundings) -> list[Unnamed]:
+    """Return what sends or takes topics of Gazebo that the model does not name."""
+    found: list[Unnamed] = []
+    for _, sensor in sensors(around.robot.gazebo):
+        kind = (sensor.get("type") or "").removesuffix("_sensor")
+        classic = any(
+            "libgazebo_" in (child.get("filename") or "") for child in sensor.children
+        )
+        what = f"the sensor {sensor.get('name')}"
+        for gz_type, more in _SENSORS.get(kind, ()):
+            if not classic and sensor.find("topic") is None:
+                found.append(Unnamed(sensor.place, gz_type, what, "topic", more))
+    rows = (*_SENDS, *((part, "topic", "Twist") for part in _TAKES))
+    for plugin in around.plugins:
+        for part, tag, kind in rows:
+            tags = [child.tag for child in plugin.element.children]
+            if part in plugin.filename and nearest(tag, tags, _MISSPELT) is None:
+                what = f"the plugin {plugin.filename}"
+                found.append(Unnamed(plugin.element.place, kind, what, tag, ""))
+    return found
 
 
 def doubled_topics(around: Surroundings) -> frozenset[str]:

@@ -1,18 +1,19 @@
-"""Folders that are used, but that CMakeLists.txt or setup.py does not install right."""
+"""Files that are used, but that CMakeLists.txt or setup.py does not install right."""
 
 from __future__ import annotations
 
-import ast
+import posixpath
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from functools import partial
 
 from sambot_viz.checks.around.build_file import folders_as_files, near_folder
 from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.installs import Installed, Piece
 from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.setup_py import DataFiles, SetupFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
@@ -23,143 +24,275 @@ _UNCERTAIN = frozenset(
 )
 _SHARES = ("share", "${CMAKE_INSTALL_DATADIR}")
 _OF_PACKAGE = "share/${PROJECT_NAME}"
-_SEARCHES = frozenset({"walk", "rglob", "iterdir", "listdir", "scandir"})
-
-
-@dataclass(frozen=True, slots=True)
-class Installed:
-    """The folders that a build file installs.
-
-    Attributes:
-        place: where a missing one is to be added.
-        folders: those that get into the share folder of the package.
-        elsewhere: those that get to another place, and its DESTINATION.
-    """
-
-    place: Place
-    folders: set[str]
-    elsewhere: dict[str, CMakeWord] = field(default_factory=dict[str, CMakeWord])
-
-
-def not_installed(around: Surroundings) -> Iterator[Problem]:
-    """Report each folder that is used and exists, but is not installed."""
-    if any(folders_as_files(around)):
-        return
-    used = dict(_used_folders(around))
-    installed = _installed(around) if used else None
-    if installed is None:
-        return
-    missing = {f: user for f, user in used.items() if f not in installed.folders}
-    for target in dict.fromkeys(installed.elsewhere.values()):
-        wrong = {
-            f: u for f, u in missing.items() if installed.elsewhere.get(f) == target
-        }
-        if wrong:
-            yield _at_wrong_place(around, target, wrong, installed.place.file)
-    cmake = installed.place.file.endswith(".txt")
-    for folder, user in missing.items():
-        if folder in installed.elsewhere:
-            continue
-        yield Problem.at(
-            installed.place,
-            "error",
-            "folder-not-installed",
-            f"the folder {folder} is not installed, but {where(user, installed.place)} "
-            "is used from the installed package: it is not found"
-            if user.line == 1
-            else f"the folder {folder} is not installed, but "
-            f"{where(user, installed.place)} looks for a file of it in the installed "
-            "package: it is not found",
-            f"add install(DIRECTORY {folder} DESTINATION {_OF_PACKAGE})"
-            if cmake
-            else f"add (os.path.join('share', package_name, '{folder}'), "
-            f"glob('{folder}/*')) to data_files",
-        )
-
-
-def _at_wrong_place(
-    around: Surroundings, target: CMakeWord, folders: dict[str, Place], file: str
-) -> Problem:
-    place = Place(file, target.line)
-    better = _corrected(target.text, around)
-    user = next(iter(folders.values()))
-    are, them = ("s", "them") if len(folders) > 1 else ("", "it")
-    needs = "is used from" if user.line == 1 else f"looks for {them} in"
-    return Problem.at(
-        place,
-        "error",
-        "install-destination",
-        f"the folder{are} {listed(folders)} {'are' if are else 'is'} installed into "
-        f"{target.text}, but {where(user, place)} {needs} "
-        f"share/{around.files.name}: nothing is found",
-        write(place, target.text, better) if better else f"write {better}",
-    )
-
-
 _NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests"})
 """Launch files in these are started by their path."""
 
 
-def _used_folders(around: Surroundings) -> Iterator[tuple[str, Place]]:
-    """The folders of the package that are used; the first user comes last."""
-    for launch in reversed(around.launches):
+def not_installed(around: Surroundings) -> Iterator[Problem]:
+    """Report each file that is used and exists, but is not installed where it is."""
+    if any(folders_as_files(around)):
+        return
+    used: dict[str, Place] = {}
+    for path, user in sorted(_used(around), key=lambda u: (u[1].file, u[1].line)):
+        used.setdefault(path, user)
+    installed = _installed(around) if used else None
+    if installed is None:
+        return
+    missing = {
+        path: user
+        for path, user in used.items()
+        if not installed.has(path) and not _is_launch(path, user, installed)
+    }
+    wrong: dict[Piece, dict[str, Place]] = {}
+    for path in list(missing):
+        pieces = [piece for _, piece in installed.targets(path) if piece.certain]
+        if pieces:
+            first = next((p for p in wrong if p[2:] == pieces[0][2:]), pieces[0])
+            wrong.setdefault(first, {})[path] = missing.pop(path)
+    for piece, paths in wrong.items():
+        yield _at_wrong_place(around, piece, paths, installed)
+    yield from _nowhere(around, missing, installed)
+
+
+def _is_launch(path: str, user: Place, installed: Installed) -> bool:
+    """True for a launch file that ros2 launch finds anywhere in the share folder."""
+    head = f"{installed.share}/"
+    itself = user.line == 1 and path.endswith("launch.py")
+    return itself and any(t.startswith(head) for t, _ in installed.targets(path))
+
+
+def _used(around: Surroundings) -> Iterator[tuple[str, Place]]:
+    """Give the files of the package that are used, each with a user."""
+    for launch in around.launches:
         folder, slash, _ = launch.path.partition("/")
-        if slash and folder not in _NOT_INSTALLED:
-            yield folder, Place(launch.shown, 1)
+        module = f"{posixpath.dirname(launch.path)}/__init__.py" in around.files.paths
+        if slash and folder not in _NOT_INSTALLED and not module:
+            yield launch.path, Place(launch.shown, 1)
     facts = [fact for launch in around.launches for fact in launch.paths]
     for link in around.robot.links.values():
         for shape in (*link.visuals, *link.collisions):
             mesh, place = shape.geometry, shape.geometry_place or shape.place
             if isinstance(mesh, MeshFile) and place is not None:
                 facts.append(Fact(mesh.filename, place))
-    folders = {path.partition("/")[0] for path in around.files.paths if "/" in path}
-    for fact in reversed(facts):
+    for fact in facts:
         below = around.own(fact.value) if fact.value.startswith(SHARE) else None
-        folder, slash, _ = (below or "").partition("/")
-        if slash and folder in folders:
-            yield folder, fact.place
+        if below and "/" in below and (around.files.folder / below).exists():
+            yield below, fact.place
+
+
+def _nowhere(
+    around: Surroundings, missing: dict[str, Place], installed: Installed
+) -> Iterator[Problem]:
+    """Report what is installed nowhere: a row for each folder that is to be added."""
+    setup = around.setup if around.cmake is None else None
+    groups: dict[str, dict[str, Place]] = {}
+    for path, user in missing.items():
+        top, above = path.partition("/")[0], posixpath.dirname(path)
+        partly = setup is None and installed.has(top)
+        groups.setdefault(above if setup or partly else top, {})[path] = user
+    for folder, paths in groups.items():
+        entry = _without_files(setup, f"{installed.share}/{folder}") if setup else None
+        if setup is not None and entry is not None:
+            yield _empty(setup, entry, folder, paths, around)
+            continue
+        partly = installed.has(folder)
+        user = next(iter(paths.values()))
+        names = listed(paths) if partly else f"the folder {folder}"
+        are = "are" if partly and len(paths) > 1 else "is"
+        by = where(user, installed.place)
+        needs = (
+            f"{by} is used from the installed package"
+            if user.line == 1
+            else f"{by} looks for {'it' if partly else 'a file of it'} in the "
+            "installed package"
+        )
+        yield Problem.at(
+            installed.place,
+            "error",
+            "folder-not-installed",
+            f"{names} {are} not installed, but {needs}: it is not found",
+            f"add {_addition(setup, folder, paths, around, partly=partly)}",
+        )
+
+
+def _addition(
+    setup: SetupFile | None,
+    folder: str,
+    paths: dict[str, Place],
+    around: Surroundings,
+    *,
+    partly: bool,
+) -> str:
+    """Return the lines that install a folder, or more of its files."""
+    if setup is not None:
+        target = setup.share(around.files.name, folder)
+        return f"({target}, {_files(setup, folder, paths, around)}) to data_files"
+    if partly:
+        return f"install(FILES {' '.join(paths)} DESTINATION {_OF_PACKAGE}/{folder})"
+    return f"install(DIRECTORY {folder} DESTINATION {_OF_PACKAGE})"
+
+
+def _files(
+    setup: SetupFile, folder: str, paths: dict[str, Place], around: Surroundings
+) -> str:
+    """Write the files of a folder for data_files, which takes no folders."""
+    flat = not any(p.is_dir() for p in (around.files.folder / folder).iterdir())
+    return (setup.globbed(f"{folder}/*") if flat else None) or str(list(paths))
+
+
+def _without_files(setup: SetupFile, target: str) -> DataFiles | None:
+    """The entry of data_files for a folder, when its globs find nothing."""
+    for entry in setup.data_files:
+        if entry.target == target and not entry.files.items and any(entry.globs):
+            return entry
+    return None
+
+
+def _empty(
+    setup: SetupFile,
+    entry: DataFiles,
+    folder: str,
+    paths: dict[str, Place],
+    around: Surroundings,
+) -> Problem:
+    glob = next(entry.globs)
+    pattern = setup.values.text(glob.args[0] if glob.args else None) or ""
+    ending = posixpath.splitext(next(iter(paths)))[1]
+    fitting = f"{folder}/*{ending}"
+    place = setup.place(glob)
+    user = next(iter(paths.values()))
+    used = (
+        f"{where(user, place)} is used from the installed package"
+        if user.line == 1
+        else f"{where(user, place)} looks for {listed(paths, 2)}"
+    )
+    return Problem.at(
+        place,
+        "error",
+        "install-glob-empty",
+        f"{pattern} fits no file, so nothing is installed into share/"
+        f"{around.files.name}/{folder}, but {used}: it is not found",
+        f"write {setup.globbed(fitting) or fitting}",
+    )
+
+
+def _at_wrong_place(
+    around: Surroundings, piece: Piece, paths: dict[str, Place], installed: Installed
+) -> Problem:
+    """Say where files get to, and where they are looked for."""
+    place, (path, user) = piece.place, next(iter(paths.items()))
+    folders = list(dict.fromkeys(p.partition("/")[0] for p in paths))
+    are, them = ("s", "them") if len(folders) > 1 else ("", "it")
+    by = where(user, place)
+    needs = f"{by} is used from" if user.line == 1 else f"{by} looks for {them} in"
+    share = f"share/{around.files.name}"
+    above = posixpath.dirname(path)
+    if not f"{piece.target}/".startswith(f"{installed.share}/"):
+        what = f"the folder{are} {listed(folders)} {'are' if are else 'is'} installed "
+        what += f"into {piece.said}, but {needs} {share}: nothing is found"
+    elif piece.source.endswith("/"):
+        words = [f"{folder}/" for folder in folders]
+        ends, of = ("end", "folders") if are else ("ends", "folder")
+        what = f"{listed(words)} {ends} with a slash, so that CMake installs what is "
+        what += f"in {them} without the {of}, but {by} looks for {path} in {share}: it "
+        what += "is not found"
+        return Problem.at(
+            place,
+            "error",
+            "install-destination",
+            what,
+            f"write {' '.join(folders)} without the slash" + "es" * bool(are),
+        )
+    else:
+        what = f"{listed(paths, 3)} {'are' if len(paths) > 1 else 'is'} installed into "
+        what += f"{posixpath.dirname(piece.target)}, but {by} looks for {path} in "
+        what += f"{share}/{above}: it is not found"
+    setup = around.setup if around.cmake is None else None
+    if setup is not None:
+        right = setup.share(around.files.name, above)
+    else:
+        right = _corrected(piece.said, around) or _OF_PACKAGE
+        if right == piece.said:
+            right = f"{_OF_PACKAGE}/{above}"
+    fix = write(place, piece.said, right)
+    return Problem.at(place, "error", "install-destination", what, fix)
 
 
 def _installed(around: Surroundings) -> Installed | None:
     """What is installed; None when that is not certain."""
+    share = f"share/{around.files.name}"
+    made = partial(Installed, folder=around.files.folder, share=share)
+    cmake, setup = around.cmake, around.setup
     if around.files.text("CMakeLists.txt") is not None:
-        return None if around.cmake is None else _by_cmake(around.cmake, around)
-    setup = around.files.text("setup.py")
-    return None if setup is None else _by_setup(setup, around.files.shown("setup.py"))
+        pieces = None if cmake is None else _by_cmake(cmake, around)
+        if cmake is None or pieces is None:
+            return None
+        ends = [c for c in cmake.commands if c.name.startswith("ament_")]
+        end = next((c for c in ends if c.name == "ament_package"), ends[0])
+        return made(cmake.place(end.line), pieces=tuple(pieces))
+    if setup is None or not setup.installs_only_known:
+        return None
+    place = setup.place(setup.given("data_files"))
+    return made(place, pieces=tuple(_by_setup(setup)))
 
 
-def _by_cmake(cmake: CMakeFile, around: Surroundings) -> Installed | None:
+def _by_setup(setup: SetupFile) -> Iterator[Piece]:
+    for entry in setup.data_files:
+        target = entry.target or ""
+        for _, path in entry.files.items:
+            if isinstance(path, str):
+                name = posixpath.basename(path)
+                yield Piece(path, f"{target}/{name}", target, setup.place(entry.node))
+
+
+def _by_cmake(cmake: CMakeFile, around: Surroundings) -> list[Piece] | None:
     if not cmake.is_package or not _UNCERTAIN.isdisjoint(cmake.names):
         return None
-    end = next(c for c in cmake.commands if c.name.startswith("ament_"))
-    end = next((c for c in cmake.commands if c.name == "ament_package"), end)
-    installed = Installed(cmake.place(end.line), set())
+    share = f"share/{around.files.name}"
+    found: list[Piece] = []
     for command in cmake.commands:
         if command.name == "ament_auto_package":
-            installed.folders.update(w.text.rstrip("/") for w in command.words)
-        elif command.name == "install" and not _add(command, installed, around):
-            return None
-    return installed
+            for word in command.words:
+                folder = f"{word.text.rstrip('/')}/"
+                place = cmake.place(word.line)
+                found.append(Piece(folder, f"{share}/{folder}", _OF_PACKAGE, place))
+        elif command.name == "install" and command.destination is not None:
+            pieces = _of_command(command, command.destination, cmake, around)
+            if pieces is None:
+                return None
+            found += pieces
+    return found
 
 
-def _add(command: CMakeCommand, installed: Installed, around: Surroundings) -> bool:
-    """Add what one install( … ) does; False when that is not certain."""
-    target = command.destination
-    if target is None:
-        return True
+def _of_command(
+    command: CMakeCommand, target: CMakeWord, cmake: CMakeFile, around: Surroundings
+) -> list[Piece] | None:
+    """What one install( … ) does; None when that is not certain."""
     right = _corrected(target.text, around)
     if right is None:
-        return False
-    is_right = right == target.text
-    folders = _folders(command, right, around)
-    if folders is None:
-        return not is_right
-    if is_right:
-        installed.folders.update(folders)
-    elif command.directories and command.certain:
-        for folder in folders:
-            installed.elsewhere.setdefault(folder, target)
-    return True
+        return None
+    in_share = right == target.text
+    share = ["share", around.files.name, *right.split("/")[2:]]
+    folder = "/".join(p for p in share if p) if in_share else target.text.rstrip("/")
+    found: list[Piece] = []
+    for text, line in (*command.directories, *command.files):
+        if "$" in text or (in_share and "$" in folder):
+            return None if in_share else []
+        place = cmake.place(target.line)
+        if text in [word.text for word in command.files]:
+            name = posixpath.basename(text)
+            piece = Piece(text, f"{folder}/{name}", target.text, place)
+        elif text in (".", "./"):
+            piece = Piece("", f"{folder}/", target.text, place)
+        elif text.endswith("/"):
+            here = cmake.place(line if in_share else target.line)
+            piece = Piece(text, f"{folder}/", target.text, here)
+        else:
+            source = near_folder(text, around) or text
+            name = posixpath.basename(source)
+            piece = Piece(f"{source}/", f"{folder}/{name}/", target.text, place)
+        found.append(piece._replace(certain=command.certain))
+    return found
 
 
 def _corrected(target: str, around: Surroundings) -> str | None:
@@ -181,48 +314,3 @@ def _corrected(target: str, around: Surroundings) -> str | None:
     if at != 0 and "$" in "".join(parts[:1]):
         return None
     return "/".join([_OF_PACKAGE, *([] if at is None else parts[at + 1 :])])
-
-
-def _folders(
-    command: CMakeCommand, target: str, around: Surroundings
-) -> set[str] | None:
-    """The folders that an install( … ) puts into share; None when not certain."""
-    inner = [part for part in target.split("/")[2:] if part]
-    if inner:
-        return None if "$" in inner[0] else {inner[0]}
-    folders: set[str] = set()
-    for text, _ in command.directories:
-        if "$" in text:
-            return None
-        if text.endswith(("/", ".")):
-            folders |= _inside(text, around)
-        else:
-            folders.add(near_folder(text, around) or text.rpartition("/")[2])
-    return folders
-
-
-def _inside(folder: str, around: Surroundings) -> set[str]:
-    """The folders in a folder, whose content is installed without itself."""
-    head = "" if folder in (".", "./") else folder
-    paths = (p.removeprefix(head) for p in around.files.paths if p.startswith(head))
-    return {path.partition("/")[0] for path in paths if "/" in path}
-
-
-def _by_setup(text: str, shown: str) -> Installed | None:
-    tree = parse_python(text)
-    if tree is None:
-        return None
-    place: Place | None = None
-    parts: set[str] = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef):
-            return None
-        if isinstance(node, ast.Call) and call_name(node.func) in _SEARCHES:
-            return None
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if "**" in node.value:
-                return None
-            parts.update(node.value.split("/"))
-        if isinstance(node, ast.keyword) and node.arg == "data_files":
-            place = Place(shown, node.value.lineno)
-    return None if place is None else Installed(place, parts)

@@ -7,6 +7,7 @@ import builtins
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.files.setup_py import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
@@ -41,8 +42,10 @@ _IMPORTS: dict[str, str] = {
     }.items()
     for name in names.split()
 }
+_IN_SETUP = {"glob": "glob", "setup": "setuptools", "find_packages": "setuptools"}
+_NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 _MODULES = frozenset({"launch", "launch_ros", "os", "sys", "xacro"})
-_PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
+PREDEFINED = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__"}
 
 
 def empty_launch_files(around: Surroundings) -> Iterator[Problem]:
@@ -128,23 +131,61 @@ def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
 
 def unknown_names(around: Surroundings) -> Iterator[Problem]:
     """Report names that are used and neither imported nor defined."""
-    for launch in around.launches:
-        undefined = undefined_names(launch.tree)
-        bound = _bound(launch.tree) if undefined else set[str]()
+    for file in _python_files(around):
+        undefined = undefined_names(file.tree)
+        bound = bound_names(file.tree) if undefined else set[str]()
         for name, node in undefined.items():
+            code, stops = _stopped(file)
             yield Problem.at(
-                launch.place(node),
+                file.place(node),
                 "error",
-                _CODE,
-                f"{name} is used here, but it is neither imported nor defined: ros2 "
-                "launch stops with it",
-                _advice(name, bound),
+                code,
+                f"{name} is used here, but it is neither imported nor defined: {stops} "
+                "stops with it",
+                _advice(name, bound, code),
             )
+
+
+def missing_commas(around: Surroundings) -> Iterator[Problem]:
+    """Report two items of a list without a comma, which Python takes for a call."""
+    for file in _python_files(around):
+        for node in ast.walk(file.tree):
+            item = node.func if isinstance(node, ast.Call) else None
+            item = node.value if isinstance(node, ast.Subscript) else item
+            if isinstance(item, _NEVER_CALLED):
+                code, stops = _stopped(file)
+                end = Place(file.shown, item.end_lineno or item.lineno)
+                second = "(" if isinstance(node, ast.Call) else "["
+                yield Problem.at(
+                    end,
+                    "error",
+                    code,
+                    "a comma is missing at the end of this line: Python takes the "
+                    f"{second} after it for a call of what is before it; {stops} stops "
+                    "with it"
+                    if second == "("
+                    else "a comma is missing at the end of this line: Python takes "
+                    f"the [ after it for an index; {stops} stops with it",
+                    "add a comma there",
+                )
+
+
+def _python_files(around: Surroundings) -> Iterator[LaunchFile | SetupFile]:
+    yield from around.launches
+    if around.setup is not None:
+        yield around.setup
+
+
+def _stopped(file: LaunchFile | SetupFile) -> tuple[str, str]:
+    """The code of a finding, and what stops."""
+    if isinstance(file, LaunchFile):
+        return _CODE, "ros2 launch"
+    return "setup-py-code", "colcon build"
 
 
 def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
     """Return the names without a value, each where it is used first."""
-    bound = _bound(tree)
+    bound = bound_names(tree)
     found: dict[str, ast.Name] = {}
     for node in ast.walk(tree) if "*" not in bound else ():
         if isinstance(node, ast.Name) and node.id not in bound:
@@ -154,8 +195,10 @@ def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
     return found
 
 
-def _advice(name: str, bound: set[str]) -> str:
-    own = bound - _PREDEFINED
+def _advice(name: str, bound: set[str], code: str) -> str:
+    own = bound - PREDEFINED
+    if code != _CODE and name in _IN_SETUP:
+        return f"add from {_IN_SETUP[name]} import {name} at the top of the file"
     if name in _IMPORTS:
         return f"add from {_IMPORTS[name]} import {name} at the top of the file"
     if name in _MODULES:
@@ -166,9 +209,9 @@ def _advice(name: str, bound: set[str]) -> str:
     return "import it at the top of the file, or define it above this line"
 
 
-def _bound(tree: ast.Module) -> set[str]:
-    """All names that get a value anywhere in a file; "*" when others may."""
-    found = set(_PREDEFINED)
+def bound_names(tree: ast.Module) -> set[str]:
+    """Return all names that get a value anywhere in a file; "*" when others may."""
+    found = set(PREDEFINED)
     for node in ast.walk(tree):
         match node:
             case ast.Name(id=name, ctx=ast.Store() | ast.Del()):
@@ -193,4 +236,4 @@ def _bound(tree: ast.Module) -> set[str]:
 
 
 def _is_bound(name: str, tree: ast.Module) -> bool:
-    return not {name, "*"}.isdisjoint(_bound(tree))
+    return not {name, "*"}.isdisjoint(bound_names(tree))

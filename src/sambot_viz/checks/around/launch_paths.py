@@ -15,7 +15,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
-_OWN_NAMES = {
+OWN_NAMES = {
     "ekf_node": "ekf_filter_node",
     "ukf_node": "ukf_filter_node",
     "navsat_transform_node": "navsat_transform",
@@ -71,7 +71,7 @@ def _is_missing(below: str, paths: frozenset[str], around: Surroundings) -> bool
 def _read_by(launch: LaunchFile, fact: Fact, around: Surroundings) -> str | None:
     """The one file with parameters for the node that is given a missing one."""
     for node in launch.nodes:
-        name = node.name or _OWN_NAMES.get(node.executable)
+        name = node.name or OWN_NAMES.get(node.executable)
         if name and any(given.value == fact.value for given in node.files):
             files = (file for file in around.yaml_files if file.nodes)
             fitting = [file.path for file in files if _has(file, name)]
@@ -102,7 +102,7 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
     files = {file.path: file for file in around.yaml_files}
     for launch in around.launches:
         for node in launch.nodes:
-            name = node.name or _OWN_NAMES.get(node.executable)
+            name = node.name or OWN_NAMES.get(node.executable)
             for given in node.files if node.complete and name else ():
                 file = files.get(around.own(given.value) or "")
                 if file is not None and name and not _has(file, name):
@@ -140,7 +140,17 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
         named = list(spawned_with(launch, "world")) if len(worlds) == 1 else []
         for fact in named:
             (name, place), *_ = worlds.items()
-            if fact.value != name:
+            if fact.value != name and " " in name:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-world-name",
+                    f"the name of the world, {name}, has a blank, which names in "
+                    f"Gazebo must not have; {where(fact.place, place)} puts the robot "
+                    f"into {fact.value}: it does not appear",
+                    f'write name="{fact.value}"',
+                )
+            elif fact.value != name:
                 yield Problem.at(
                     fact.place,
                     "warning",

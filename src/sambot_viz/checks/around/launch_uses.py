@@ -11,13 +11,14 @@ import yaml
 from sambot_viz.checks.around.files.launch import NODES, LaunchFile
 from sambot_viz.checks.around.files.launch_values import keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
+from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.errors import Place, Problem, nearest
 
 _STARTED = frozenset(
     {
@@ -142,19 +143,38 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
             package = launch.values.text(keyword(call, "package")) or ""
             given = keyword(call, "executable")
             program = launch.values.text(given)
-            known = _PROGRAMS.get(package, "").split()
+            own = _own_programs(around) if package == around.files.name else None
+            known = _PROGRAMS.get(package, "").split() if own is None else [*own]
             if given is None or program is None or program in known:
                 continue
             near = nearest(program, known)
-            if near is not None:
-                yield Problem.at(
-                    launch.place(given),
-                    "error",
-                    "launch-program-unknown",
-                    f"the package {package} has no program {program}: ros2 launch "
-                    "stops with it",
-                    write(launch.place(given), program, near),
-                )
+            if near is None and own is None:
+                continue
+            place = launch.place(given)
+            listed_at = own.get(near or "") if own is not None else None
+            there = f"; it has {near} ({where(listed_at, place)})" if listed_at else ""
+            yield Problem.at(
+                place,
+                "error",
+                "launch-program-unknown",
+                f"the package {package} has no program {program}{there}: ros2 launch "
+                "stops with it",
+                write(place, program, near)
+                if near
+                else f"add a line {program} = … to console_scripts in setup.py",
+            )
+
+
+def _own_programs(around: Surroundings) -> dict[str, Place] | None:
+    """The programs that setup.py installs; None when that is not certain."""
+    setup = around.setup if around.cmake is None else None
+    if setup is None or not setup.installs_only_known or setup.given("scripts"):
+        return None
+    if not setup.scripts.known or len(setup.programs) != len(setup.scripts.items):
+        return None
+    if any((entry.target or "").startswith("lib/") for entry in setup.data_files):
+        return None
+    return {program.name: setup.place(program.node) for program in setup.programs}
 
 
 def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
@@ -233,29 +253,46 @@ def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def spawned_topics(around: Surroundings) -> Iterator[Problem]:
-    """Report a robot that is spawned from a topic that is almost the right one."""
-    publisher = next(
-        (
-            node
-            for launch in around.launches
-            for node in launch.nodes
-            if node.executable == _PUBLISHER and not node.remappings
-        ),
-        None,
-    )
-    for launch in around.launches if publisher is not None else ():
+    """Report a robot that is spawned from a topic on which no model is published."""
+    published = {topic: place for topic, place in _descriptions(around) if topic}
+    if len(published) < len(dict(_descriptions(around))) or not published:
+        return
+    certain = starts_only_known(around)
+    for launch in around.launches:
         for fact in spawned_with(launch, "topic"):
             topic, place = fact.value, fact.place
             name = topic.rpartition("/")[2]
-            if name == _TOPIC or not nearest(name, [_TOPIC], 0.8):
+            # All may be started in a namespace by another launch file.
+            if f"/{topic.strip('/')}".endswith(tuple(published)):
                 continue
-            if publisher is not None:
-                yield Problem.at(
-                    place,
-                    "warning",
-                    "launch-spawn-topic",
-                    f"the robot is to come from the topic {topic}, but "
-                    f"{_PUBLISHER} ({where(publisher.place, place)}) publishes it as "
-                    f"{_TOPIC}: it does not appear",
-                    write(place, topic, f"{topic.removesuffix(name)}{_TOPIC}"),
-                )
+            if name == _TOPIC:
+                if not topic.startswith("/"):
+                    continue
+            elif not certain and not nearest(name, [_TOPIC], 0.8):
+                continue
+            right, publisher = next(iter(published.items()))
+            yield Problem.at(
+                place,
+                "warning",
+                "launch-spawn-topic",
+                f"the robot is to come from the topic {topic}, but "
+                f"{_PUBLISHER} ({where(publisher, place)}) publishes it as "
+                f"{right}: it does not appear",
+                write(place, topic, right),
+            )
+
+
+def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
+    """The topics on which the model is published; None for one that is not certain."""
+    for launch in around.launches:
+        names = {call_name(call.func) for call in launch.calls}
+        pushed = not names.isdisjoint({"PushRosNamespace", "PushROSNamespace"})
+        for call in launch.calls:
+            program = launch.values.text(keyword(call, "executable"))
+            if call_name(call.func) in NODES and program == _PUBLISHER:
+                given = keyword(call, "namespace")
+                space = "" if given is None else launch.values.text(given)
+                known = space is not None and not pushed
+                known = known and keyword(call, "remappings") is None
+                topic = f"/{space}/{_TOPIC}".replace("//", "/") if known else None
+                yield topic, launch.place(call)

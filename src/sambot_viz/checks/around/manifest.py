@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz import limits
+from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.yaml_repair import Fault
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 
@@ -26,6 +27,23 @@ _SMALLEST = (
     "</maintainer><license>MIT</license><buildtool_depend>ament_cmake"
     "</buildtool_depend><export><build_type>ament_cmake</build_type></export></package>"
 )
+_REQUIRED = {
+    "name": "",
+    "version": "<version>0.0.0</version>",
+    "description": "<description>A robot</description>",
+    "maintainer": '<maintainer email="me@example.org">me</maintainer>',
+    "license": "<license>MIT</license>",
+}
+"""What each package.xml needs, and a line for it."""
+
+_KNOWN = frozenset(
+    """
+    controller_manager gazebo_ros joint_state_publisher joint_state_publisher_gui
+    nav2_bringup robot_localization robot_state_publisher ros_gz_bridge ros_gz_image
+    ros_gz_sim rviz2 slam_toolbox teleop_twist_keyboard tf2_ros twist_mux xacro
+    """.split()
+)
+_LIKENESS = 0.8
 _BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
 
@@ -151,6 +169,53 @@ def _proposed(around: Surroundings, said: str) -> str:
     if project is not None and _NAME.fullmatch(project.text):
         return project.text
     return re.sub(r"\W+", "_", said.lower()).strip("_") or "my_robot"
+
+
+def incomplete_manifest(around: Surroundings) -> Iterator[Problem]:
+    """Report the one element of package.xml that is missing."""
+    root = around.manifest
+    if root is None or root.tag != "package":
+        return
+    missing = [tag for tag in _REQUIRED if root.find(tag) is None]
+    if len(missing) != 1 or missing == ["name"]:
+        return
+    (tag,) = missing
+    yield Problem.at(
+        Place(around.files.shown(_FILE), root.place.line, root.place.column),
+        "error",
+        "package-xml",
+        f"package.xml has no <{tag}>: colcon does not take it for a package",
+        f"add {_REQUIRED[tag]}",
+    )
+
+
+def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
+    """Report a dependency that is almost the name of a package that is used."""
+    root = around.manifest
+    if root is None:
+        return
+    listed = [e for e in root.children if e.tag.endswith("depend")]
+    named = {element.text.strip() for element in listed}
+    used = {word for launch in around.launches for word in _words(launch)}
+    for element in listed:
+        name = element.text.strip()
+        # A package of the workspace may have almost the same name as another one.
+        near = nearest(name, sorted(used & _KNOWN - named), _LIKENESS)
+        if name in used or near is None:
+            continue
+        user = next(one for one in around.launches if near in _words(one))
+        yield Problem.at(
+            Place(around.files.shown(_FILE), element.place.line, element.place.column),
+            "warning",
+            "package-dependency",
+            f"package.xml depends on {name}, but {user.path} uses {near}: rosdep finds "
+            f"no {name}, and does not install {near}",
+            f"write {near}",
+        )
+
+
+def _words(launch: LaunchFile) -> set[str]:
+    return {word for text in launch.strings for word in text.split()}
 
 
 def build_types(around: Surroundings) -> Iterator[Problem]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -29,6 +30,17 @@ def unread_sections(around: Surroundings) -> Iterator[Problem]:
         names = {node.rpartition("/")[2] for node in file.nodes}
         known = names & {*_NODES, *_COSTMAPS}
         for node, place in file.nodes.items() if len(known) > 1 else ():
+            inner = _inner_name(node)
+            if inner is not None:
+                yield Problem.at(
+                    _above(file, node, place),
+                    "warning",
+                    "nav2-node-name",
+                    f"{inner} reads its parameters below {inner}: and again {inner}:, "
+                    f"but this is {node.replace('/', ': and ')}: it uses its defaults",
+                    f"write {inner}:",
+                )
+                continue
             if node in _COSTMAPS:
                 yield Problem.at(
                     _above(file, node, place),
@@ -51,6 +63,48 @@ def unread_sections(around: Surroundings) -> Iterator[Problem]:
                     "parameters",
                     write(_above(file, node, place), node, near, hint=f"write {near}:"),
                 )
+
+
+def _inner_name(node: str) -> str | None:
+    """Return the costmap that is meant by two names of which one is not its name."""
+    outer, slash, inner = node.rpartition("/")
+    outer = outer.rpartition("/")[2]
+    if not slash or outer == inner:
+        return None
+    if outer in _COSTMAPS:
+        near = nearest(inner, _COSTMAPS, _LIKENESS)
+        return outer if near == outer else None
+    return inner if inner in _COSTMAPS and _is_like(outer, inner) else None
+
+
+def _is_like(one: str, other: str) -> bool:
+    return nearest(one, [other], _LIKENESS) is not None
+
+
+def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
+    """Report plugins of Nav2 that are almost one of its classes."""
+    known = {
+        f"{package}/{name}": f"{package}{{}}{name}"
+        for package, names in vocabulary("nav2_plugins").items()
+        for name in names
+    }
+    for parameter in around.parameters:
+        said = parameter.fact.value
+        joint = "::" if "::" in said else "/"
+        name = said.replace("::", "/")
+        if parameter.name.rpartition(".")[2] != "plugin" or name in known:
+            continue
+        near = nearest(name, known, _LIKENESS)
+        if near is None or name.count("/") != 1 or around.said_elsewhere(said):
+            continue
+        node = parameter.node.rpartition("/")[2]
+        yield Problem.at(
+            parameter.value_place,
+            "error",
+            "nav2-plugin",
+            f"Nav2 has no plugin {said}: {node} stops with an error",
+            f"write {known[near].format(joint)}",
+        )
 
 
 def _above(file: YamlFile, node: str, place: Place) -> Place:

@@ -16,7 +16,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
-_ODOMETRY, _IMU, _SCAN = "Odometry", "Imu", "LaserScan"
+_ODOMETRY, _IMU, _SCAN, _CLOUD = "Odometry", "Imu", "LaserScan", "PointCloud2"
 _FILTERED = "odometry/filtered"
 _CLASSIC: dict[str, tuple[str, str]] = {
     "libgazebo_ros_imu_sensor.so": (_IMU, "~/out"),
@@ -57,11 +57,14 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
     published = list(published_topics(around))
     if around.namespaced:
         return
-    used = list(_used(around))
+    used = list(used_topics(around))
     renamed = {u.kind: p for p, u in _renamed(around, used, published)}
     yield from renamed.values()
     for parameter, kind in used:
         name = bare(parameter.fact.value)
+        if any(bare(p.topic.value) == name for p in published):
+            # It is there; whether its type is the right one is another question.
+            continue
         known = {bare(p.topic.value): p for p in published if p.kind == kind}
         if not known or name in known or is_open(name) or name == _FILTERED:
             continue
@@ -125,7 +128,7 @@ def kinds_read(around: Surroundings) -> dict[str, Fact]:
     """Return the topics that nodes read, each with its type and the line of it."""
     return {
         bare(parameter.fact.value): Fact(kind, parameter.place)
-        for parameter, kind in _used(around)
+        for parameter, kind in used_topics(around)
     }
 
 
@@ -150,7 +153,8 @@ def _meant(name: str, known: dict[str, Published]) -> str | None:
     return same[0] if same else nearest(name, known)
 
 
-def _used(around: Surroundings) -> Iterator[_Used]:
+def used_topics(around: Surroundings) -> Iterator[_Used]:
+    """Give the topics that nodes read, each with its type."""
     for one in filters(around):
         if one.started:
             for kind, message in (("odom", _ODOMETRY), ("imu", _IMU)):
@@ -167,8 +171,8 @@ def _used(around: Surroundings) -> Iterator[_Used]:
                 yield _Used(parameter, kind)
         if parameter.name.endswith(".topic"):
             source = (parameter.node, parameter.name.removesuffix(".topic"))
-            if kinds.get(source) == _SCAN:
-                yield _Used(parameter, _SCAN)
+            if kinds.get(source) in (_SCAN, _CLOUD):
+                yield _Used(parameter, kinds[source])
 
 
 def published_topics(around: Surroundings) -> Iterator[Published]:

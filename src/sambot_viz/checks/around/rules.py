@@ -13,6 +13,7 @@ from sambot_viz.checks.around.bridge_files import (
 )
 from sambot_viz.checks.around.bridge_types import (
     bridge_types,
+    topics_of_other_types,
     unknown_bridge_types,
     wrong_data_types,
 )
@@ -35,6 +36,7 @@ from sambot_viz.checks.around.drives import (
     wrong_sides,
     wrong_sides_of_controllers,
 )
+from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
 from sambot_viz.checks.around.frame_names import (
@@ -59,8 +61,17 @@ from sambot_viz.checks.around.joint_names import (
 )
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
+    missing_commas,
     missing_entries,
     unknown_names,
+)
+from sambot_viz.checks.around.launch_nodes import (
+    arguments_without_list,
+    descriptions,
+    namespaces,
+    parameters_left_out,
+    rviz_without_option,
+    state_publishers,
 )
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
@@ -76,10 +87,16 @@ from sambot_viz.checks.around.launch_uses import (
     unknown_programs,
     unused_actions,
 )
-from sambot_viz.checks.around.manifest import build_types, unreadable_manifest
+from sambot_viz.checks.around.manifest import (
+    build_types,
+    incomplete_manifest,
+    misspelt_dependencies,
+    unreadable_manifest,
+)
 from sambot_viz.checks.around.nav2_sections import (
     frames_with_slash,
     odd_clocks,
+    unknown_plugins,
     unknown_sections,
     unread_sections,
 )
@@ -91,6 +108,13 @@ from sambot_viz.checks.around.sensors import (
     lidars_of_the_other,
     sensor_values,
     sensors_without_link,
+    unknown_types,
+)
+from sambot_viz.checks.around.setup_files import (
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
 )
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -98,6 +122,7 @@ from sambot_viz.checks.around.systems import (
     both_generations,
     malformed_numbers,
     unknown_classes,
+    unknown_files,
 )
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -106,7 +131,11 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_yaml,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
-from sambot_viz.checks.around.world_systems import missing_systems
+from sambot_viz.checks.around.world_systems import (
+    missing_systems,
+    plugins_of_worlds,
+    unreadable_worlds,
+)
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -118,8 +147,10 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     misspelt_elements,
     both_generations,
     unknown_classes,
+    unknown_files,
     malformed_numbers,
     sensors_without_link,
+    unknown_types,
     lidars_of_the_other,
     sensor_values,
     frames_of_sensors,
@@ -138,6 +169,7 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     parameter_types,
     unreadable_footprints,
     unread_sections,
+    unknown_plugins,
     unknown_sections,
     frames_with_slash,
     odd_clocks,
@@ -145,6 +177,17 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     empty_launch_files,
     missing_entries,
     unknown_names,
+    missing_commas,
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    programs_elsewhere,
+    arguments_without_list,
+    descriptions,
+    rviz_without_option,
+    parameters_left_out,
+    state_publishers,
+    namespaces,
     unused_actions,
     undeclared_arguments,
     unknown_programs,
@@ -154,6 +197,8 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     spawned_topics,
     unreadable_cmake,
     unreadable_manifest,
+    incomplete_manifest,
+    misspelt_dependencies,
     build_types,
     missing_commands,
     folders_as_files,
@@ -167,7 +212,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     world_frames,
     unpublished_odometry,
     planes,
+    topics_of_other_types,
     unknown_topics,
+    inputs_without_config,
     wrong_data_types,
     unknown_bridge_types,
     bridge_types,
@@ -185,7 +232,9 @@ IN_PACKAGE: tuple[Callable[[Surroundings], Iterable[Problem]], ...] = (
     missing_files,
     unread_parameters,
     world_names,
+    unreadable_worlds,
     missing_systems,
+    plugins_of_worlds,
     project_name,
     missing_folders,
     not_installed,

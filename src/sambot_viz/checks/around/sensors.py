@@ -15,14 +15,16 @@ from sambot_viz.checks.around.files.gazebo import (
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
+_LIKENESS = 0.75
 _FULL_TURN = 2 * math.pi + 0.01
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
@@ -98,6 +100,23 @@ def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
                 f"{plugin.filename} ({where(plugin.element.place, place)}) the robot "
                 "is for Gazebo, whose lidars are computed by the graphics alone",
                 'write type="gpu_lidar"',
+            )
+
+
+def unknown_types(robot: Robot) -> Iterator[Problem]:
+    """Report types of sensors that are almost one of Gazebo's."""
+    known = vocabulary("sensor_types")
+    for _, sensor in sensors(robot.gazebo):
+        kind = (sensor.get("type") or "").strip().removesuffix("_sensor")
+        near = None if kind in known else nearest(kind.lower(), known, _LIKENESS)
+        if near is not None:
+            yield Problem.at(
+                sensor.place,
+                "warning",
+                "gazebo-sensor",
+                f'Gazebo has no sensors of type "{kind}": it leaves {_named(sensor)} '
+                "out",
+                f'write type="{near}"',
             )
 
 

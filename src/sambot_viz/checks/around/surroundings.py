@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile, read_yaml
+from sambot_viz.checks.around.files.setup_py import SetupFile, read_setup
 from sambot_viz.checks.around.files.text_files import PackageFiles
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.xml.decode import XmlFault
@@ -97,6 +98,16 @@ class Surroundings:
         return CMakeFile(text, self.files.shown(name))
 
     @cached_property
+    def setup(self) -> SetupFile | None:
+        """setup.py; None when there is none that is Python, or a very long one."""
+        name = "setup.py"
+        text = self.files.text(name) if name in self.files.paths else None
+        if text is None or len(text) > limits.BUILD_FILE.value:
+            return None
+        shown, folder = self.files.shown(name), self.files.folder
+        return read_setup(text, shown, folder, trusted=self.files.trusted)
+
+    @cached_property
     def namespaced(self) -> bool:
         """True when launch files or the model put names below others.
 
@@ -117,7 +128,22 @@ class Surroundings:
         below = path.removeprefix(head).strip("/")
         return below if path.startswith(head) and below else None
 
-    def said_elsewhere(self, name: str, *, as_topic: bool = False) -> bool:
+    @cached_property
+    def _unlaunched(self) -> frozenset[str]:
+        """Other models that no launch file names, where one names this one."""
+        said = [text for launch in self.launches for text in launch.strings]
+        own = {file.name for file in self.robot.files}
+        if not any(text.endswith(tuple(own)) for text in said if own):
+            return frozenset()
+        return frozenset(
+            path
+            for path in self.files.ending(*_MODELS)
+            if not any(path.rpartition("/")[2] in text for text in said)
+        )
+
+    def said_elsewhere(
+        self, name: str, *, as_topic: bool = False, launched: bool = False
+    ) -> bool:
         """Tell whether a launch file, a program or another model says this name.
 
         A node or a robot that is not looked at may then have it.
@@ -126,6 +152,7 @@ class Surroundings:
             name: of a topic, a node or a frame.
             as_topic: of a model count only topics, whole: neither the frame of a
                 <frame_id>, nor the end of a longer topic.
+            launched: leave out models that no launch file names.
         """
         bare = name.strip("/")
         if any(
@@ -140,6 +167,8 @@ class Surroundings:
         own = {file.name for file in self.robot.files}
         for path in self.files.ending(*_SOURCES, *_MODELS):
             is_model = path.endswith(_MODELS)
+            if launched and path in self._unlaunched:
+                continue
             if path.endswith("launch.py") or (
                 is_model and path.rpartition("/")[2] in own
             ):

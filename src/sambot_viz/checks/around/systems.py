@@ -7,25 +7,13 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, plugins
 from sambot_viz.checks.around.place import where
-from sambot_viz.errors import Problem
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 
-_SYSTEMS = {
-    "diff-drive": "DiffDrive",
-    "joint-state-publisher": "JointStatePublisher",
-    "joint-position-controller": "JointPositionController",
-    "joint-trajectory-controller": "JointTrajectoryController",
-    "ackermann-steering": "AckermannSteering",
-    "mecanum-drive": "MecanumDrive",
-    "odometry-publisher": "OdometryPublisher",
-    "pose-publisher": "PosePublisher",
-    "sensors": "Sensors",
-    "imu": "Imu",
-    "contact": "Contact",
-}
-"""Systems of Gazebo whose class has the name of their file."""
-
 _FILE = re.compile(r"(?:lib)?(gz-sim\d*|ignition-gazebo\d*)-([a-z-]+)-system(?:\.so)?")
+_LIKE_FILE = re.compile(r"(lib)?(gz-sim\d*|ignition-gazebo\d*)[-_]([\w-]+?)(\.so)?")
+_LIKENESS = 0.8
 _SPACE = {"gz": "gz::sim::systems", "ignition": "ignition::gazebo::systems"}
 _NUMBERS = (
     "wheel_separation",
@@ -41,7 +29,8 @@ _COMMA = re.compile(r"-?\d+,\d+")
 
 def attributes(system: str) -> str:
     """Return the attributes of a plugin that loads a system, such as "diff-drive"."""
-    name = f"{_SPACE['gz']}::{_SYSTEMS[system]}"
+    (name,) = vocabulary("gz_systems")[system]
+    name = f"{_SPACE['gz']}::{name}"
     return f'filename="gz-sim-{system}-system" name="{name}"'
 
 
@@ -49,7 +38,8 @@ def unknown_classes(robot: Robot) -> Iterator[Problem]:
     """Report plugins of Gazebo whose name is not that of the class in their file."""
     for plugin in plugins(robot.gazebo):
         file = _FILE.fullmatch(plugin.filename)
-        system = _SYSTEMS.get(file[2]) if file else None
+        classes = vocabulary("gz_systems").get(file[2], ()) if file else ()
+        system = next(iter(classes), None)
         name = (plugin.element.get("name") or "").strip()
         if file is None or system is None or name.rpartition("::")[2] == system:
             continue
@@ -62,6 +52,31 @@ def unknown_classes(robot: Robot) -> Iterator[Problem]:
             "name of a plugin is that of its class, and it does not load this one",
             f'write name="{right}"',
         )
+
+
+def unknown_files(robot: Robot) -> Iterator[Problem]:
+    """Report files of plugins that are almost one of Gazebo's systems."""
+    for plugin in plugins(robot.gazebo):
+        near = near_system(plugin.filename)
+        if near is not None:
+            yield Problem.at(
+                plugin.element.place,
+                "warning",
+                "gazebo-plugin",
+                f"Gazebo has no plugin {plugin.filename}: it does not load it",
+                f'write filename="{near}"',
+            )
+
+
+def near_system(filename: str) -> str | None:
+    """Return the file that is meant by one that Gazebo does not have, or None."""
+    file = _LIKE_FILE.fullmatch(filename)
+    if file is None:
+        return None
+    name = file[3].replace("_", "-").removesuffix("-system")
+    near = nearest(name, vocabulary("gz_systems"), _LIKENESS)
+    better = f"{file[1] or ''}{file[2]}-{near}-system{file[4] or ''}"
+    return None if near is None or better == filename else better
 
 
 def both_generations(robot: Robot) -> Iterator[Problem]:

@@ -1,20 +1,27 @@
-"""Systems of Gazebo that the sensors of the model need from the world."""
+"""The worlds that launch files start: their text, and systems that are needed."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import sensors
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.systems import near_system
 from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import parse_xml
 
 _WORLD = re.compile(r"<world\s")
 _SYSTEM = re.compile(
-    r"<plugin[^>]*filename\s*=\s*[\"'](?:lib)?(gz-sim-[\w-]+?)(?:\.so)?[\"']"
+    r"<plugin[^>]*filename\s*=\s*[\"'](?:lib)?(?:gz-sim|ignition-gazebo)\d*(-[\w-]+?)"
+    r"(?:\.so)?[\"']"
 )
-_PHYSICS = "gz-sim-physics-system"
+_PLUGIN = re.compile(r"<plugin[^>]*filename\s*=\s*[\"']([^\"']+)[\"']")
+_PHYSICS, _SCENE = "gz-sim-physics-system", "gz-sim-scene-broadcaster-system"
 _RENDERED = ("gz-sim-sensors-system", "Sensors")
 _NEEDED: dict[str, tuple[str, str]] = {
     "imu": ("gz-sim-imu-system", "Imu"),
@@ -29,40 +36,114 @@ _NEEDED: dict[str, tuple[str, str]] = {
 """Type of a sensor → the system that it needs: its file and its name."""
 
 
+class _Need(NamedTuple):
+    """A system that the world has to have.
+
+    Attributes:
+        file: of the plugin.
+        name: of its class, without the namespace.
+        by: what needs it.
+        place: where that is, or None.
+        follows: what happens without it.
+    """
+
+    file: str
+    name: str
+    by: str
+    place: Place | None
+    follows: str
+
+
 def missing_systems(around: Surroundings) -> Iterator[Problem]:
-    """Report a world without the system of a sensor, beside other systems."""
+    """Report a world without a system that is needed, beside other systems."""
     worlds = _worlds(around)
     if len(worlds) != 1:
         return
     ((path, text),) = worlds.items()
-    has = set(_SYSTEM.findall(text)) | {
+    in_world = {f"gz-sim{name}" for name in _SYSTEM.findall(text)}
+    has = in_world | {
         plugin.filename.removeprefix("lib").removesuffix(".so")
         for plugin in around.plugins
     }
-    if _PHYSICS not in has:
-        # Without a list of systems of its own, or with a part of one.
+    if in_world.isdisjoint({_PHYSICS, _SCENE}):
+        # Gazebo adds its own systems to a world without any.
         return
-    missing: set[str] = set()
-    for _link, sensor in sensors(around.robot.gazebo):
-        file, name = _NEEDED.get(sensor.get("type") or "", ("", ""))
-        if not file or file in has or file in missing:
+    first = _WORLD.search(text)
+    line = text.count("\n", 0, first.start() if first else 0) + 1
+    place = Place(around.files.shown(path), line)
+    needs = {need.file: need for need in reversed([*_needs(around)])}
+    for need in reversed(needs.values()):
+        # The physics are not said again for what rests on it.
+        if need.file in has or near_names(need.file, has):
             continue
-        missing.add(file)
-        first = _WORLD.search(text)
-        line = text.count("\n", 0, first.start() if first else 0) + 1
-        place = Place(around.files.shown(path), line)
-        inner = (
-            "<render_engine>ogre2</render_engine>" if (file, name) == _RENDERED else ""
-        )
+        inner = "<render_engine>ogre2</render_engine>" if need.name == "Sensors" else ""
+        there = f" ({where(need.place, place)})" if need.place is not None else ""
         yield Problem.at(
             place,
             "warning",
             "world-system",
-            f"the world has no {file}, which the sensor {sensor.get('name')} needs "
-            f"({where(sensor.place, place)}): it sends nothing",
-            f'add <plugin filename="{file}" name="gz::sim::systems::{name}">{inner}'
-            "</plugin> to the world",
+            f"the world has no {need.file}, which {need.by} needs{there}: "
+            f"{need.follows}",
+            f'add <plugin filename="{need.file}" name="gz::sim::systems::{need.name}">'
+            f"{inner}</plugin> to the world",
         )
+
+
+def near_names(wanted: str, has: Iterable[str]) -> bool:
+    """True where a misspelt name is the finding."""
+    return any(near_system(name) == wanted for name in has)
+
+
+def _needs(around: Surroundings) -> Iterator[_Need]:
+    """Give what the world needs, the most important first."""
+    name = around.robot.name
+    yield _Need(_PHYSICS, "Physics", f"the robot {name}", None, "it does not move")
+    for launch in around.launches:
+        for fact in (*spawned_with(launch, "world"), *spawned_with(launch, "topic")):
+            yield _Need(
+                "gz-sim-user-commands-system",
+                "UserCommands",
+                "the spawner",
+                fact.place,
+                "the robot does not appear",
+            )
+    for _link, sensor in sensors(around.robot.gazebo):
+        file, system = _NEEDED.get(sensor.get("type") or "", ("", ""))
+        if file:
+            by = f"the sensor {sensor.get('name')}"
+            yield _Need(file, system, by, sensor.place, "it sends nothing")
+
+
+def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
+    """Report worlds that are no XML."""
+    for path, text in _worlds(around).items():
+        shown = around.files.shown(path)
+        try:
+            parse_xml(text, shown)
+        except XmlFault as fault:
+            yield Problem.at(
+                Place(shown, fault.line),
+                "error",
+                "world-xml",
+                f"this world is no XML ({fault.message}): Gazebo stops with it",
+                "correct this line or the one above it: each <tag> needs its </tag>",
+            )
+
+
+def plugins_of_worlds(around: Surroundings) -> Iterator[Problem]:
+    """Report plugins of a world that are almost one of Gazebo's systems."""
+    for path, text in _worlds(around).items():
+        for match in _PLUGIN.finditer(text):
+            near = near_system(match[1])
+            if near is not None:
+                line = text.count("\n", 0, match.start(1)) + 1
+                yield Problem.at(
+                    Place(around.files.shown(path), line),
+                    "warning",
+                    "gazebo-plugin",
+                    f"Gazebo has no plugin {match[1]}: it does not load it",
+                    f'write filename="{near}"',
+                )
 
 
 def _worlds(around: Surroundings) -> dict[str, str]:

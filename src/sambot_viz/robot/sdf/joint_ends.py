@@ -148,7 +148,8 @@ def _refuse_frame(
             element,
         )
         return
-    frame, seen = scope.find(name), set[Frame]()
+    named = scope.find(name)
+    frame, seen = named, set[Frame]()
     while frame is not None and frame.kind != "link" and frame not in seen:
         # Frames may be attached to each other, which is reported elsewhere.
         seen.add(frame)
@@ -158,8 +159,34 @@ def _refuse_frame(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
         f"but {REFUSED}",
-        write(element.place, name, better, hint=f"write <{tag}>{better}</{tag}>")
+        _as_link(joint, named)
+        if named is not None and better in _ends_of(joint)
+        else write(element.place, name, better, hint=f"write <{tag}>{better}</{tag}>")
         if better
         else f"write <{tag}>…</{tag}>",
         element,
+    )
+
+
+def _ends_of(joint: Frame) -> tuple[str, str]:
+    return text_in(joint.element, "parent"), text_in(joint.element, "child")
+
+
+def _as_link(joint: Frame, frame: Frame) -> str:
+    """Say how a frame becomes a link: the joint is between it and its own link."""
+    pose = frame.element.find("pose")
+    if pose is not None and trimmed(pose.get("relative_to") or ""):
+        return (
+            "make it a link: write <link> for <frame> in line "
+            f"{frame.element.place.line}, without attached_to"
+        )
+    own = joint.element.find("pose")
+    # The frame is where its link is; where the joint has a pose, that was meant.
+    base = joint.name if own is not None else frame.element.get("attached_to") or ""
+    numbers = pose.text.strip() if pose is not None else ""
+    placed = f'<pose relative_to="{base}"'
+    placed += f">{numbers}</pose>" if numbers else "/>"
+    return (
+        f'make it a link: write <link name="{frame.name}">{placed}</link> for the '
+        f"<frame> in line {frame.element.place.line}"
     )

@@ -187,3 +187,21 @@ class LaunchValues:
     def _item(self, part: ast.expr) -> ast.expr:
         value = self._variables.get(part.id) if isinstance(part, ast.Name) else None
         return part if value is None else value
+
+    def resolved(self, node: ast.expr | None) -> ast.expr | None:
+        """Return the expression that variables and wrappers stand for."""
+        for _ in range(limits.YAML_DEPTH.value):
+            value = self._item(node) if node is not None else None
+            if isinstance(value, ast.Call) and call_name(value.func) in _WRAPPERS:
+                value = value.args[0] if value.args else value
+            if value is node:
+                break
+            node = value
+        return node
+
+    def named(self, text: str) -> str | None:
+        """Return the variable that stands for a text, or None."""
+        for name, value in self._variables.items():
+            if value is not None and self.text(value) == text:
+                return name
+        return None

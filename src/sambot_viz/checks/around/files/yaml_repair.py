@@ -17,6 +17,8 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
 _NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
 _BEFORE = 3
+_TWICE = ("local_costmap:", "global_costmap:")
+"""The node of a costmap has the name of its namespace."""
 
 
 class Fault(NamedTuple):
@@ -89,6 +91,7 @@ def _candidates(
             "a tab is in the indentation of this line",
             "write blanks for the tab",
         )
+    yield from _levels(lines, at)
     near = [n for n in range(at, -1, -1) if lines[n].strip()][: _BEFORE + 1]
     start = error.context_mark
     if start is not None and start.line < len(lines) and start.line not in near:
@@ -99,6 +102,24 @@ def _candidates(
     for n in near:
         yield from _dash(lines, n)
     yield from _indentation(lines, near)
+
+
+def _levels(lines: list[str], at: int) -> Iterator[_Candidate]:
+    """Write the name of a costmap again, where ros__parameters is two levels below."""
+    for n in range(min(at, len(lines) - 2), -1, -1):
+        name, below = lines[n].strip(), lines[n + 1]
+        deeper = len(_indent(below)) - len(_indent(lines[n]))
+        if name not in _TWICE or not below.strip().startswith("ros__") or deeper < 4:
+            continue
+        inner = _indent(lines[n]) + "  " + name
+        yield _Candidate(
+            n,
+            [f"{lines[n]}\n{inner}"],
+            f"{name} has to be there twice, and the second, two blanks further in, is "
+            "missing",
+            f"add a line {name} below this one, with {len(_indent(inner))} blanks "
+            "before it",
+        )
 
 
 def _indent(line: str) -> str:

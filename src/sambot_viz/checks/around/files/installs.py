@@ -1,0 +1,76 @@
+"""What a build file installs, and where: the same of CMakeLists.txt and setup.py."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from sambot_viz.errors import Place
+
+
+class Piece(NamedTuple):
+    """A file that is installed, or a folder with all that is in it.
+
+    Attributes:
+        source: relative to the package; a folder ends with a slash, the package itself
+            is empty.
+        target: where it gets to, below the prefix; a folder ends with a slash.
+        said: the destination as the build file says it.
+        place: where the build file says it.
+        certain: False when it depends on something.
+    """
+
+    source: str
+    target: str
+    said: str
+    place: Place
+    certain: bool = True
+
+    def installed(self, path: str) -> str | None:
+        """Return where a file of the package gets to, None when it does not."""
+        if path == self.source:
+            return self.target
+        folder = self.source.endswith("/") or not self.source
+        if not folder or not path.startswith(self.source):
+            return None
+        return self.target + path.removeprefix(self.source)
+
+
+@dataclass(frozen=True, slots=True)
+class Installed:
+    """All that a build file installs.
+
+    Attributes:
+        place: where a missing one is to be added.
+        folder: the package.
+        share: where its share folder is, below the prefix.
+        pieces: what is installed.
+    """
+
+    place: Place
+    folder: Path
+    share: str
+    pieces: tuple[Piece, ...]
+
+    def targets(self, path: str) -> Iterator[tuple[str, Piece]]:
+        """Give where a file of the package gets to, and by which piece."""
+        for piece in self.pieces:
+            target = piece.installed(path)
+            if target is not None:
+                yield target, piece
+
+    def has(self, below: str) -> bool:
+        """Tell whether there is a file or a folder in the share folder."""
+        wanted = f"{self.share}/{below.strip('/')}"
+        return any(self._gives(piece, wanted) for piece in self.pieces)
+
+    def _gives(self, piece: Piece, wanted: str) -> bool:
+        if piece.target.rstrip("/") == wanted or piece.target.startswith(f"{wanted}/"):
+            return True
+        inner = wanted.removeprefix(piece.target)
+        if not piece.target.endswith("/") or inner == wanted:
+            return False
+        return os.path.exists(self.folder / f"{piece.source}{inner}")

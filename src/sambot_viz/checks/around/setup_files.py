@@ -1,0 +1,206 @@
+"""What setup.py and setup.cfg name, and the package does not have."""
+
+from __future__ import annotations
+
+import configparser
+import posixpath
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.setup_py import DataFiles, EntryPoint, SetupFile
+from sambot_viz.checks.around.launch_code import PREDEFINED, bound_names
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import parse_python
+from sambot_viz.checks.rule import listed
+from sambot_viz.errors import Place, Problem, nearest
+
+_INDEX = "share/ament_index/resource_index/packages"
+_SCRIPTS = (("develop", "script_dir"), ("install", "install_scripts"))
+_IN_BASE = "$base/lib/"
+
+
+def missing_data_files(around: Surroundings) -> Iterator[Problem]:
+    """Report files and folders in data_files that setup.py cannot copy."""
+    setup = around.setup
+    for entry, node, path in setup.not_files if setup is not None else ():
+        if setup is not None:
+            is_folder = (around.files.folder / path).is_dir()
+            what = "is a folder" if is_folder else "does not exist"
+            yield Problem.at(
+                setup.place(node),
+                "error",
+                "setup-file-missing",
+                f"data_files lists {path}, which {what}: colcon build stops",
+                _of_folder(path, node, setup, around)
+                if is_folder
+                else _instead(path, entry, around),
+            )
+
+
+def _of_folder(path: str, node: object, setup: SetupFile, around: Surroundings) -> str:
+    if node in [g for entry in setup.data_files for g in entry.globs]:
+        endings = {
+            posixpath.splitext(p)[1]
+            for p in around.files.paths
+            if posixpath.dirname(p) == posixpath.dirname(path)
+        }
+        if len(endings) == 1:
+            pattern = f"{posixpath.dirname(path)}/*{endings.pop()}"
+            return f"write {setup.globbed(pattern)}"
+    below = f"('share/{around.files.name}/{path}', {setup.globbed(f'{path}/*')})"
+    return f"list the files in it, with an entry of their own such as {below}"
+
+
+def _instead(path: str, entry: DataFiles, around: Surroundings) -> str:
+    folder = posixpath.dirname(path)
+    beside = [p for p in around.files.paths if posixpath.dirname(p) == folder]
+    if entry.target == _INDEX and path == f"resource/{around.files.name}":
+        if len(beside) == 1:
+            return f"rename {beside[0]} to {path}"
+        return f"make an empty file {path}"
+    near = nearest(path, beside) or nearest(path, around.files.paths, 0.8)
+    return f"write {near}" if near else f"delete {path} here, or make that file"
+
+
+def joined_scripts(around: Surroundings) -> Iterator[Problem]:
+    """Report two programs of console_scripts that are one text."""
+    setup = around.setup
+    for node, text in setup.scripts.items if setup is not None else ():
+        if setup is not None and isinstance(text, str) and text.count("=") > 1:
+            second = node.end_lineno if node.end_lineno != node.lineno else None
+            yield Problem.at(
+                setup.place(node),
+                "error",
+                "setup-py-code",
+                f"two programs of console_scripts are one text, {text}, because a "
+                "comma is missing between them: colcon build stops",
+                f"add a comma before line {second}" if second else "add the comma",
+            )
+
+
+def missing_entry_points(around: Surroundings) -> Iterator[Problem]:
+    """Report programs of console_scripts whose module or function does not exist."""
+    setup = around.setup
+    if setup is None or not setup.certain or setup.given("package_dir") is not None:
+        return
+    advised: set[str] = set()
+    for program in setup.programs:
+        fault = _fault(program, setup, around)
+        if fault is not None and fault[1] not in advised:
+            cause, hint = fault
+            advised.add(hint)
+            yield Problem.at(
+                setup.place(program.node),
+                "error",
+                "entry-point-missing",
+                f"the program {program.name} is {program.module}:{program.function}, "
+                f"but {cause}: ros2 run stops with it",
+                hint,
+            )
+
+
+def _fault(
+    program: EntryPoint, setup: SetupFile, around: Surroundings
+) -> tuple[str, str] | None:
+    """What is wrong with a program, and what to write."""
+    path = program.module.replace(".", "/")
+    files = (f"{path}.py", f"{path}/__init__.py")
+    file = next((f for f in files if (around.files.folder / f).is_file()), None)
+    if file is None:
+        return _no_module(program, path, around)
+    packages = setup.values.items(setup.given("packages"))
+    above = posixpath.dirname(path).replace("/", ".")
+    if packages.known and above and above not in packages.texts:
+        at = where(setup.place(setup.given("packages")), setup.shown)
+        return (
+            f"packages ({at}) does not list {above}, so it is not installed",
+            f"add '{above}' to packages",
+        )
+    return _no_function(program, file, around)
+
+
+def _no_module(
+    program: EntryPoint, path: str, around: Surroundings
+) -> tuple[str, str] | None:
+    has, own = around.files.folder, around.files.name
+    folder, top = posixpath.dirname(path), path.partition("/")[0]
+    if not (has / top).is_dir() and not (has / f"{top}.py").is_file():
+        inside = path.replace(top, own, 1)
+        named = f"depend>{top}<" in (around.files.text("package.xml") or "")
+        if named or "/" not in path or not (has / f"{inside}.py").is_file():
+            return None
+        better = f"{inside.replace('/', '.')}:{program.function}"
+        return f"the package has no folder {top}", f"write {program.name} = {better}"
+    if not folder or not (has / folder).is_dir():
+        return None
+    files = [p for p in around.files.paths if posixpath.dirname(p) == folder]
+    modules = {
+        f"{p.removesuffix('.py').replace('/', '.')}": p
+        for p in files
+        if p.endswith(".py") and not p.endswith("__.py")
+    }
+    near = nearest(program.module, modules)
+    if near is None:
+        return f"there is no {path}.py", f"make that file, or delete {program.name}"
+    return (
+        f"there is no {path}.py; there is {modules[near]}",
+        f"write {program.name} = {near}:{program.function}",
+    )
+
+
+def _no_function(
+    program: EntryPoint, file: str, around: Surroundings
+) -> tuple[str, str] | None:
+    tree = parse_python(around.files.text(file) or "")
+    first = program.function.partition(".")[0]
+    names = bound_names(tree) if tree is not None else {"*"}
+    if not {first, "*"}.isdisjoint(names):
+        return None
+    own = sorted(name for name in names - PREDEFINED if name[:2] != "__")
+    near = nearest(first, own, 0.7) or ("main" if "main" in names else None)
+    if near is None:
+        return f"{file} has no {first}", f"define {first}() in {file}"
+    return (
+        f"{file} has no {first}; it has {near}",
+        f"write {program.name} = {program.module}:{near}",
+    )
+
+
+def programs_elsewhere(around: Surroundings) -> Iterator[Problem]:
+    """Report a setup.cfg that installs programs into the folder of another package."""
+    text, name = around.files.text("setup.cfg"), around.files.name
+    setup = around.setup
+    if text is None or setup is None or not setup.programs:
+        return
+    config = configparser.RawConfigParser()
+    try:
+        config.read_string(text)
+    except configparser.Error:
+        return
+    said = {
+        option: config.get(section, option, fallback="")
+        or config.get(section, option.replace("_", "-"), fallback="")
+        for section, option in _SCRIPTS
+    }
+    wrong = {
+        value
+        for value in said.values()
+        if value.startswith(_IN_BASE)
+        and value.removeprefix(_IN_BASE).strip("/") != name
+    }
+    for value in sorted(wrong):
+        line = text.count("\n", 0, text.find(value)) + 1
+        place = Place(around.files.shown("setup.cfg"), line)
+        program = setup.programs[0]
+        lines = [n for n, row in enumerate(text.splitlines(), 1) if value in row]
+        also = f" and in line {lines[1]}" if len(lines) > 1 else ""
+        yield Problem.at(
+            place,
+            "error",
+            "setup-cfg-folder",
+            f"setup.cfg installs the programs into {value.removeprefix('$base/')}, but "
+            f"the package is called {name}: ros2 run does not find "
+            f"{listed(p.name for p in setup.programs)} "
+            f"({where(setup.place(program.node), place)})",
+            f"write {_IN_BASE}{name} here{also}",
+        )
