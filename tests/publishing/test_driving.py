@@ -256,6 +256,45 @@ def test_nothing_is_sent_again_after_a_connection_was_lost(
     hold_until(client, 2, lambda: moves(peer))
 
 
+def comes_back(driven: Driven) -> None:
+    """Break the connection while nobody drives, and wait until there is another."""
+    peer, data = driven.peer, session_of(driven.viz).data
+    assert data is not None
+    peer.stop()
+    eventually(lambda: not data.source.status.is_connected)
+    peer.start()
+    eventually(lambda: data.source.status.is_connected)
+    peer.listen_as(CMD_VEL, "/base")
+    knows_takers(data.source, peer)
+
+
+def test_the_first_stop_after_a_lost_connection_stops_the_robot(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    client.act("live/stop")
+    eventually(peer.rests)
+    comes_back(driven)
+    came = len(peer.came())
+    client.act("live/stop")
+    eventually(lambda: peer.speeds()[came:] == [(0.0, 0.0)] * 3)
+
+
+def test_the_first_press_after_a_lost_connection_drives(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    client.act("live/release", 1)
+    eventually(peer.rests)
+    comes_back(driven)
+    hold_until(client, 2, lambda: moves(peer))
+
+
 @pytest.mark.parametrize("kind", [TWIST, "geometry_msgs/msg/TwistStamped"])
 def test_the_type_is_asked_where_the_robot_does_not_say_it(
     peers: Callable[..., BasePeer], drive: Callable[..., Driven], kind: str

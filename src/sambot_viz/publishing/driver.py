@@ -148,8 +148,10 @@ class Driver:
             )
         with self._lock:
             one = self._outgoing
-            if one is not None and (one.type_name != type_name or one.refused):
-                # What was refused is tried again.
+            if one is not None and (
+                one.type_name != type_name or one.refused or one.is_over
+            ):
+                # What was refused is tried again; what was lost may be back.
                 one.close()
                 one = None
             if one is not None:

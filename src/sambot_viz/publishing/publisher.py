@@ -437,6 +437,9 @@ class Publisher:
 
     def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
         key = topic, type_name
+        if key in self._outgoing and self._outgoing[key].is_over:
+            # Who takes it, and what was refused, was of a connection that was lost.
+            self._forget(topic, type_name)
         if key not in self._outgoing:
             made = robot.source.advertise(topic, type_name)
             if len(self._outgoing) >= _TOPICS:
