@@ -8,6 +8,7 @@ import pytest
 from problem_samples import Sample, all_samples
 
 from sambot_viz.checks import check
+from sambot_viz.checks.launch_files import check_launch_file
 from sambot_viz.edits import edited_files
 from sambot_viz.problems import group_problems
 
@@ -70,6 +71,37 @@ def test_what_a_macro_computes_has_no_edits(tmp_path: Path) -> None:
     (problem,) = check(model)
     assert problem.code == "joint-child-unknown"
     assert problem.edits == ()
+
+
+@pytest.mark.parametrize(
+    ("code", "old", "new"),
+    [
+        ("frame-unknown", "", ""),
+        ("sdf-joint-to-frame", "", ""),
+        ("launch-world-name", 'name="room"', 'name="my room"'),
+    ],
+)
+def test_a_doubtful_hint_has_no_edits(
+    code: str, old: str, new: str, tmp_path: Path
+) -> None:
+    (sample,) = (each for each in all_samples() if each.code == code)
+    model = sample.write(tmp_path / "package")
+    for file in tmp_path.rglob("*.sdf"):
+        file.write_text(file.read_text().replace(old, new))
+    (problem,) = (each for each in check(model) if each.code == code)
+    assert problem.hint.startswith("write ")
+    assert problem.edits == ()
+
+
+@pytest.mark.parametrize("built_as", ["r_description", "r", None])
+def test_a_launch_file_that_calls_the_package_as_its_build_does_has_no_edits(
+    built_as: str | None, tmp_path: Path
+) -> None:
+    file = tmp_path / "r.launch.py"
+    file.write_text("FindPackageShare('r_description')")
+    (problem,) = check_launch_file(file, "r_descriptions", built_as=built_as)
+    assert problem.hint == "write r_descriptions"
+    assert bool(problem.edits) == (built_as != "r_description")
 
 
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])

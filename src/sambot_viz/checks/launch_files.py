@@ -20,6 +20,7 @@ from sambot_viz.robot.packages.package_index import package_name
 
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
 _TRUE = frozenset({"true", "1"})
+_PROJECT = re.compile(r"^[ \t]*project\s*\(\s*([\w.-]+)", re.MULTILINE | re.IGNORECASE)
 
 
 def check_package(folder: Path | str, robot: Robot | None = None) -> list[Problem]:
@@ -31,26 +32,17 @@ def check_package(folder: Path | str, robot: Robot | None = None) -> list[Proble
     """
     root = Path(folder)
     problems = check_setup_py(root / "setup.py")
-    name, project = package_name(root), _project(root / "CMakeLists.txt")
+    name, built_as = package_name(root), _name_in_build_file(root)
     for path in launch_files(root):
-        found = check_launch_file(path, name, robot)
-        # Where they ask for the name in CMakeLists.txt, that of package.xml is wrong.
-        problems += [p for p in found if f"for the package {project}," not in p.message]
+        problems += check_launch_file(path, name, robot, built_as)
     return problems
 
 
-def _project(cmake: Path) -> str | None:
-    """Return the name of the project in a CMakeLists.txt, None when it is not plain."""
-    try:
-        text = cmake.read_text("utf-8", "replace")
-    except OSError:
-        return None
-    named = re.search(r"^\s*project\s*\(\s*([\w.-]+)", text, re.MULTILINE)
-    return named[1] if named else None
-
-
 def check_launch_file(
-    path: Path | str, package: str | None = None, robot: Robot | None = None
+    path: Path | str,
+    package: str | None = None,
+    robot: Robot | None = None,
+    built_as: str | None = None,
 ) -> list[Problem]:
     """Find what will not work in a Python launch file.
 
@@ -58,6 +50,7 @@ def check_launch_file(
         path: the launch file.
         package: the name of the package it belongs to, if known.
         robot: the robot it shows, if known.
+        built_as: what CMakeLists.txt or setup.py calls the package, if known.
 
     Returns:
         Nothing when the file cannot be read as Python.
@@ -65,7 +58,7 @@ def check_launch_file(
     _, calls = calls_in(Path(path))
     return [
         *_no_joint_states(calls, str(path), robot),
-        *_unknown_package(calls, str(path), package),
+        *_unknown_package(calls, str(path), package, built_as),
     ]
 
 
@@ -73,12 +66,10 @@ def check_setup_py(path: Path | str) -> list[Problem]:
     """Compare the name in setup.py with the one in the package.xml beside it."""
     file = Path(path)
     package = package_name(file.parent)
-    tree = _python(file)
-    if package is None or tree is None:
+    if package is None:
         return []
-    for node in ast.walk(tree):
-        named = _assigned_name(node)
-        if named is None or named[0] == package:
+    for named in _names_in_setup_py(file):
+        if named[0] == package:
             continue
         return [
             Problem.at(
@@ -91,6 +82,24 @@ def check_setup_py(path: Path | str) -> list[Problem]:
             )
         ]
     return []
+
+
+def _names_in_setup_py(file: Path) -> Iterator[tuple[str, int]]:
+    tree = _python(file)
+    for node in ast.walk(tree) if tree is not None else ():
+        if named := _assigned_name(node):
+            yield named
+
+
+def _name_in_build_file(root: Path) -> str | None:
+    """Return what CMakeLists.txt or setup.py calls a package, if one does."""
+    try:
+        project = _PROJECT.search((root / "CMakeLists.txt").read_text("utf-8"))
+    except (OSError, ValueError):
+        project = None
+    if project is not None:
+        return project[1]
+    return next((name for name, _ in _names_in_setup_py(root / "setup.py")), None)
 
 
 def _assigned_name(node: ast.AST) -> tuple[str, int] | None:
@@ -209,9 +218,12 @@ def _is_true_by_default(calls: list[ast.Call], argument: str) -> bool:
 
 
 def _unknown_package(
-    calls: list[ast.Call], file: str, package: str | None
+    calls: list[ast.Call], file: str, package: str | None, built_as: str | None
 ) -> Iterator[Problem]:
-    """A name like that of the package, in a file that never uses the right name."""
+    """A name like that of the package, in a file that never uses the right name.
+
+    Where the build file has the same name, that of package.xml is wrong.
+    """
     if package is None:
         return
     asked = [
@@ -221,7 +233,7 @@ def _unknown_package(
         and call.args
         and (text := _text(call.args[0])) is not None
     ]
-    if any(text == package for text, _ in asked):
+    if any(text in (package, built_as) for text, _ in asked):
         return
     for text, call in asked:
         if _alike(text, package):
