@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -252,6 +253,11 @@ class SourceFile:
         if place.line > len(self._lines):
             return len(self.text)
         return self._lines[place.line - 1] + (place.column or 1) - 1
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return the line and the column of an offset, both counted from 1."""
+        line = bisect_right(self._lines, offset)
+        return line, offset - self._lines[line - 1] + 1
 
     def words(self, word: str, offset: int) -> list[Extent]:
         """Return where a word is in an element of XML, or in the rest of a line."""

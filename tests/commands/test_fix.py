@@ -126,6 +126,7 @@ def test_what_was_answered_before_the_end_is_applied(
         (["--fix"], "--fix asks on a terminal, and there is none; add --yes"),
         (["--yes"], "--yes answers the questions of --fix; give both"),
         (["--fix", "--yes", "--format=json"], "does not go with --format json"),
+        (["--fix", "--yes", "--format=sarif"], "does not go with --format sarif"),
         (["--fix", "--yes", "--untrusted"], "does not go with --untrusted"),
     ],
 )

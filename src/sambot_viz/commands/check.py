@@ -38,6 +38,10 @@ def _print(problems: list[Problem], model: Path, how: str) -> None:
     if how == "json":
         listed = [group.as_json() for group in group_problems(problems)]
         write_json({"model": str(model), "problems": listed})
+    elif how == "sarif":
+        from sambot_viz.commands.sarif import sarif_log
+
+        write_json(sarif_log(problems, model))
     elif problems:
         write_problems(problems, write_out, most=None)
     else:
@@ -73,7 +77,7 @@ def parser() -> Parser:
         "and setup.py. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
-    made.add_format()
+    made.add_format("sarif")
     made.add_argument(
         "--fix",
         action="store_true",
