@@ -14,7 +14,9 @@ from live_peers import eventually, knows_takers
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
+from sambot_viz.errors import SourceError
 from sambot_viz.publishing import dead_mans_switch
+from sambot_viz.publishing.driver import NOT_REACHED
 
 
 @pytest.fixture
@@ -293,6 +295,69 @@ def test_the_first_press_after_a_lost_connection_drives(
     eventually(peer.rests)
     comes_back(driven)
     hold_until(client, 2, lambda: moves(peer))
+
+
+def loses(driven: Driven) -> None:
+    """Break the connection, and wait until that is known."""
+    data = session_of(driven.viz).data
+    assert data is not None
+    driven.peer.stop()
+    eventually(lambda: not data.source.status.is_connected)
+
+
+def test_a_stop_that_does_not_reach_the_robot_is_said(
+    peers: Callable[..., BasePeer],
+    drive: Callable[..., Driven],
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    driven = drive(peers())
+    client = driven.page()
+    assert driven.state(client)["failure"] == ""
+    loses(driven)
+    client.act("live/stop")
+    eventually(lambda: driven.state(client)["failure"] == NOT_REACHED)
+
+    def line() -> Any:
+        client.settle(viser_server(driven.viz))
+        return client.row("sent/lines")["value"][0]
+
+    eventually(lambda: line()["values"] == f"error: {NOT_REACHED}")
+    assert f"Viewer 1: error: {NOT_REACHED}" in capsys.readouterr().err
+    with pytest.raises(SourceError, match="it may keep its last speed"):
+        driven.viz.stop_robot()
+
+
+def test_a_robot_that_is_lost_while_it_drives_is_not_said_to_be_stopped(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    loses(driven)
+    hold_until(client, 1, lambda: driven.state(client)["client"] is None)
+    eventually(lambda: driven.state(client)["failure"] == NOT_REACHED)
+    comes_back(driven)
+    came = len(peer.came())
+    client.act("live/stop")
+    eventually(lambda: peer.speeds()[came:] == [(0.0, 0.0)] * 3)
+    assert driven.state(client)["failure"] == ""
+
+
+def test_a_stop_at_rest_is_sent_whoever_seems_to_listen(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    client.act("live/stop")
+    eventually(lambda: len(peer.came()) == 3)
+    peer.listen_as("/another", "/base")
+    data = session_of(driven.viz).data
+    assert data is not None
+    knows_takers(data.source, peer)
+    client.act("live/stop")
+    eventually(lambda: len(peer.came()) == 6)
 
 
 @pytest.mark.parametrize("kind", [TWIST, "geometry_msgs/msg/TwistStamped"])

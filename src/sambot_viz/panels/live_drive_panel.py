@@ -100,6 +100,8 @@ class LiveDrivePanel(Panel):
             "name": name,
             "why": driving.why if driving else "",
             "stops": driving.stops if driving else 0,
+            "failure": driving.failure if driving else "",
+            "goal": self._publisher.goals.goes_on if self._publisher.goals else "",
             "protection": driver.protection if driver else "",
         }
         found = [Data("live/state", state)]

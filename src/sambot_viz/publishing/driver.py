@@ -16,6 +16,10 @@ from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
+NOT_REACHED = (
+    "STOP did not reach the robot: the connection is lost; it may keep its last speed"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Driving:
@@ -25,11 +29,13 @@ class Driving:
         hand: None when nobody drives.
         why: "" where the last hand has let go.
         stops: how often it was said why.
+        failure: why no zero velocity went out, as a sentence; "" where it did.
     """
 
     hand: Hand | None = None
     why: str = ""
     stops: int = 0
+    failure: str = ""
 
 
 class Driver:
@@ -64,7 +70,7 @@ class Driver:
         self._last: tuple[Velocity, int] | None = None
         self._client = -1
         self._protection = Protection(robot, told)
-        self._switch = DeadMansSwitch(self._send, most, self._change)
+        self._switch = DeadMansSwitch(self._send, most, self._change, self._lose)
 
     @property
     def type_name(self) -> str:
@@ -117,19 +123,32 @@ class Driver:
         """A page has gone."""
         self._switch.leave(client)
 
-    def stop(self, why: str, *, at_rest: bool = False) -> None:
+    def stop(self, why: str, *, at_rest: bool = False) -> str:
         """Stop the robot, whoever drives.
 
         Args:
             why: what is said to everyone.
             at_rest: also when nobody drives from here, if its velocities are known.
+
+        Returns:
+            Why no velocity goes out, as a sentence; "" where it does.
         """
-        if at_rest and self.driving.hand is None:
+        failure = ""
+        if at_rest:
             try:
-                self._prepare()
-            except (PublishError, SourceError):
-                return
-        self._switch.stop(why, at_rest=at_rest)
+                # Whoever seems to take it or not: a bridge may be wrong.
+                self._prepare(is_stop=True)
+            except PublishError as error:
+                failure = f"STOP sent no velocity: {error}"
+            except SourceError:
+                failure = NOT_REACHED
+        if failure:
+            # A hand ends all the same.
+            self._switch.stop("")
+            self._fail(why, failure)
+        else:
+            self._switch.stop(why, at_rest=at_rest)
+        return failure
 
     def close(self) -> None:
         """Stop the robot, and send nothing after that."""
@@ -139,8 +158,8 @@ class Driver:
                 self._outgoing.close()
                 self._outgoing = None
 
-    def _prepare(self) -> None:
-        """See to it that there is a topic that somebody takes."""
+    def _prepare(self, *, is_stop: bool = False) -> None:
+        """See to it that there is a topic, and that somebody takes it or is to stop."""
         type_name = self.type_name
         if not type_name:
             raise PublishError(
@@ -153,10 +172,10 @@ class Driver:
             ):
                 # What was refused is tried again; what was lost may be back.
                 one.close()
-                one = None
-            if one is not None:
+                one = self._outgoing = None
+            if one is not None and not is_stop:
                 who_takes(one, "drive")
-            else:
+            elif one is None:
                 # Who takes it is known soon, and asked with each velocity.
                 one = self._robot.source.advertise(self.topic, type_name)
             self._outgoing = one
@@ -173,9 +192,14 @@ class Driver:
         types = self._robot.decoding.types
         try:
             outgoing.send(written(outgoing, velocity, self._now_ns(), types))
-        except SourceError:
+        except SourceError as error:
             with self._lock:
-                self._outgoing = None
+                is_replaced = self._outgoing not in (None, outgoing)
+                if not is_replaced:
+                    self._outgoing = None
+            if is_replaced:
+                # STOP has found another connection: its zeros are not given up.
+                raise PublishError(str(error)) from error
             raise
         if (velocity, self._client) != self._last:
             self._last = velocity, self._client
@@ -188,5 +212,18 @@ class Driver:
         who_takes(outgoing, "drive")
 
     def _change(self, hand: Hand | None, why: str) -> None:
+        outgoing = self._outgoing
+        if why and (outgoing is None or outgoing.is_over):
+            self._fail(why, NOT_REACHED)
+            return
         self.driving = Driving(hand, why, self.driving.stops + bool(why))
+        self._told()
+
+    def _lose(self, why: str) -> None:
+        """Take that the zero velocities of a stop could not be sent."""
+        self._fail(self.driving.why or why, NOT_REACHED)
+
+    def _fail(self, why: str, failure: str) -> None:
+        """Say that the robot was not stopped."""
+        self.driving = Driving(None, why, self.driving.stops + 1, failure)
         self._told()

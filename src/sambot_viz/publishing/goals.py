@@ -26,6 +26,7 @@ from sambot_viz.topics.source_robot import SourceRobot
 
 _TOPICS = 8
 """The goals of so many topics are followed at a time."""
+_NOT_CANCELLED = "not cancelled: "
 _SENT = Outcome("sent", False, True)
 
 
@@ -68,6 +69,13 @@ class Goals:
     def on_the_way(self) -> Outbound | None:
         """The goal that was sent from here and has not ended, as far as is known."""
         return self._goal if self.is_on_the_way else None
+
+    @property
+    def goes_on(self) -> str:
+        """Why a goal that was to be cancelled goes on; "" where none does."""
+        words = self.last.words if self.last is not None else ""
+        is_so = self.is_on_the_way and words.startswith(_NOT_CANCELLED)
+        return words if is_so else ""
 
     def follow(self, topic: str) -> None:
         """Listen to what becomes of the goals of a topic."""
@@ -179,7 +187,7 @@ class Goals:
         if not self.is_on_the_way:
             return
         if why:
-            self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
+            self._note(Outcome(f"{_NOT_CANCELLED}{text(why, 300)}", False, False))
         elif self._acted is None and (
             status_of(topic) not in self._robot.source.topics()
         ):
