@@ -163,3 +163,16 @@ def test_a_goal_that_goes_on_after_stop_is_said(
 
     eventually(lambda: said().startswith("not cancelled: "))
     assert goal(viz, client) == said()
+
+
+def test_a_cancel_has_a_line_with_who_pressed_it(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    client.act("live/cancel")
+
+    def line() -> Any:
+        client.settle(viser_server(viz))
+        return client.row("sent/lines")["value"][0]
+
+    eventually(lambda: line()["topic"] == CANCEL)
+    assert (line()["who"], line()["values"]) == ("Viewer 1", "cancel all")

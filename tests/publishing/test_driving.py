@@ -462,3 +462,22 @@ def test_each_new_velocity_is_in_the_log(
 
     eventually(lambda: last()["values"] == [0.0, 0.0])
     assert (last()["topic"], last()["who"]) == (CMD_VEL, "Viewer 1")
+
+
+def test_the_zeros_of_a_stop_are_those_of_who_pressed_it(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven], tmp_path: Path
+) -> None:
+    peer, log = peers(), tmp_path / "sent.jsonl"
+    driven = drive(peer, publish_log=log)
+    client, other = driven.page(), driven.page()
+
+    def zeros_of(who: str) -> bool:
+        lines = [json.loads(line) for line in log.read_text().splitlines()]
+        told = [one["who"] for one in lines if one["topic"] == CMD_VEL]
+        return bool(told[-1] == who and lines[-1]["values"] in ([0.0, 0.0], {}))
+
+    client.act("live/stop")
+    eventually(lambda: zeros_of("Viewer 1"))
+    hold_until(client, 1, lambda: moves(peer))
+    other.act("live/stop")
+    eventually(lambda: zeros_of("Viewer 2"))

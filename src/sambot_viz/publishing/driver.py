@@ -48,7 +48,8 @@ class Driver:
         most: the highest linear [m/s] and angular speed [rad/s].
         told: called when somebody begins or ends to drive, and when there is something
             new about it; in any thread, must only post.
-        sent: called with each new velocity that was sent, and the page; the same.
+        sent: called with each new velocity that was sent, and the page or the name of
+            who has stopped the robot; the same.
     """
 
     def __init__(
@@ -58,7 +59,7 @@ class Driver:
         topic: str,
         most: tuple[float, float],
         told: Callable[[], object],
-        sent: Callable[[Velocity, int], object],
+        sent: Callable[[Velocity, int | str], object],
     ) -> None:
         self.topic, self.most = topic, most
         self.driving = Driving()
@@ -67,8 +68,8 @@ class Driver:
         self._chosen = ""
         self._lock = threading.Lock()
         self._outgoing: Outgoing | None = None
-        self._last: tuple[Velocity, int] | None = None
-        self._client = -1
+        self._last: tuple[Velocity, int | str] | None = None
+        self._client, self._stopper = -1, ""
         self._protection = Protection(robot, told)
         self._switch = DeadMansSwitch(self._send, most, self._change, self._lose)
 
@@ -112,7 +113,7 @@ class Driver:
         """
         if self._switch.hand != hand:
             self._prepare()
-            self._client = hand.client
+            self._client, self._stopper = hand.client, ""
         self._switch.hold(hand, forwards, left)
 
     def release(self, client: int, press: int) -> None:
@@ -123,17 +124,18 @@ class Driver:
         """A page has gone."""
         self._switch.leave(client)
 
-    def stop(self, why: str, *, at_rest: bool = False) -> str:
+    def stop(self, why: str, *, who: str = "", at_rest: bool = False) -> str:
         """Stop the robot, whoever drives.
 
         Args:
             why: what is said to everyone.
+            who: stops it, for the log; "" for who drives.
             at_rest: also when nobody drives from here, if its velocities are known.
 
         Returns:
             Why no velocity goes out, as a sentence; "" where it does.
         """
-        failure = ""
+        failure, self._stopper = "", who
         if at_rest:
             try:
                 # Whoever seems to take it or not: a bridge may be wrong.
@@ -201,9 +203,11 @@ class Driver:
                 # STOP has found another connection: its zeros are not given up.
                 raise PublishError(str(error)) from error
             raise
-        if (velocity, self._client) != self._last:
-            self._last = velocity, self._client
-            self._sent(velocity, self._client)
+        is_zero = not linear and not angular
+        who = self._stopper if is_zero and self._stopper else self._client
+        if (velocity, who) != self._last:
+            self._last = velocity, who
+            self._sent(velocity, who)
 
     def _require_taken(self, outgoing: Outgoing) -> None:
         """Raise PublishError where a velocity would be refused, or have no effect."""

@@ -14,6 +14,7 @@ from sambot_viz.publishing.outcome import (
     GIVEN_UP,
     GoalFollower,
     Outcome,
+    cancel_of,
     feedback_of,
     given_up,
     navigator_of,
@@ -162,19 +163,24 @@ class Goals:
         self.last = None
         self._leave_goals()
 
-    def cancel(self) -> None:
+    def cancel(self) -> Sequence[str]:
         """Cancel all goals of the robot; takes no lock of the session.
 
         What becomes of it is said with the goal.
+
+        Returns:
+            The services that are asked to.
         """
         if self.is_on_the_way:
             self._note(Outcome("asked to cancel", False, True))
             # The service may not be shown, or not be allowed.
             self._cancel_acted()
         types = self._robot.decoding.types
-        for topic in tuple(self._followed) or (GOAL_TOPIC,):
+        topics = tuple(self._followed) or (GOAL_TOPIC,)
+        for topic in topics:
             told = partial(self._tell_cancelled, topic)
             cancel_goals(self._robot.source, topic, types, told)
+        return [cancel_of(topic) for topic in topics]
 
     def close(self) -> None:
         """Follow nothing any more."""

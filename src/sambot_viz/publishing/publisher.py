@@ -164,7 +164,7 @@ class Publisher:
         """
         name, failure = who or "Somebody", ""
         if self.driver is not None:
-            failure = self.driver.stop(f"{name} pressed STOP", at_rest=True)
+            failure = self.driver.stop(f"{name} pressed STOP", who=name, at_rest=True)
         elif self.robot is not None and self.sends_anything:
             is_there = self.robot.source.status.is_connected
             failure = "" if is_there else NOT_REACHED
@@ -182,6 +182,20 @@ class Publisher:
         if self.goals is not None:
             self.goals.cancel()
         return failure
+
+    def cancel(self, who: str) -> None:
+        """Cancel all goals of the robot.
+
+        Args:
+            who: does so, for the log.
+        """
+        if self.goals is None:
+            return
+        name = who or "Somebody"
+        write_err(f"sambot-viz: {name}: cancel")
+        kind = "action_msgs/srv/CancelGoal"
+        for service in self.goals.cancel():
+            self._tell_sent(kind, service, name, "", {"cancel": "all"})
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -426,14 +440,15 @@ class Publisher:
             self._forget(topic, type_name)
             self._topic(robot, topic, type_name).send(content)
 
-    def _note_velocity(self, velocity: Velocity, client: int) -> None:
+    def _note_velocity(self, velocity: Velocity, who: int | str) -> None:
         """Have a new velocity written down; what sends it does not wait for that."""
         if self._log is None and not self.listeners:
             return
 
         def told() -> None:
-            topic, who = self._drive.topic, self.name_of(client)
-            self._tell_sent(velocity.type_name, topic, who, "", velocity.numbers)
+            topic = self._drive.topic
+            name = who if isinstance(who, str) else self.name_of(who)
+            self._tell_sent(velocity.type_name, topic, name, "", velocity.numbers)
 
         self._drive.post(told)
 
