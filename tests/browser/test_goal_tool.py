@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -138,6 +139,61 @@ def test_a_goal_by_finger(
     viewer.user.reads("Reached.")
     (yaw,) = yaws(peer)
     assert abs(yaw) == pytest.approx(math.pi, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "touch"),
+    [(1280, 800, False), (1024, 768, False), (1024, 768, True), (390, 844, True)],
+)
+def test_stop_and_cancel_keep_their_places_whatever_is_said_and_open(
+    width: int,
+    height: int,
+    touch: bool,
+    peer: NavigatorPeer,
+    viz: Visualizer,
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    peer.statuses = (1, 2)
+    viewer = open_viewer(viz.url, width=width, height=height, touch=touch, view=False)
+    user, status = viewer.user, ("contentinfo", "Status bar")
+    stop = user.box(user.find("button", "STOP"))
+    bar = user.box(user.find(*status))
+
+    def is_all_there(*names: str | re.Pattern[str]) -> None:
+        assert user.box(user.find("button", "STOP")) == stop
+        assert user.box(user.find(*status)) == bar
+        for name in ("STOP", *names):
+            button = user.find("button", name)
+            user.until(lambda button=button: user.can_see(button))
+
+    user.click("button", "2D Goal Pose", BAR)
+    user.find("button", "By numbers…")
+    is_all_there()
+    viz.publish_goal(0.5, 0.5, 0.6)
+    user.click("button", "Cancel", status)
+
+    def refusal() -> Thing | None:
+        lines = user.find(*status).all("status")
+        return next((one for one in lines if "not cancelled" in one.text), None)
+
+    # Nobody has that service here.
+    line = user.until(refusal)
+    assert line is not None
+    is_all_there("Cancel")
+    if user.is_cut_off(line):
+        user.click_on(line)
+        tip = user.find("tooltip")
+        assert "not cancelled" in tip.text and user.can_see(tip)
+        user.click_on(line)
+    # The form of the time leaves STOP and its button free, also once it has grown.
+    clock = re.compile("^Time: ")
+    user.click("button", clock)
+    user.until(lambda: user.can_see(user.find("dialog", "Time")))
+    is_all_there(clock)
+    user.choose(user.find("combobox", "Synchronization"), "Exact")
+    user.find("combobox", "Source")
+    user.until(lambda: user.can_see(user.find("dialog", "Time")))
+    is_all_there(clock)
 
 
 def test_on_a_phone_hint_and_cancel_have_room_whoever_is_there(
