@@ -115,13 +115,37 @@ def test_a_goal_by_keyboard_alone(
     user.keys("Tab")
     user.type("-2")
     user.keys("Tab")
+    # A plain number is radians, which is seen.
+    user.type("2.0351")
+    user.reads("= 116.6°")
+    user.keys("Control+a")
     user.type("90 deg")
+    user.reads("= 90°")
     user.keys("Enter")
     user.gone("dialog")
     user.reads("Reached.")
     (came,) = peer.came()
     assert struct.unpack_from("<2d", bytes(came.content)[-56:]) == (1.5, -2.0)
     assert yaws(peer) == pytest.approx([math.pi / 2])
+
+
+def test_where_nothing_may_be_sent_the_numbers_say_so_and_send_is_grey(
+    peer: NavigatorPeer, tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    config = tmp_path / "a.rviz"
+    config.write_text(CONFIG)
+    with Visualizer(source=peer.uri, config=config, port=0) as viz:
+        eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        user = open_viewer(viz.url, view=False).user
+        user.click("button", "2D Goal Pose", BAR)
+        user.reads("start with --publish goal")
+        user.click("button", "By numbers…")
+        dialog = user.find("dialog", "2D Goal Pose by numbers")
+        user.until(lambda: "start with --publish goal" in dialog.look_inside().text)
+        assert user.find("button", "Send").state("disabled")
+        user.keys("Enter")
+        assert user.find("dialog", "2D Goal Pose by numbers")
+    assert peer.came() == []
 
 
 def test_a_goal_by_finger(
