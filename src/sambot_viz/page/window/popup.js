@@ -38,9 +38,10 @@ export function Popup({ label, brief, name, role, title, opened, children }) {
     const typed = role === "dialog" && !matchMedia("(pointer: coarse)").matches;
     const first = typed && panel.current.querySelector("input");
     (first || panel.current.querySelector("button, input") || panel.current).focus();
-    // What is in it may grow by itself.
+    // The form of the time grows by itself, upwards. Another one that is placed again may get another
+    // width from that, and moves what is pressed.
     const observer = new ResizeObserver(() => place(button.current, panel.current));
-    observer.observe(panel.current);
+    if (button.current.closest(".player-bar")) observer.observe(panel.current);
     /** What had the focus may be gone. @param {KeyboardEvent} event */
     const lost = (event) => {
       if (event.key === "Escape" && document.activeElement === document.body) close();
