@@ -16,13 +16,12 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from sambot_viz import limits
 from sambot_viz.errors import Edit, Fix, Place
 
 _ENCODING = re.compile(
     rb"""\s*<\?xml\b[^>]{0,200}?\bencoding\s*=\s*["']([\w.-]+)["']"""
 )
-_LARGEST = 5_000_000
-"""Larger files have no edits [bytes]."""
 _NAME = re.compile(r"<([^\s<>/=\"']+)")
 _ATTRIBUTE = re.compile(r"""\s+([^\s<>/=\"']+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
 _END = re.compile(r"\s*(/?)>")
@@ -332,7 +331,7 @@ def source_of(file: str) -> SourceFile | None:
     """Return what is in a file; None when it cannot be read as text."""
     try:
         stat = os.stat(file)
-        if not os.path.isfile(file) or stat.st_size > _LARGEST:
+        if not os.path.isfile(file) or stat.st_size > limits.FIXED_FILE.value:
             return None
         return _read(file, stat.st_mtime_ns, stat.st_size)
     except (OSError, ValueError, LookupError):
