@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from lower_limit import lower
 
 from sambot_viz.edits import (
     apply_edits,
@@ -178,3 +179,14 @@ def test_what_cannot_be_read_has_no_edits(tmp_path: Path) -> None:
     file = tmp_path / "short"
     file.write_text("a")
     assert write(Place(str(file), 7, 3), "a", "b").edits == ()
+
+
+def test_a_file_that_is_too_large_has_no_edits(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = b"frame: odm"
+    file.write_bytes(data)
+    lower(monkeypatch, "FIXED_FILE", len(data))
+    assert after(file, write(at(file, 1), "odm", "odom")) == "frame: odom"
+    lower(monkeypatch, "FIXED_FILE", len(data) - 1)
+    assert write(at(file, 1), "odm", "odom") == Fix("write odom")

@@ -92,6 +92,7 @@ NO_LIMITS = {
     """,
     "search: where advice and files are looked for": """
         checks/around/files/python_repair.py _MOST_LINES
+        commands/fix.py _MOST_ROUNDS
         displays/robot_model/description_file.py MOST_LEVELS MOST_PARTS
         meshes/named_files.py _MAX_UP
         robot/packages/package_index.py _MAX_UP

@@ -163,7 +163,7 @@ ROOMS: Mapping[str, Row] = {
         "numpy viser",
     ),
     "commands": Row(
-        "_version bundled checks export flags frames inputs joints listened "
+        "_version bundled checks export fixes flags frames inputs joints listened "
         "moved_by options problems publishing robot rviz server session sources "
         "topics visualizer",
         "PIL",
@@ -179,6 +179,7 @@ ROOMS: Mapping[str, Row] = {
     "edits": Row(),
     "errors": Row(),
     "files": Row(),
+    "fixes": Row(),
     "geometry": Row("", "numpy"),
     "inputs": Row(
         "bundled checks displays joints listened moved_by options robot rviz tools "

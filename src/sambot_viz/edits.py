@@ -9,19 +9,19 @@ from __future__ import annotations
 
 import os
 import re
+from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
+from sambot_viz import limits
 from sambot_viz.errors import Edit, Fix, Place
 
 _ENCODING = re.compile(
     rb"""\s*<\?xml\b[^>]{0,200}?\bencoding\s*=\s*["']([\w.-]+)["']"""
 )
-_LARGEST = 5_000_000
-"""Larger files have no edits [bytes]."""
 _NAME = re.compile(r"<([^\s<>/=\"']+)")
 _ATTRIBUTE = re.compile(r"""\s+([^\s<>/=\"']+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
 _END = re.compile(r"\s*(/?)>")
@@ -115,7 +115,7 @@ def write(
     if (source := source_of(place.file)) is not None:
         spans = list(source.words(wrong, source.offset(place)))
         if len(spans) == 1:
-            edits = (Edit(place.file, *spans[0], right),)
+            edits = (source.edit(place, spans[0], right),)
     return Fix(hint or f"write {right}{after}", edits)
 
 
@@ -124,9 +124,8 @@ def write_between(place: Place, end: Place, right: str, hint: str) -> Fix:
     source = source_of(place.file)
     if source is None:
         return Fix(hint)
-    return Fix(
-        hint, (Edit(place.file, source.offset(place), source.offset(end), right),)
-    )
+    extent = Extent(source.offset(place), source.offset(end))
+    return Fix(hint, (source.edit(place, extent, right),))
 
 
 def write_attribute(
@@ -152,7 +151,7 @@ def write_attribute(
         source, tag = found
         span = tag.values.get(name)
         if span is not None and _says(source.text[span.start : span.end], wrong):
-            edits = (Edit(place.file, *span, right),)
+            edits = (source.edit(place, span, right),)
     return Fix(hint or f'write {name}="{right}"', _plain(edits))
 
 
@@ -172,11 +171,12 @@ def rename_attribute(
     found = _tag_at(place)
     if found is not None and wrong in found[1].names and right not in found[1].names:
         source, tag = found
-        edits.append(Edit(place.file, *tag.names[wrong], right))
+        edits.append(source.edit(place, tag.names[wrong], right))
         span = tag.values[wrong]
         if value.startswith(written := source.text[span.start : span.end]):
             added = value.removeprefix(written)
-            edits += [Edit(place.file, span.end, span.end, added)] if added else []
+            behind = Extent(span.end, span.end)
+            edits += [source.edit(place, behind, added)] if added else []
     return Fix(hint, _plain(tuple(edits)))
 
 
@@ -197,7 +197,7 @@ def rename_element(place: Place, wrong: str, right: str, hint: str) -> Fix:
     if last is None or source.text[tag.name.start : tag.name.end] != wrong:
         return Fix(hint)
     spans = dict.fromkeys((tag.name, last))
-    return Fix(hint, tuple(Edit(place.file, *span, right) for span in spans))
+    return Fix(hint, tuple(source.edit(place, span, right) for span in spans))
 
 
 def together(hint: str, *fixes: Fix) -> Fix:
@@ -239,6 +239,10 @@ class SourceFile:
     text: str
     encoding: str
 
+    def edit(self, place: Place, extent: Extent, new: str) -> Edit:
+        """Return the edit that writes a text into the file of a place."""
+        return Edit(place.file, *extent, new, seen=hash(self.text))
+
     @cached_property
     def _lines(self) -> list[int]:
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
@@ -248,6 +252,11 @@ class SourceFile:
         if place.line > len(self._lines):
             return len(self.text)
         return self._lines[place.line - 1] + (place.column or 1) - 1
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return the line and the column of an offset, both counted from 1."""
+        line = bisect_right(self._lines, offset)
+        return line, offset - self._lines[line - 1] + 1
 
     def words(self, word: str, offset: int) -> list[Extent]:
         """Return where a word is in an element of XML, or in the rest of a line."""
@@ -322,7 +331,7 @@ def source_of(file: str) -> SourceFile | None:
     """Return what is in a file; None when it cannot be read as text."""
     try:
         stat = os.stat(file)
-        if not os.path.isfile(file) or stat.st_size > _LARGEST:
+        if not os.path.isfile(file) or stat.st_size > limits.FIXED_FILE.value:
             return None
         return _read(file, stat.st_mtime_ns, stat.st_size)
     except (OSError, ValueError, LookupError):

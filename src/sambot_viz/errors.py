@@ -16,6 +16,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     │   ├── TransformRefused        a transform that tf2 would not take
     │   └── FrameCycleError         a transform that would form a ring
     ├── SourceError                 a bag or a robot that cannot be read (.problems)
+    ├── EditRefused                 edits that cannot be made
     ├── PublishError                a message that is not sent, or that a robot refuses
     │   ├── PublishPaceError        a message that comes too soon
     │   └── PublishFrameError       a message in a frame that nobody takes
@@ -73,12 +74,15 @@ class Edit:
             without a byte order mark and with its own line ends.
         end: offset behind the last one; `start` where text is only added.
         text: what is written there.
+        seen: hash of the text of the whole file for which the offsets are; 0 where it
+            is not known. No part of the JSON output.
     """
 
     file: str
     start: int
     end: int
     text: str
+    seen: int = field(default=0, compare=False, repr=False)
 
     def as_json(self) -> dict[str, str | int]:
         """Return the fields that an edit has in JSON."""

@@ -18,7 +18,7 @@ from typing import Any, Literal, NamedTuple, TextIO, TypeAlias, cast
 
 from sambot_viz.text import json_text, line, lines, xml_text
 
-Style = Literal["error", "warning", "info", "bold", "dim"]
+Style = Literal["error", "warning", "info", "bold", "dim", "added", "removed"]
 
 _CODES: dict[Style, str] = {
     "error": "\033[1;31m",
@@ -26,6 +26,8 @@ _CODES: dict[Style, str] = {
     "info": "\033[1;36m",
     "bold": "\033[1m",
     "dim": "\033[2m",
+    "added": "\033[32m",
+    "removed": "\033[31m",
 }
 _END = "\033[0m"
 
@@ -73,6 +75,19 @@ def write_code(url: str) -> None:
         import segno
 
         segno.make(url, error="l").terminal(stream, compact=True, border=2)
+
+
+def can_ask() -> bool:
+    """Tell if a question is seen, and can be answered: both are on a terminal."""
+    streams = (_own(sys.stdout), sys.stdin)
+    return all(stream is not None and stream.isatty() for stream in streams)
+
+
+def ask(question: str) -> str | None:
+    """Write a question, and return the line of the answer; None at its end."""
+    _write_raw(sys.stdout, f"{line(question)} ")
+    answer = sys.stdin.readline()
+    return answer.strip() if answer else None
 
 
 @contextlib.contextmanager

@@ -242,7 +242,7 @@ def write_problems(
         lines = [line for each in in_order(problems) for line in problem_in_words(each)]
     else:
         groups = group_problems(problems)
-        lines = [line for each in groups[:most] for line in _group_in_words(each)]
+        lines = [line for each in groups[:most] for line in group_in_words(each)]
         rest = sum(len(group.problems) for group in groups[most:])
         if rest:
             commands = _commands(groups[most:], model)
@@ -263,7 +263,7 @@ def _commands(groups: Iterable[ProblemGroup], model: object) -> str:
     return ", ".join(dict.fromkeys(commands))
 
 
-def _group_in_words(group: ProblemGroup) -> list[Line]:
+def group_in_words(group: ProblemGroup) -> list[Line]:
     """Write several problems in one line, at the place of the first; one in full."""
     if len(group.problems) == 1:
         return problem_in_words(group.first)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -114,13 +115,37 @@ def test_a_goal_by_keyboard_alone(
     user.keys("Tab")
     user.type("-2")
     user.keys("Tab")
+    # A plain number is radians, which is seen.
+    user.type("2.0351")
+    user.reads("= 116.6°")
+    user.keys("Control+a")
     user.type("90 deg")
+    user.reads("= 90°")
     user.keys("Enter")
     user.gone("dialog")
     user.reads("Reached.")
     (came,) = peer.came()
     assert struct.unpack_from("<2d", bytes(came.content)[-56:]) == (1.5, -2.0)
     assert yaws(peer) == pytest.approx([math.pi / 2])
+
+
+def test_where_nothing_may_be_sent_the_numbers_say_so_and_send_is_grey(
+    peer: NavigatorPeer, tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    config = tmp_path / "a.rviz"
+    config.write_text(CONFIG)
+    with Visualizer(source=peer.uri, config=config, port=0) as viz:
+        eventually(lambda: "map" in session_of(viz).scene.context.tree.frames)
+        user = open_viewer(viz.url, view=False).user
+        user.click("button", "2D Goal Pose", BAR)
+        user.reads("start with --publish goal")
+        user.click("button", "By numbers…")
+        dialog = user.find("dialog", "2D Goal Pose by numbers")
+        user.until(lambda: "start with --publish goal" in dialog.look_inside().text)
+        assert user.find("button", "Send").state("disabled")
+        user.keys("Enter")
+        assert user.find("dialog", "2D Goal Pose by numbers")
+    assert peer.came() == []
 
 
 def test_a_goal_by_finger(
@@ -138,6 +163,61 @@ def test_a_goal_by_finger(
     viewer.user.reads("Reached.")
     (yaw,) = yaws(peer)
     assert abs(yaw) == pytest.approx(math.pi, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "touch"),
+    [(1280, 800, False), (1024, 768, False), (1024, 768, True), (390, 844, True)],
+)
+def test_stop_and_cancel_keep_their_places_whatever_is_said_and_open(
+    width: int,
+    height: int,
+    touch: bool,
+    peer: NavigatorPeer,
+    viz: Visualizer,
+    open_viewer: Callable[..., ViewerPage],
+) -> None:
+    peer.statuses = (1, 2)
+    viewer = open_viewer(viz.url, width=width, height=height, touch=touch, view=False)
+    user, status = viewer.user, ("contentinfo", "Status bar")
+    stop = user.box(user.find("button", "STOP"))
+    bar = user.box(user.find(*status))
+
+    def is_all_there(*names: str | re.Pattern[str]) -> None:
+        assert user.box(user.find("button", "STOP")) == stop
+        assert user.box(user.find(*status)) == bar
+        for name in ("STOP", *names):
+            button = user.find("button", name)
+            user.until(lambda button=button: user.can_see(button))
+
+    user.click("button", "2D Goal Pose", BAR)
+    user.find("button", "By numbers…")
+    is_all_there()
+    viz.publish_goal(0.5, 0.5, 0.6)
+    user.click("button", "Cancel", status)
+
+    def refusal() -> Thing | None:
+        lines = user.find(*status).all("status")
+        return next((one for one in lines if "not cancelled" in one.text), None)
+
+    # Nobody has that service here.
+    line = user.until(refusal)
+    assert line is not None
+    is_all_there("Cancel")
+    if user.is_cut_off(line):
+        user.click_on(line)
+        tip = user.find("tooltip")
+        assert "not cancelled" in tip.text and user.can_see(tip)
+        user.click_on(line)
+    # The form of the time leaves STOP and its button free, also once it has grown.
+    clock = re.compile("^Time: ")
+    user.click("button", clock)
+    user.until(lambda: user.can_see(user.find("dialog", "Time")))
+    is_all_there(clock)
+    user.choose(user.find("combobox", "Synchronization"), "Exact")
+    user.find("combobox", "Source")
+    user.until(lambda: user.can_see(user.find("dialog", "Time")))
+    is_all_there(clock)
 
 
 def test_on_a_phone_hint_and_cancel_have_room_whoever_is_there(

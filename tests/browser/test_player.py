@@ -19,6 +19,12 @@ from sambot_viz.export.chromium import Chromium
 from sambot_viz.session.data.player import Player
 
 SKY = (700, 160)
+NO_TIMES = """
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Grid, Enabled: true}
+    - {Class: rviz_default_plugins/TF, Enabled: true}
+"""
 
 pytestmark = pytest.mark.browser
 
@@ -152,6 +158,34 @@ def test_frames_are_drawn_at_the_time_of_a_display_that_is_chosen(
         user.choose(user.find("combobox", "Synchronization"), "Exact")
         user.reads("ROS Elapsed 1.50")
         assert user.find("combobox", "Source").value == "LaserScan /scan"
+
+
+def test_without_a_display_that_has_times_the_source_is_none_and_says_why(
+    tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    moved = [("/tf", t, {"base": "odom"}) for t in (0.0, 4.0)]
+    path = write_recording(tmp_path / "plain.mcap", {}, moved)
+    config = tmp_path / "plain.rviz"
+    config.write_text(NO_TIMES)
+    with Visualizer(path, config=config, port=0) as viz:
+        viewer = open_viewer(viz.url, view=False)
+        user = viewer.user
+        for _ in range(2):
+            user.click("button", re.compile("^Time: "))
+            user.choose(user.find("combobox", "Synchronization"), "Exact")
+            source = user.find("combobox", "Source")
+            assert source.value == "none"
+            assert source.state("disabled")
+            user.page.mouse.move(*user.go_to(source))
+            user.has_tip("No display shows messages that have a time")
+            viewer.reload()
+        user.click("button", re.compile("^Time: "))
+        modes = user.find("combobox", "Synchronization")
+        assert [one.name for one in modes.all("option")] == [
+            "Off",
+            "Exact",
+            "Approximate",
+        ]
 
 
 def test_on_a_phone_the_time_bar_is_as_wide_as_the_screen_and_its_times_cover_nothing(

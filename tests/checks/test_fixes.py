@@ -72,6 +72,27 @@ def test_what_a_macro_computes_has_no_edits(tmp_path: Path) -> None:
     assert problem.edits == ()
 
 
+@pytest.mark.parametrize(
+    ("code", "old", "new"),
+    [
+        ("footprint-size", "", ""),
+        ("frame-unknown", "", ""),
+        ("sdf-joint-to-frame", "", ""),
+        ("launch-world-name", 'name="room"', 'name="my room"'),
+    ],
+)
+def test_a_doubtful_hint_has_no_edits(
+    code: str, old: str, new: str, tmp_path: Path
+) -> None:
+    (sample,) = (each for each in all_samples() if each.code == code)
+    model = sample.write(tmp_path / "package")
+    for file in tmp_path.rglob("*.sdf"):
+        file.write_text(file.read_text().replace(old, new))
+    (problem,) = (each for each in check(model) if each.code == code)
+    assert problem.hint.startswith("write ")
+    assert problem.edits == ()
+
+
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
 def test_a_fixed_file_keeps_its_line_ends(tmp_path: Path, ends: str) -> None:
     model = tmp_path / "r.urdf"

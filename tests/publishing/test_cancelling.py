@@ -150,3 +150,29 @@ def test_it_is_said_how_far_a_goal_is(
         return goal(viz, client) == "on the way: 3.2 m, about 12 s left"
 
     eventually(told)
+
+
+def test_a_goal_that_goes_on_after_stop_is_said(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    client.act("live/stop")
+
+    def said() -> str:
+        client.settle(viser_server(viz))
+        return str(client.row("live/state")["value"]["goal"])
+
+    eventually(lambda: said().startswith("not cancelled: "))
+    assert goal(viz, client) == said()
+
+
+def test_a_cancel_has_a_line_with_who_pressed_it(
+    viz: Visualizer, client: ProtocolClient
+) -> None:
+    client.act("live/cancel")
+
+    def line() -> Any:
+        client.settle(viser_server(viz))
+        return client.row("sent/lines")["value"][0]
+
+    eventually(lambda: line()["topic"] == CANCEL)
+    assert (line()["who"], line()["values"]) == ("Viewer 1", "cancel all")

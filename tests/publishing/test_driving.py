@@ -14,7 +14,9 @@ from live_peers import eventually, knows_takers
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer
+from sambot_viz.errors import SourceError
 from sambot_viz.publishing import dead_mans_switch
+from sambot_viz.publishing.driver import NOT_REACHED
 
 
 @pytest.fixture
@@ -256,6 +258,108 @@ def test_nothing_is_sent_again_after_a_connection_was_lost(
     hold_until(client, 2, lambda: moves(peer))
 
 
+def comes_back(driven: Driven) -> None:
+    """Break the connection while nobody drives, and wait until there is another."""
+    peer, data = driven.peer, session_of(driven.viz).data
+    assert data is not None
+    peer.stop()
+    eventually(lambda: not data.source.status.is_connected)
+    peer.start()
+    eventually(lambda: data.source.status.is_connected)
+    peer.listen_as(CMD_VEL, "/base")
+    knows_takers(data.source, peer)
+
+
+def test_the_first_stop_after_a_lost_connection_stops_the_robot(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    client.act("live/stop")
+    eventually(peer.rests)
+    comes_back(driven)
+    came = len(peer.came())
+    client.act("live/stop")
+    eventually(lambda: peer.speeds()[came:] == [(0.0, 0.0)] * 3)
+
+
+def test_the_first_press_after_a_lost_connection_drives(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    client.act("live/release", 1)
+    eventually(peer.rests)
+    comes_back(driven)
+    hold_until(client, 2, lambda: moves(peer))
+
+
+def loses(driven: Driven) -> None:
+    """Break the connection, and wait until that is known."""
+    data = session_of(driven.viz).data
+    assert data is not None
+    driven.peer.stop()
+    eventually(lambda: not data.source.status.is_connected)
+
+
+def test_a_stop_that_does_not_reach_the_robot_is_said(
+    peers: Callable[..., BasePeer],
+    drive: Callable[..., Driven],
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    driven = drive(peers())
+    client = driven.page()
+    assert driven.state(client)["failure"] == ""
+    loses(driven)
+    client.act("live/stop")
+    eventually(lambda: driven.state(client)["failure"] == NOT_REACHED)
+
+    def line() -> Any:
+        client.settle(viser_server(driven.viz))
+        return client.row("sent/lines")["value"][0]
+
+    eventually(lambda: line()["values"] == f"error: {NOT_REACHED}")
+    assert f"Viewer 1: error: {NOT_REACHED}" in capsys.readouterr().err
+    with pytest.raises(SourceError, match="it may keep its last speed"):
+        driven.viz.stop_robot()
+
+
+def test_a_robot_that_is_lost_while_it_drives_is_not_said_to_be_stopped(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    hold_until(client, 1, lambda: moves(peer))
+    loses(driven)
+    hold_until(client, 1, lambda: driven.state(client)["client"] is None)
+    eventually(lambda: driven.state(client)["failure"] == NOT_REACHED)
+    comes_back(driven)
+    came = len(peer.came())
+    client.act("live/stop")
+    eventually(lambda: peer.speeds()[came:] == [(0.0, 0.0)] * 3)
+    assert driven.state(client)["failure"] == ""
+
+
+def test_a_stop_at_rest_is_sent_whoever_seems_to_listen(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven]
+) -> None:
+    peer = peers()
+    driven = drive(peer)
+    client = driven.page()
+    client.act("live/stop")
+    eventually(lambda: len(peer.came()) == 3)
+    peer.listen_as("/another", "/base")
+    data = session_of(driven.viz).data
+    assert data is not None
+    knows_takers(data.source, peer)
+    client.act("live/stop")
+    eventually(lambda: len(peer.came()) == 6)
+
+
 @pytest.mark.parametrize("kind", [TWIST, "geometry_msgs/msg/TwistStamped"])
 def test_the_type_is_asked_where_the_robot_does_not_say_it(
     peers: Callable[..., BasePeer], drive: Callable[..., Driven], kind: str
@@ -358,3 +462,22 @@ def test_each_new_velocity_is_in_the_log(
 
     eventually(lambda: last()["values"] == [0.0, 0.0])
     assert (last()["topic"], last()["who"]) == (CMD_VEL, "Viewer 1")
+
+
+def test_the_zeros_of_a_stop_are_those_of_who_pressed_it(
+    peers: Callable[..., BasePeer], drive: Callable[..., Driven], tmp_path: Path
+) -> None:
+    peer, log = peers(), tmp_path / "sent.jsonl"
+    driven = drive(peer, publish_log=log)
+    client, other = driven.page(), driven.page()
+
+    def zeros_of(who: str) -> bool:
+        lines = [json.loads(line) for line in log.read_text().splitlines()]
+        told = [one["who"] for one in lines if one["topic"] == CMD_VEL]
+        return bool(told[-1] == who and lines[-1]["values"] in ([0.0, 0.0], {}))
+
+    client.act("live/stop")
+    eventually(lambda: zeros_of("Viewer 1"))
+    hold_until(client, 1, lambda: moves(peer))
+    other.act("live/stop")
+    eventually(lambda: zeros_of("Viewer 2"))

@@ -78,6 +78,24 @@ def test_without_leave_or_receiver_nothing_is_sent(peer: BasePeer) -> None:
     assert peer.came() == []
 
 
+def test_who_takes_a_topic_is_asked_again_after_a_lost_connection(
+    peer: BasePeer,
+) -> None:
+    with connected(peer, publish="") as viz:
+        with pytest.raises(PublishError, match="nobody has subscribed"):
+            viz.publish("/late", TWIST, {})
+        data = session_of(viz).data
+        assert data is not None
+        peer.stop()
+        eventually(lambda: not data.source.status.is_connected)
+        peer.start()
+        eventually(lambda: data.source.status.is_connected)
+        peer.listen_as("/late", "/arm")
+        knows_takers(data.source, peer)
+        assert viz.publish("/late", TWIST, {}) == "/late, which /arm takes"
+        eventually(lambda: [one.topic for one in peer.came()] == ["/late"])
+
+
 def test_a_program_stops_the_robot(peer: BasePeer) -> None:
     peer.listen_as("/cmd_vel", "/base")
     with connected(peer, publish="") as viz:

@@ -187,3 +187,14 @@ def test_the_panel_says_it(
     client = protocol(viz.viser.get_port())
     eventually(lambda: said(viz) == TAKEN)
     eventually(lambda: client.row("joints/out")["value"] == TAKEN)
+    # Not among the rows, where it would move the sliders when it comes.
+    assert client.row("joints/out")["kind"] == "data"
+
+
+def test_without_anybody_who_takes_them_it_says_where_another_topic_is_named(
+    peer: NavigatorPeer, opened: Callable[..., Visualizer]
+) -> None:
+    viz = opened()
+    eventually(peer.came)
+    peer.listen_as(TOPIC)
+    eventually(lambda: "with --remap /joint_states:=TOPIC" in said(viz))

@@ -22,7 +22,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 from difflib import unified_diff
 from functools import partial
 from pathlib import Path
@@ -155,7 +155,8 @@ def _lines(each: Input) -> list[str]:
 def _edits(problem: Problem, each: Input) -> str:
     """Write the edits of a problem: where, and what becomes what."""
     told: list[str] = []
-    for file, start, end, new in map(astuple, problem.edits):
+    for edit in problem.edits:
+        file, start, end, new = edit.file, edit.start, edit.end, edit.text
         source = source_of(file)
         written = each.files.get(file, "")
         text = written if isinstance(written, str) else written.decode()

@@ -20,6 +20,8 @@ model of each code; what it quotes is what the program says about that model.
 An *error* is something that ROS refuses or loses, a *warning* will cause trouble later,
 an *info* is worth knowing. A unit, a wheel or another guess from numbers is a *warning*
 where two clues that are independent speak for it, and an *info* where only one does.
+What to do is also an edit where it is a certain replacement of text:
+`sambot-viz check --fix` applies those, after it has shown them.
 """
 
 _ACCEPTED = """\

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import argparse
 import os
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import bundled
 from sambot_viz.commands.command_line import Parser, model_path, parse
-from sambot_viz.errors import UsageError
-from sambot_viz.outlet import write_json, write_out
+from sambot_viz.errors import Problem, UsageError
+from sambot_viz.options import Options
+from sambot_viz.outlet import can_ask, write_json, write_out
 from sambot_viz.problems import group_problems, write_problems
 
 if TYPE_CHECKING:
@@ -19,6 +24,7 @@ if TYPE_CHECKING:
 def run(words: list[str]) -> int:
     """Check a model; 0 when it has no errors (it may have warnings), else 1."""
     given, options = parse(parser(), words)
+    _refuse_what_cannot_be_fixed(given, options)
     # The import is late: completion and --help need no rules.
     from sambot_viz.checks.checked import check_all
 
@@ -27,18 +33,61 @@ def run(words: list[str]) -> int:
         path = bundled.model_path()
     elif not os.path.exists(path):
         raise UsageError(bundled.missing("model", path))
-    found = check_all(
+    check = partial(
+        check_all,
         path,
         xacro_args=options.xacro_args,
         package_path=options.package_path,
         workspace=options.workspace,
         trusted=options.trusted,
     )
-    if given.format == "json":
+    found = check()
+    if given.fix:
+        found = replace(found, problems=_fix(path, found, check, asks=not given.yes))
+    _print(path, found, given.format)
+    return int(any(problem.severity == "error" for problem in found.problems))
+
+
+def _fix(
+    path: Path, found: Checked, check: Callable[[], Checked], *, asks: bool
+) -> tuple[Problem, ...]:
+    """Apply the edits that are wanted; returns the problems that are left."""
+    from sambot_viz.commands.fix import Fixing, folders_of
+
+    folder = path if path.is_dir() else None
+    models = [one.model for one in found.models] or [path]
+    folders = [one for model in models for one in folders_of(model, folder)]
+    return tuple(Fixing(lambda: [*check().problems], folders, asks=asks).run())
+
+
+def _print(path: Path, found: Checked, how: str) -> None:
+    if how == "json":
         write_json(_as_json(found))
+    elif how == "sarif":
+        from sambot_viz.commands.sarif import sarif_log
+
+        model = found.models[0].model if found.models else path
+        write_json(sarif_log(found.problems, model))
     else:
         _write(path, found)
-    return int(any(problem.severity == "error" for problem in found.problems))
+
+
+def _refuse_what_cannot_be_fixed(given: argparse.Namespace, options: Options) -> None:
+    """Raise UsageError where edits cannot be applied, or not be asked for."""
+    if not given.fix:
+        if given.yes:
+            raise UsageError("--yes answers the questions of --fix; give both")
+        return
+    if given.format != "text":
+        raise UsageError(
+            f"--fix does not go with --format {given.format}; leave it out"
+        )
+    if not options.trusted:
+        raise UsageError("--fix does not go with --untrusted: it changes files")
+    if options.model is None:
+        raise UsageError("--fix needs a MODEL; the bundled robot is not changed")
+    if not given.yes and not can_ask():
+        raise UsageError("--fix asks on a terminal, and there is none; add --yes")
 
 
 def parser() -> Parser:
@@ -53,7 +102,16 @@ def parser() -> Parser:
         "those that its launch files open are checked. "
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
-    made.add_format()
+    made.add_format("sarif")
+    made.add_argument(
+        "--fix",
+        action="store_true",
+        help="show the edits of the findings that have some, ask, write them into the "
+        "files of the package, and list what is left",
+    )
+    made.add_argument(
+        "--yes", action="store_true", help="with --fix: apply all edits without asking"
+    )
     return made
 
 

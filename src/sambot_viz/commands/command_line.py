@@ -89,11 +89,11 @@ class Parser(argparse.ArgumentParser):
         """What the parser takes, in order; argparse has no public name for it."""
         return self._actions
 
-    def add_format(self) -> None:
-        """Add ``--format``, for commands that print text or JSON."""
+    def add_format(self, *others: str) -> None:
+        """Add ``--format``, for commands that print text, JSON or other formats."""
         self.add_argument(
             "--format",
-            choices=("text", "json"),
+            choices=("text", "json", *others),
             default="text",
             help="how to print it (default: %(default)s)",
         )

@@ -184,6 +184,12 @@ YAML_REPAIRED = LimitRow(
     "characters",
     "the error has no repair",
 )
+FIXED_FILE = LimitRow(
+    "a file whose text a fix replaces",
+    5_000_000,
+    "bytes",
+    "what is wrong in it has a hint without an edit",
+)
 LAUNCH_VALUE = LimitRow(
     "a value that a launch file computes",
     4096,

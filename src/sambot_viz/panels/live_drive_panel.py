@@ -100,6 +100,8 @@ class LiveDrivePanel(Panel):
             "name": name,
             "why": driving.why if driving else "",
             "stops": driving.stops if driving else 0,
+            "failure": driving.failure if driving else "",
+            "goal": self._publisher.goals.goes_on if self._publisher.goals else "",
             "protection": driver.protection if driver else "",
         }
         found = [Data("live/state", state)]
@@ -138,10 +140,11 @@ class LiveDrivePanel(Panel):
         if self._publisher.driver is not None:
             self._publisher.driver.release(client, press)
 
-    @command("live/cancel", name="Cancel")
-    def _cancel(self) -> None:
-        if self._publisher.goals is not None:
-            self._publisher.goals.cancel()
+    @command("live/cancel", name="Cancel", at_once=True)
+    def _cancel(self, client: int) -> None:
+        name = self._publisher.name_of(client)
+        # What is sent is told in the session's thread.
+        self._post(lambda: self._publisher.cancel(name))
 
     @command("live/stop", client_local=True, at_once=True)
     def _stop(self, client: int) -> None:

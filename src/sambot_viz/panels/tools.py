@@ -18,7 +18,7 @@ from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
-from sambot_viz.text import text
+from sambot_viz.text import capitalized, text
 from sambot_viz.tools.tool import Tool
 
 _PLACE = Argument(float, optional=True)
@@ -62,6 +62,7 @@ class ToolsPanel(Panel):
             Data("tools/controls", tools.shows_controls),
             Data("tools/frame", tools.fixed_frame),
             Data("tools/hint", {"text": hint, "touch": touch}),
+            Data("tools/pose_refusal", capitalized(tools.pose_refusal)),
             Data("tools/wants_map", tools.wants_map),
             Data("tools/selected", [*labels(tools.selection)]),
             Data("tools/pointed", self._pointed()),

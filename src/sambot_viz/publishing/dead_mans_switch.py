@@ -53,6 +53,8 @@ class DeadMansSwitch:
         most: the highest linear [m/s] and angular speed [rad/s].
         changed: called when a hand begins or ends, with the hand (None for nobody) and
             why the last one was stopped ("" where it let go); it must only post.
+        lost: called with why where the zero velocities that end a motion cannot be
+            sent; the same.
     """
 
     def __init__(
@@ -60,8 +62,10 @@ class DeadMansSwitch:
         send: Callable[[float, float], object],
         most: tuple[float, float],
         changed: Callable[[Hand | None, str], object],
+        lost: Callable[[str], object] = lambda why: None,
     ) -> None:
         self._send, self._most, self._changed = send, most, changed
+        self._lost = lost
         self._wake = threading.Condition(threading.Lock())
         self._hand: Hand | None = None
         self._wanted = self._velocity = (0.0, 0.0)
@@ -202,8 +206,9 @@ class DeadMansSwitch:
         """Nothing can be sent: not even that the robot is to stop."""
         with self._wake:
             if self._hand is not None:
-                self._end(why)
+                self._end("")
             self._zeros = 0
+            self._lost(why)
 
     def _ramped(self, seconds: float) -> tuple[float, float]:
         linear, angular = (

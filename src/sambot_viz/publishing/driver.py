@@ -16,6 +16,10 @@ from sambot_viz.sources.source import Outgoing
 from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
+NOT_REACHED = (
+    "STOP did not reach the robot: the connection is lost; it may keep its last speed"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Driving:
@@ -25,11 +29,13 @@ class Driving:
         hand: None when nobody drives.
         why: "" where the last hand has let go.
         stops: how often it was said why.
+        failure: why no zero velocity went out, as a sentence; "" where it did.
     """
 
     hand: Hand | None = None
     why: str = ""
     stops: int = 0
+    failure: str = ""
 
 
 class Driver:
@@ -42,7 +48,8 @@ class Driver:
         most: the highest linear [m/s] and angular speed [rad/s].
         told: called when somebody begins or ends to drive, and when there is something
             new about it; in any thread, must only post.
-        sent: called with each new velocity that was sent, and the page; the same.
+        sent: called with each new velocity that was sent, and the page or the name of
+            who has stopped the robot; the same.
     """
 
     def __init__(
@@ -52,7 +59,7 @@ class Driver:
         topic: str,
         most: tuple[float, float],
         told: Callable[[], object],
-        sent: Callable[[Velocity, int], object],
+        sent: Callable[[Velocity, int | str], object],
     ) -> None:
         self.topic, self.most = topic, most
         self.driving = Driving()
@@ -61,10 +68,10 @@ class Driver:
         self._chosen = ""
         self._lock = threading.Lock()
         self._outgoing: Outgoing | None = None
-        self._last: tuple[Velocity, int] | None = None
-        self._client = -1
+        self._last: tuple[Velocity, int | str] | None = None
+        self._client, self._stopper = -1, ""
         self._protection = Protection(robot, told)
-        self._switch = DeadMansSwitch(self._send, most, self._change)
+        self._switch = DeadMansSwitch(self._send, most, self._change, self._lose)
 
     @property
     def type_name(self) -> str:
@@ -106,7 +113,7 @@ class Driver:
         """
         if self._switch.hand != hand:
             self._prepare()
-            self._client = hand.client
+            self._client, self._stopper = hand.client, ""
         self._switch.hold(hand, forwards, left)
 
     def release(self, client: int, press: int) -> None:
@@ -117,19 +124,33 @@ class Driver:
         """A page has gone."""
         self._switch.leave(client)
 
-    def stop(self, why: str, *, at_rest: bool = False) -> None:
+    def stop(self, why: str, *, who: str = "", at_rest: bool = False) -> str:
         """Stop the robot, whoever drives.
 
         Args:
             why: what is said to everyone.
+            who: stops it, for the log; "" for who drives.
             at_rest: also when nobody drives from here, if its velocities are known.
+
+        Returns:
+            Why no velocity goes out, as a sentence; "" where it does.
         """
-        if at_rest and self.driving.hand is None:
+        failure, self._stopper = "", who
+        if at_rest:
             try:
-                self._prepare()
-            except (PublishError, SourceError):
-                return
-        self._switch.stop(why, at_rest=at_rest)
+                # Whoever seems to take it or not: a bridge may be wrong.
+                self._prepare(is_stop=True)
+            except PublishError as error:
+                failure = f"STOP sent no velocity: {error}"
+            except SourceError:
+                failure = NOT_REACHED
+        if failure:
+            # A hand ends all the same.
+            self._switch.stop("")
+            self._fail(why, failure)
+        else:
+            self._switch.stop(why, at_rest=at_rest)
+        return failure
 
     def close(self) -> None:
         """Stop the robot, and send nothing after that."""
@@ -139,8 +160,8 @@ class Driver:
                 self._outgoing.close()
                 self._outgoing = None
 
-    def _prepare(self) -> None:
-        """See to it that there is a topic that somebody takes."""
+    def _prepare(self, *, is_stop: bool = False) -> None:
+        """See to it that there is a topic, and that somebody takes it or is to stop."""
         type_name = self.type_name
         if not type_name:
             raise PublishError(
@@ -148,13 +169,15 @@ class Driver:
             )
         with self._lock:
             one = self._outgoing
-            if one is not None and (one.type_name != type_name or one.refused):
-                # What was refused is tried again.
+            if one is not None and (
+                one.type_name != type_name or one.refused or one.is_over
+            ):
+                # What was refused is tried again; what was lost may be back.
                 one.close()
-                one = None
-            if one is not None:
+                one = self._outgoing = None
+            if one is not None and not is_stop:
                 who_takes(one, "drive")
-            else:
+            elif one is None:
                 # Who takes it is known soon, and asked with each velocity.
                 one = self._robot.source.advertise(self.topic, type_name)
             self._outgoing = one
@@ -171,13 +194,20 @@ class Driver:
         types = self._robot.decoding.types
         try:
             outgoing.send(written(outgoing, velocity, self._now_ns(), types))
-        except SourceError:
+        except SourceError as error:
             with self._lock:
-                self._outgoing = None
+                is_replaced = self._outgoing not in (None, outgoing)
+                if not is_replaced:
+                    self._outgoing = None
+            if is_replaced:
+                # STOP has found another connection: its zeros are not given up.
+                raise PublishError(str(error)) from error
             raise
-        if (velocity, self._client) != self._last:
-            self._last = velocity, self._client
-            self._sent(velocity, self._client)
+        is_zero = not linear and not angular
+        who = self._stopper if is_zero and self._stopper else self._client
+        if (velocity, who) != self._last:
+            self._last = velocity, who
+            self._sent(velocity, who)
 
     def _require_taken(self, outgoing: Outgoing) -> None:
         """Raise PublishError where a velocity would be refused, or have no effect."""
@@ -186,5 +216,18 @@ class Driver:
         who_takes(outgoing, "drive")
 
     def _change(self, hand: Hand | None, why: str) -> None:
+        outgoing = self._outgoing
+        if why and (outgoing is None or outgoing.is_over):
+            self._fail(why, NOT_REACHED)
+            return
         self.driving = Driving(hand, why, self.driving.stops + bool(why))
+        self._told()
+
+    def _lose(self, why: str) -> None:
+        """Take that the zero velocities of a stop could not be sent."""
+        self._fail(self.driving.why or why, NOT_REACHED)
+
+    def _fail(self, why: str, failure: str) -> None:
+        """Say that the robot was not stopped."""
+        self.driving = Driving(None, why, self.driving.stops + 1, failure)
         self._told()

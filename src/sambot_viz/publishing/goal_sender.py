@@ -77,7 +77,7 @@ class GoalSender:
         if self._action:
             return f"the action {self._action}"
         self._wait(lambda: bool(outgoing.receivers.names), FOUND_WITHIN)
-        who = who_takes(outgoing, "goal")
+        who = who_takes(outgoing, "goal", "name another one with --topic")
         self._require_taken()
         self._goals.begin(goal, self._topic, outgoing, self._outcomes.append)
         types = self._robot.decoding.types

@@ -14,6 +14,7 @@ from sambot_viz.publishing.outcome import (
     GIVEN_UP,
     GoalFollower,
     Outcome,
+    cancel_of,
     feedback_of,
     given_up,
     navigator_of,
@@ -26,6 +27,7 @@ from sambot_viz.topics.source_robot import SourceRobot
 
 _TOPICS = 8
 """The goals of so many topics are followed at a time."""
+_NOT_CANCELLED = "not cancelled: "
 _SENT = Outcome("sent", False, True)
 
 
@@ -68,6 +70,13 @@ class Goals:
     def on_the_way(self) -> Outbound | None:
         """The goal that was sent from here and has not ended, as far as is known."""
         return self._goal if self.is_on_the_way else None
+
+    @property
+    def goes_on(self) -> str:
+        """Why a goal that was to be cancelled goes on; "" where none does."""
+        words = self.last.words if self.last is not None else ""
+        is_so = self.is_on_the_way and words.startswith(_NOT_CANCELLED)
+        return words if is_so else ""
 
     def follow(self, topic: str) -> None:
         """Listen to what becomes of the goals of a topic."""
@@ -154,19 +163,24 @@ class Goals:
         self.last = None
         self._leave_goals()
 
-    def cancel(self) -> None:
+    def cancel(self) -> Sequence[str]:
         """Cancel all goals of the robot; takes no lock of the session.
 
         What becomes of it is said with the goal.
+
+        Returns:
+            The services that are asked to.
         """
         if self.is_on_the_way:
             self._note(Outcome("asked to cancel", False, True))
             # The service may not be shown, or not be allowed.
             self._cancel_acted()
         types = self._robot.decoding.types
-        for topic in tuple(self._followed) or (GOAL_TOPIC,):
+        topics = tuple(self._followed) or (GOAL_TOPIC,)
+        for topic in topics:
             told = partial(self._tell_cancelled, topic)
             cancel_goals(self._robot.source, topic, types, told)
+        return [cancel_of(topic) for topic in topics]
 
     def close(self) -> None:
         """Follow nothing any more."""
@@ -179,7 +193,7 @@ class Goals:
         if not self.is_on_the_way:
             return
         if why:
-            self._note(Outcome(f"not cancelled: {text(why, 300)}", False, False))
+            self._note(Outcome(f"{_NOT_CANCELLED}{text(why, 300)}", False, False))
         elif self._acted is None and (
             status_of(topic) not in self._robot.source.topics()
         ):

@@ -18,10 +18,10 @@ from sambot_viz.errors import (
     PublishPaceError,
     SourceError,
 )
-from sambot_viz.outlet import write_err
+from sambot_viz.outlet import Painted, write_err
 from sambot_viz.publishing.acted_goal import NAVIGATE
 from sambot_viz.publishing.any_message import AnyMessage
-from sambot_viz.publishing.driver import Driver
+from sambot_viz.publishing.driver import NOT_REACHED, Driver
 from sambot_viz.publishing.goals import Goals
 from sambot_viz.publishing.outbound import (
     KINDS,
@@ -152,24 +152,50 @@ class Publisher:
         """Whether something may be sent to a robot at all."""
         return any(not self.refusal(kind) for kind in KINDS)
 
-    def stop(self, who: str) -> None:
+    def stop(self, who: str) -> str:
         """Stop the robot, whoever drives; takes no lock of the session.
 
         Args:
             who: has pressed STOP.
+
+        Returns:
+            Why it was not stopped, as a sentence; "" where it was, or nothing may be
+            sent.
         """
-        name = who or "Somebody"
+        name, failure = who or "Somebody", ""
         if self.driver is not None:
-            self.driver.stop(f"{name} pressed STOP", at_rest=True)
+            failure = self.driver.stop(f"{name} pressed STOP", who=name, at_rest=True)
+        elif self.robot is not None and self.sends_anything:
+            is_there = self.robot.source.status.is_connected
+            failure = "" if is_there else NOT_REACHED
         now = time.monotonic()
         if now - self._stopped < FASTEST or not self.sends_anything:
             # A page that floods fills neither the terminal nor the robot.
-            return
+            return failure
         self._stopped = now
-        write_err(f"sambot-viz: {name}: STOP")
-        self._drive.post(lambda: self._tell_sent("", "STOP", name, "", {}))
+        if failure:
+            write_err([f"sambot-viz: {name}: ", Painted(f"error: {failure}", "error")])
+        else:
+            write_err(f"sambot-viz: {name}: STOP")
+        values = {"error": failure} if failure else {}
+        self._drive.post(lambda: self._tell_sent("", "STOP", name, "", values))
         if self.goals is not None:
             self.goals.cancel()
+        return failure
+
+    def cancel(self, who: str) -> None:
+        """Cancel all goals of the robot.
+
+        Args:
+            who: does so, for the log.
+        """
+        if self.goals is None:
+            return
+        name = who or "Somebody"
+        write_err(f"sambot-viz: {name}: cancel")
+        kind = "action_msgs/srv/CancelGoal"
+        for service in self.goals.cancel():
+            self._tell_sent(kind, service, name, "", {"cancel": "all"})
 
     def refusal(self, kind: Kind) -> str:
         """Return why a kind of messages may not be sent at all; empty when it may."""
@@ -414,14 +440,15 @@ class Publisher:
             self._forget(topic, type_name)
             self._topic(robot, topic, type_name).send(content)
 
-    def _note_velocity(self, velocity: Velocity, client: int) -> None:
+    def _note_velocity(self, velocity: Velocity, who: int | str) -> None:
         """Have a new velocity written down; what sends it does not wait for that."""
         if self._log is None and not self.listeners:
             return
 
         def told() -> None:
-            topic, who = self._drive.topic, self.name_of(client)
-            self._tell_sent(velocity.type_name, topic, who, "", velocity.numbers)
+            topic = self._drive.topic
+            name = who if isinstance(who, str) else self.name_of(who)
+            self._tell_sent(velocity.type_name, topic, name, "", velocity.numbers)
 
         self._drive.post(told)
 
@@ -437,6 +464,9 @@ class Publisher:
 
     def _topic(self, robot: SourceRobot, topic: str, type_name: str) -> Outgoing:
         key = topic, type_name
+        if key in self._outgoing and self._outgoing[key].is_over:
+            # Who takes it, and what was refused, was of a connection that was lost.
+            self._forget(topic, type_name)
         if key not in self._outgoing:
             made = robot.source.advertise(topic, type_name)
             if len(self._outgoing) >= _TOPICS:

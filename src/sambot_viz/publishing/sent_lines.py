@@ -70,6 +70,9 @@ def _is_meant(sent: SentMessage) -> bool:
 
 def _words(sent: SentMessage) -> str:
     if isinstance(sent.values, Mapping):
+        if not sent.type_name and "error" in sent.values:
+            # What was not sent at all.
+            return text(f"error: {sent.values['error']}", _VALUES)
         parts = [f"{name} {value}" for name, value in sent.values.items()]
     else:
         parts = [f"{value:.4g}" for value in sent.values]

@@ -46,30 +46,42 @@ _TAKERS = {
 }
 """What is sent → who would take it."""
 
+_IN_TOOL = "name another topic, in a page in Tool Properties"
+_ELSEWHERE: dict[Kind, str] = {
+    "goal": _IN_TOOL,
+    "pose": _IN_TOOL,
+    "point": _IN_TOOL,
+    "drive": "name another topic with --cmd-vel TOPIC",
+    "joints": "name another topic with --remap /joint_states:=TOPIC",
+}
+"""What is sent → where another topic is named for it."""
+_ANOTHER = "name another topic"
 
-def who_takes(outgoing: Outgoing, kind: Kind | None = None) -> str:
+
+def who_takes(outgoing: Outgoing, kind: Kind | None = None, elsewhere: str = "") -> str:
     """Return who gets a topic, in words.
 
     Args:
         outgoing: the topic.
         kind: what is sent on it; None for anything else than the tools send.
+        elsewhere: where another topic is named for it; empty as a page does it.
 
     Raises:
         PublishError: nobody does, or its messages are of another type.
     """
     receivers, topic = outgoing.receivers, text(outgoing.topic, 80)
+    named = _ELSEWHERE.get(kind, _ANOTHER) if kind else _ANOTHER
+    elsewhere = elsewhere or named
     if receivers.type_name not in ("", outgoing.type_name):
         raise PublishError(
             f"{topic} of this robot has messages of {text(receivers.type_name, 80)}, "
-            f"and what is sent is a {outgoing.type_name}: name another topic"
+            f"and what is sent is a {outgoing.type_name}: {elsewhere}"
         )
     if receivers.names is None:
         return f"{topic}; the bridge does not say who gets it"
     taker = _TAKERS[kind] if kind else "start the program that takes it"
     if not receivers.names:
-        raise PublishError(
-            f"nobody has subscribed to {topic}: {taker}, or name another topic"
-        )
+        raise PublishError(f"nobody has subscribed to {topic}: {taker}, or {elsewhere}")
     names = ", ".join(text(name, 80) for name in receivers.names[:_NAMES])
     more = len(receivers.names) - _NAMES
     return f"{topic}, which {names}{f' and {more} more' if more > 0 else ''} takes"

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sambot_viz.errors import JointError
+from sambot_viz.errors import JointError, SourceError
 from sambot_viz.files import write_atomically
 from sambot_viz.frames import Transform
 from sambot_viz.frames.transform import Pose
@@ -155,11 +155,17 @@ class RobotControl:
         """Stop a live robot, as STOP does: zero velocities, and no goal any longer.
 
         Nothing happens where nothing may be sent. `stop` ends the server.
+
+        Raises:
+            SourceError: it did not reach the robot: the connection is lost, or the
+                type of its velocities is not known.
         """
         session = first(self._server.sessions)
-        session.publisher.stop("Python")
+        failure = session.publisher.stop("Python")
         with session.change():
             session.roles.return_control()
+        if failure:
+            raise SourceError(failure)
 
     def on_published(self, callback: _P) -> _P:
         """Call back with each message that is sent to the robot, as `SentMessage`.

@@ -137,6 +137,11 @@ class Outgoing(Protocol):
     receivers: Receivers
     frame_prefix: str
 
+    @property
+    def is_over(self) -> bool:
+        """Whether its connection has ended; there may be another one by now."""
+        ...
+
     def send(self, message: bytes) -> None:
         """Publish a message.
 

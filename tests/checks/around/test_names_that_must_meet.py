@@ -250,6 +250,7 @@ MISTAKES = [
         (MODEL, '<link name="lidar_link"/>'),
         "write lidar_link",
         name="of a sensor",
+        by_hand=True,
     ),
     one(
         "frame-unknown",
@@ -260,6 +261,7 @@ MISTAKES = [
         "write lidar_link",
         package="classic",
         name="of a plugin",
+        by_hand=True,
     ),
     one(
         "frame-unknown",
@@ -876,6 +878,7 @@ MISTAKES = [
         "robot_radius: 0.22",
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.3",
+        by_hand=True,
     ),
     one(
         "footprint-size",
@@ -885,6 +888,7 @@ MISTAKES = [
         (MODEL, '<link name="${prefix}_link">'),
         'write "[ [0.21, 0.2], [0.21, -0.2], [-0.22, -0.2], [-0.22, 0.2] ]"',
         name="polygon",
+        by_hand=True,
     ),
     one(
         "footprint-size",
@@ -894,6 +898,7 @@ MISTAKES = [
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.3",
         name="in centimetres",
+        by_hand=True,
     ),
     one(
         "footprint-size",
@@ -903,6 +908,7 @@ MISTAKES = [
         (MODEL, '<link name="${prefix}_link">'),
         "write 0.3",
         name="twice as large",
+        by_hand=True,
     ),
 ]
 

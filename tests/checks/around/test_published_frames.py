@@ -14,11 +14,13 @@ from sambot_viz.robot.model import load_robot
 RVIZ = "rviz/cart.rviz"
 DISPLAY = """
 from launch import LaunchDescription
+from launch.substitutions import Command
 from launch_ros.actions import Node
 
 def generate_launch_description():
     return LaunchDescription([
-        Node(package="robot_state_publisher", executable="robot_state_publisher"),
+        Node(package="robot_state_publisher", executable="robot_state_publisher",
+             parameters=[{"robot_description": Command(["xacro ", "a.urdf.xacro"])}]),
         Node(package="rviz2", executable="rviz2"),
         # more
     ])

@@ -10,8 +10,7 @@ from typing import NamedTuple
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import number
-from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Problem
+from sambot_viz.errors import Problem
 from sambot_viz.geometry import PlainPose, Vector2, Vector3
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, MeshFile, Shape, Sphere
@@ -103,22 +102,22 @@ def _too_large(
         )
 
 
-def _finding(said: Parameter, message: str, hint: Fix) -> Problem:
+def _finding(said: Parameter, message: str, hint: str) -> Problem:
     return Problem.at(said.place, "warning", "footprint-size", message, hint)
 
 
-def _needed(said: Parameter, reach: _Reach) -> Fix:
-    """The value that fits the shapes."""
+def _needed(said: Parameter, reach: _Reach) -> str:
+    """Say which value fits the shapes; without an edit, as these may be wrong."""
     if said.name == "robot_radius":
         needed = max(math.hypot(*point) for point in reach.points)
         right = f"{_outward(needed, math.ceil):g}"
-        return write(said.value_place, said.fact.value, right)
+        return f"write {right}"
     xs, ys = zip(*reach.points, strict=True)
     x0, y0 = (_outward(min(values), math.floor) for values in (xs, ys))
     x1, y1 = (_outward(max(values), math.ceil) for values in (xs, ys))
     corners = f"[{x1:g}, {y1:g}], [{x1:g}, {y0:g}], [{x0:g}, {y0:g}], [{x0:g}, {y1:g}]"
     right = f"[ {corners} ]"
-    return write(said.value_place, said.fact.value, right, hint=f'write "{right}"')
+    return f'write "{right}"'
 
 
 def _outward(value: float, rounded: Callable[[float], int]) -> float:

@@ -48,6 +48,8 @@ DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
 """Elements in which a drive names the frame of odometry."""
 _NO_BASE = frozenset({"map", "odom", "world"})
 """Frames that are no part of a robot; sensors may report in them."""
+_MISSPELT = 0.8
+"""A frame that is as like a link is that link, misspelt; another one may be turned."""
 
 
 def unknown_frames(around: Surroundings) -> Iterator[Problem]:
@@ -73,7 +75,9 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             "frame-unknown",
             f"{user} uses the frame {name}, which is not a link of the model: it has "
             f"{near} ({where(links[near].place, fact.place)})",
-            write(fact.place, fact.value, near),
+            write(fact.place, fact.value, near)
+            if near == nearest(name, links, _MISSPELT)
+            else f"write {near}",
         )
 
 

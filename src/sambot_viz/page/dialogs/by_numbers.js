@@ -3,7 +3,8 @@
 
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { act, newGesture, rows, send } from "../wire/channel.js";
-import { parseNumber } from "../cells/numbers.js";
+import { parseNumber, writtenNumber } from "../cells/numbers.js";
+import { shownUnit } from "../cells/units.js";
 import { useData } from "../state.js";
 import { isTyping } from "../window/keys.js";
 import { focusView } from "../view/pointer.js";
@@ -13,6 +14,12 @@ import { Dialog, leaveFor, show } from "./dialog.js";
 const poseTool = () =>
   (rows.data("tools/list") || []).find((/** @type {any} */ tool) => tool.current && tool.poses);
 
+/** A plain number is radians: 90 is seen not to be a right angle. @param {number} angle [rad] */
+export const inDegrees = (angle) => {
+  const { factor, unit } = shownUnit(/** @type {any} */ ({ unit: "rad" }), true);
+  return `= ${writtenNumber(angle * factor, 1)}${unit}`;
+};
+
 /** What was typed last, for the next pose of each tool. @type {Record<string, string[]>} */
 const last = {};
 
@@ -20,6 +27,7 @@ const last = {};
 function ByNumbers({ close }) {
   const name = useRef(poseTool()?.name).current;
   const frame = useData("tools/frame");
+  const refusal = useData("tools/pose_refusal");
   const [typed, setTyped] = useState(last[name ?? ""] || ["0", "0", "0"]);
   const gesture = useRef(newGesture()).current;
   const sent = useRef(false);
@@ -37,26 +45,26 @@ function ByNumbers({ close }) {
     [],
   );
   const submit = () => {
-    if (!isWhole) return;
+    if (!isWhole || refusal) return;
     last[name ?? ""] = typed;
     sent.current = true;
     leaveFor(focusView);
     act("tools/send", values);
     close();
   };
-  /** @param {number} n @param {string} label @param {string} unit */
-  const field = (n, label, unit) => html`<label class="line"><span class="of">${label}</span>
+  /** @param {number} n @param {string} label @param {string} unit @param {string} [also] */
+  const field = (n, label, unit, also) => html`<label class="line"><span class="of">${label}</span>
     <input type="text" inputmode="decimal" aria-label=${label} value=${typed[n]}
       aria-invalid=${wrong[n] ? "true" : undefined} data-first=${n === 0 ? "" : undefined}
       onFocus=${(/** @type {Change} */ e) => e.target.select()}
       onInput=${(/** @type {Change} */ e) => setTyped(typed.with(n, e.target.value))} />
-    <span class="unit">${unit}</span></label>`;
+    <span class="unit">${unit}</span>${also !== undefined && html`<span class="also">${also}</span>`}</label>`;
   return html`<${Dialog} title=${`${name} by numbers`} close=${close} submit=${submit} look="beside">
     <p>In ${frame}. The arrow in the view shows it; nothing is sent before you send it.</p>
-    ${field(0, "x", "m")} ${field(1, "y", "m")} ${field(2, "Heading", "rad")}
-    <p role="status">${wrong.find(Boolean) || ""}</p>
+    ${field(0, "x", "m")} ${field(1, "y", "m")} ${field(2, "Heading", "rad", wrong[2] ? "" : inDegrees(values[2]))}
+    <p role="status">${wrong.find(Boolean) || (refusal && `${refusal}.`) || ""}</p>
     <div class="buttons end">
-      <button type="submit" class="main" disabled=${!isWhole}>Send</button>
+      <button type="submit" class="main" disabled=${!isWhole || Boolean(refusal)}>Send</button>
       <button type="button" onClick=${close}>Cancel</button>
     </div>
   </${Dialog}>`;

@@ -3,6 +3,7 @@
 
 import { html, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { act, rows } from "../wire/channel.js";
+import { CutText } from "../window/cut_text.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { useFollowed } from "../cells/followed.js";
@@ -80,6 +81,7 @@ export function JointsPanel() {
       <${Tree} panel="joints" label="Joints" finds=${isSlider} />
     </div>
     <${OverLimit} />
+    <${Out} />
     <${Help} />
   </div>`;
 }
@@ -167,6 +169,12 @@ function OverLimit() {
   const more = over.length > 3 ? ` and ${over.length - 3} more` : "";
   return html`<p class="over" role="status"><${Icon} name="warn"
     /> Over ${over.length === 1 ? "its limit" : "their limits"}: ${named}${more}</p>`;
+}
+
+/** Who gets the joints, or why nobody does: below the sliders, which stay where they are. */
+function Out() {
+  const said = useData("joints/out");
+  return said ? html`<${CutText} is="out" role="status" text=${said} />` : null;
 }
 
 /** What is known of the joint under the mouse, or of the selected one. */

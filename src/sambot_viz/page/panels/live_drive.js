@@ -203,9 +203,11 @@ export function LiveDriving() {
     return () => clearTimeout(timer);
   }, [stops]);
   if (!state || (state.client == null && (!state.why || stops === old))) return null;
+  const goal = state.goal ? `; its goal goes on: ${state.goal}` : "";
+  const isFailed = state.client == null && state.failure;
+  const stopped = state.failure || `The robot was stopped: ${state.why}`;
   const text =
-    state.client == null
-      ? `The robot was stopped: ${state.why}`
-      : `${state.name || "Somebody"} drives the robot`;
-  return html`<${CutText} is="stopped" role="status" text=${text} />`;
+    state.client == null ? `${stopped}${goal}` : `${state.name || "Somebody"} drives the robot`;
+  return html`<${CutText} is=${isFailed ? "stopped error" : "stopped"}
+    role=${isFailed ? "alert" : "status"} text=${text} />`;
 }

@@ -244,19 +244,29 @@ const OPENED = Date.now() / 1000;
 /** The time of a live robot when the page first had it, or that of a reset before it [s]. */
 let firstRos = Infinity;
 
-/** A setting with a few values to choose from. @param {{row: any}} props */
-const Choice = ({ row }) => html`<label>${row.name} <select class="needs-control" title=${row.help}
-  value=${row.value} onChange=${(/** @type {any} */ event) => send(row.id, event.currentTarget.value)}>
-  ${[...new Set([row.value, ...row.options])].map(
-    (one) => html`<option value=${one} selected=${one === row.value}>${one || "none"}</option>`,
-  )}</select></label>`;
+/** A setting with a few values to choose from, in the order of the server; an empty list is not sent.
+ * @param {{row: any, none?: string}} props none: why there may be nothing to choose from */
+function Choice({ row, none }) {
+  const { value = "", options = [] } = row;
+  const shown = options.includes(value) ? options : [value, ...options];
+  const isEmpty = !shown.some(Boolean);
+  return html`<label>${row.name} <select class="needs-control" disabled=${isEmpty}
+    title=${(isEmpty && none) || row.help} value=${value}
+    onChange=${(/** @type {any} */ event) => send(row.id, event.currentTarget.value)}>
+    ${shown.map(
+      (/** @type {string} */ one) =>
+        html`<option value=${one} selected=${one === value}>${one || "none"}</option>`,
+    )}</select></label>`;
+}
+
+const NO_TIMES = "No display shows messages that have a time";
 
 /** At which display's times frames are drawn, as RViz's Time panel sets it. */
 function Synchronization() {
   const [mode, source] = [useRow("time/mode"), useRow("time/source")];
   if (!mode || !source) return null;
   return html`<div class="synchronization"><${Choice} row=${mode} />
-    ${mode.value !== "Off" && html`<${Choice} row=${source} />`}</div>`;
+    ${mode.value !== "Off" && html`<${Choice} row=${source} none=${NO_TIMES} />`}</div>`;
 }
 
 /** What RViz's Time panel shows: seconds since 1970 and since the first of them, of the messages

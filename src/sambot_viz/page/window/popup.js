@@ -38,12 +38,17 @@ export function Popup({ label, brief, name, role, title, opened, children }) {
     const typed = role === "dialog" && !matchMedia("(pointer: coarse)").matches;
     const first = typed && panel.current.querySelector("input");
     (first || panel.current.querySelector("button, input") || panel.current).focus();
+    // The form of the time grows by itself, upwards. Another one that is placed again may get another
+    // width from that, and moves what is pressed.
+    const observer = new ResizeObserver(() => place(button.current, panel.current));
+    if (button.current.closest(".player-bar")) observer.observe(panel.current);
     /** What had the focus may be gone. @param {KeyboardEvent} event */
     const lost = (event) => {
       if (event.key === "Escape" && document.activeElement === document.body) close();
     };
     addEventListener("keydown", lost);
     return () => {
+      observer.disconnect();
       removeEventListener("keydown", lost);
     };
   }, [open]);
@@ -81,13 +86,24 @@ export function Popup({ label, brief, name, role, title, opened, children }) {
 }
 
 /** Below the button, inside the window. What is in the bar below the view opens above all of it:
- * on a phone the tabs are next below it. @param {HTMLElement} button @param {HTMLElement} panel */
+ * on a phone the tabs are next below it. STOP, which is above the bar, stays free. @param {HTMLElement} button @param {HTMLElement} panel */
 export function place(button, panel) {
   const bar = button.closest(".player-bar");
   const at = button.getBoundingClientRect();
   const size = panel.getBoundingClientRect();
   const above = (bar || button).getBoundingClientRect().top - size.height - 2;
   const below = !bar && at.bottom + size.height + EDGE < innerHeight;
-  panel.style.left = `${Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE))}px`;
-  panel.style.top = `${below ? at.bottom + 2 : Math.max(EDGE, above)}px`;
+  const top = below ? at.bottom + 2 : Math.max(EDGE, above);
+  const left = Math.max(EDGE, Math.min(at.left, innerWidth - size.width - EDGE));
+  const stop = document.querySelector(".window > .stop-robot")?.getBoundingClientRect();
+  const covers =
+    stop &&
+    left + size.width > stop.left &&
+    left < stop.right &&
+    top + size.height > stop.top &&
+    top < stop.bottom;
+  const beside = covers ? stop.left - size.width - EDGE : left;
+  const over = covers && beside < EDGE ? stop.top - size.height - EDGE : top;
+  panel.style.left = `${beside < EDGE ? left : beside}px`;
+  panel.style.top = `${Math.max(EDGE, over)}px`;
 }

@@ -101,9 +101,7 @@ class JointsPanel(Panel):
         follows = bool(self._robot.followed.value)
         if follows:
             rows = [replace(row, set=None) for row in rows]
-        said = self._out.said.value
-        note = [Row("joints/out", "", "note", value=said)] if said else []
-        return [_follow_row(follows, recording), *note, *rows]
+        return [_follow_row(follows, recording), *rows]
 
     def _why_none(self) -> str:
         """Return why there is no joint."""
@@ -115,7 +113,10 @@ class JointsPanel(Panel):
         return _NOT_HERE_YET if data.moved_by.can("clock") else _NOT_RECORDED
 
     def data(self) -> Sequence[Data]:
-        """Return which joints are over a limit or turning, and where all began."""
+        """Return which joints are over a limit or turning, and where all began.
+
+        Who gets the joints is no row: it is said later, and would move the sliders.
+        """
         if self._robot.joints is None:
             return ()
         first = {joint_id(n): q for n, q in self._robot.first.items() if q != 0}
@@ -125,6 +126,7 @@ class JointsPanel(Panel):
         is_apart = is_free and data is not None and data.is_unfollowed
         return [
             *([Data("joints/unfollowed", True)] if is_apart else []),
+            *([Data("joints/out", said)] if (said := self._out.said.value) else []),
             *(Data(key, value) for key, value in self._states().items()),
             Data("joints/first", first),
             Data("joints/links", self._links(self._robot.joints)),

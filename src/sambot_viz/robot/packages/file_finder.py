@@ -222,7 +222,8 @@ def _with_right_package(filename: str, found: Resolution) -> str:
 def _with_longer_name(filename: str, found: Resolution) -> str:
     """Name the only package that has the name and words behind it, if one is here."""
     package = found.missing_package
-    longer = [n for n in found.known_packages if n.startswith(f"{package}_")]
+    # One package may be there several times, as in the folders src and install.
+    longer = [*{n for n in found.known_packages if n.startswith(f"{package}_")}]
     if package is None or len(longer) != 1:
         return ""
     return filename.replace(package, longer[0], 1)

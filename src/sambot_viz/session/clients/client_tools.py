@@ -44,6 +44,7 @@ from sambot_viz.tools.interact import InteractTool
 from sambot_viz.tools.move_camera import MoveCameraTool
 from sambot_viz.tools.picking.pixel_rays import ScreenPoint
 from sambot_viz.tools.picking.selection_boxes import SelectionBoxes
+from sambot_viz.tools.publish import PoseTool
 from sambot_viz.tools.registry import TOOLS
 from sambot_viz.tools.select import SelectTool
 from sambot_viz.tools.tool import Click, Tool
@@ -365,6 +366,16 @@ class ClientTools:
         if not self._roles.may_edit(self._client.client_id):
             return VIEW_ONLY
         return self._publisher.refusal(kind)
+
+    @property
+    def pose_refusal(self) -> str:
+        """Why nobody may send a pose of the current tool; empty when that is allowed.
+
+        Who has control is not asked: the page knows it itself.
+        """
+        tool = self.current
+        sends = isinstance(tool, PoseTool)
+        return self._publisher.refusal(tool.message.kind) if sends else ""
 
     def prepare(self, kind: Kind, topic: str, type_name: str) -> None:
         """Let the robot know of a topic before something is sent on it."""

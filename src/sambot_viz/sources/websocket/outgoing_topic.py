@@ -71,6 +71,11 @@ class OutgoingTopic:
         self._is_closed = False
         post(partial(publisher.advertise, self))
 
+    @property
+    def is_over(self) -> bool:
+        """Whether its connection has ended; there may be another one by now."""
+        return self._publisher.is_over
+
     def send(self, message: bytes) -> None:
         """Publish a message.
 

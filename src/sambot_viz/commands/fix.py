@@ -1,0 +1,193 @@
+"""``sambot-viz check --fix``: show edits, ask, write them, and check again."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from sambot_viz.errors import Edit, Problem
+from sambot_viz.fixes import (
+    EditRefused,
+    FileChange,
+    changes,
+    undo_changes,
+    write_changes,
+)
+from sambot_viz.outlet import Line, Painted, Style, ask, write_out
+from sambot_viz.problems import ProblemGroup, group_in_words, group_problems
+from sambot_viz.robot.packages.package_index import package_name
+
+_MOST_ROUNDS = 10
+"""Edits may lead to findings with other edits, which are applied in other rounds."""
+_QUESTION = "Apply? [y]es [n]o [a]ll [q]uit"
+_STYLES: dict[str, Style] = {"+": "added", "-": "removed", "@": "dim"}
+
+
+def folders_of(model: Path, folder: Path | None) -> list[Path]:
+    """Return the folders in which files may be changed.
+
+    Args:
+        model: the model; files of its package may be changed, without one those
+            beside it.
+        folder: the folder that was given in place of a model.
+    """
+    beside = model.absolute().parent
+    above = (beside, *beside.parents)
+    package = next((each for each in above if package_name(each) is not None), beside)
+    return [package] if folder is None else [folder, package]
+
+
+class Fixing:
+    """Applies the edits of findings in rounds, with a question for each.
+
+    Args:
+        check: finds the problems.
+        folders: those in which files may be changed.
+        asks: whether it asks before it writes.
+    """
+
+    def __init__(
+        self, check: Callable[[], list[Problem]], folders: Sequence[Path], asks: bool
+    ) -> None:
+        self._check = check
+        self._folders = folders
+        self._asks = asks
+        self._quits = False
+        self._settled: set[object] = set()
+        self._fixed = 0
+        self._files: set[str] = set()
+
+    def run(self) -> list[Problem]:
+        """Apply what is wanted; returns the problems that are left."""
+        problems = self._check()
+        for _ in range(_MOST_ROUNDS):
+            chosen = self._choose(problems)
+            if chosen:
+                problems = self._apply(chosen, problems)
+            if self._quits or not chosen:
+                break
+        if not self._settled:
+            write_out("no finding has an edit")
+        elif self._fixed:
+            write_out(f"{_counted(self._fixed, 'finding')} fixed in {self._places()}")
+        return problems
+
+    def _places(self) -> str:
+        if len(self._files) == 1:
+            return next(iter(self._files))
+        return _counted(len(self._files), "file")
+
+    def _choose(self, problems: Sequence[Problem]) -> list[ProblemGroup]:
+        """Show the edits that can be made together, and ask which are wanted."""
+        chosen: list[ProblemGroup] = []
+        taken: list[Edit] = []
+        for group in group_problems(problems):
+            key = _key(group)
+            if not group.edits or key in self._settled or _overlap(group.edits, taken):
+                continue
+            self._settled.add(key)
+            write_out(*group_in_words(group))
+            try:
+                shown = changes(group.edits, self._folders)
+            except EditRefused as error:
+                write_out(f"not applied: {error}")
+                continue
+            write_out(*(line for change in shown for line in _diff(change)))
+            if self._wants():
+                chosen.append(group)
+                taken += group.edits
+            if self._quits:
+                break
+        return chosen
+
+    def _wants(self) -> bool:
+        while self._asks:
+            answer = ask(_QUESTION)
+            word = "q" if answer is None else answer.lower()
+            if word in ("y", "yes"):
+                return True
+            if word in ("n", "no"):
+                return False
+            if word in ("q", "quit"):
+                self._quits = True
+                return False
+            self._asks = word not in ("a", "all")
+        return True
+
+    def _apply(
+        self, groups: Sequence[ProblemGroup], before: list[Problem]
+    ) -> list[Problem]:
+        """Apply edits together or, if that makes errors, one after the other."""
+        alone = len(groups) == 1
+        try:
+            made = self._write(groups)
+        except EditRefused as error:
+            if alone:
+                write_out(f"not applied: {error}")
+            after = self._check()
+            return after if alone else self._apply_each(groups, after)
+        after = self._check()
+        new = _new_errors(before, after)
+        # An error in place of another one may be seen only without that.
+        if not new or (alone and _errors(after) <= _errors(before)):
+            self._fixed += sum(len(group.problems) for group in groups)
+            self._files |= {change.file for change in made}
+            return after
+        undo_changes(made)
+        if not alone:
+            return self._apply_each(groups, before)
+        place = groups[0].first.place
+        write_out(f"{place}: not applied: it leads to another error: {new[0]}")
+        return before
+
+    def _apply_each(
+        self, groups: Sequence[ProblemGroup], problems: list[Problem]
+    ) -> list[Problem]:
+        for key in map(_key, groups):
+            now = (group for group in group_problems(problems) if _key(group) == key)
+            if (group := next(now, None)) is not None:
+                problems = self._apply([group], problems)
+        return problems
+
+    def _write(self, groups: Sequence[ProblemGroup]) -> list[FileChange]:
+        edits = [edit for group in groups for edit in group.edits]
+        made = changes(edits, self._folders)
+        write_changes(made)
+        return made
+
+
+def _key(group: ProblemGroup) -> object:
+    """Return what stays the same when other edits have moved a text in its line."""
+    edits = tuple((e.file, e.end - e.start, e.text) for e in group.edits)
+    return group.first.code, group.first.file, group.first.line, group.hint, edits
+
+
+def _overlap(edits: Sequence[Edit], others: Sequence[Edit]) -> bool:
+    return any(
+        one.file == other.file and one.start <= other.end and other.start <= one.end
+        for one in edits
+        for other in others
+    )
+
+
+def _errors(problems: Sequence[Problem]) -> int:
+    return sum(problem.severity == "error" for problem in problems)
+
+
+def _new_errors(before: Sequence[Problem], after: Sequence[Problem]) -> list[Problem]:
+    """Return the errors of codes of which there are more than before."""
+    old = Counter(p.code for p in before if p.severity == "error")
+    new = Counter(p.code for p in after if p.severity == "error")
+    more = new - old
+    return [p for p in after if p.severity == "error" and p.code in more]
+
+
+def _diff(change: FileChange) -> Iterator[Line]:
+    for number, written in enumerate(change.diff()):
+        style = "bold" if number < 2 else _STYLES.get(written[0])
+        yield written if style is None else [Painted(written, style)]
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

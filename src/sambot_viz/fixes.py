@@ -1,0 +1,128 @@
+"""Apply the edits of problems to files, or say why not.
+
+A file is changed only while it is as it was checked, only below given folders, and
+whole or not at all; its encoding, byte order mark, line ends and permissions stay.
+"""
+
+from __future__ import annotations
+
+import difflib
+import stat
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.edits import apply_edits, source_of
+from sambot_viz.errors import Edit, SambotVizError
+from sambot_viz.files import is_below, reason_of, write_atomically
+
+
+class EditRefused(SambotVizError):
+    """Edits that cannot be made; the text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileChange:
+    """What edits make of a file.
+
+    Attributes:
+        file: path of the file as the user wrote it.
+        before: its content as it was checked.
+        after: its content with the edits.
+        encoding: of both.
+    """
+
+    file: str
+    before: bytes
+    after: bytes
+    encoding: str
+
+    def diff(self) -> list[str]:
+        """Return the change as the lines of a unified diff, without line ends."""
+        old, new = (
+            [line.removesuffix("\r") for line in data.decode(self.encoding).split("\n")]
+            for data in (self.before, self.after)
+        )
+        name = self.file
+        return list(difflib.unified_diff(old, new, name, name, lineterm="", n=1))
+
+
+def changes(edits: Iterable[Edit], folders: Iterable[Path]) -> list[FileChange]:
+    """Return what edits make of their files.
+
+    Args:
+        edits: of any files.
+        folders: the files have to be below one of them, with their links followed.
+
+    Raises:
+        EditRefused: a file is elsewhere, read-only, or not as it was checked; or two
+            edits replace the same text.
+    """
+    of_file: dict[str, list[Edit]] = {}
+    for edit in edits:
+        of_file.setdefault(edit.file, []).append(edit)
+    allowed = tuple(folder.resolve() for folder in folders)
+    return [_change(file, own, allowed) for file, own in of_file.items()]
+
+
+def _change(file: str, edits: Sequence[Edit], folders: Sequence[Path]) -> FileChange:
+    path = Path(file)
+    if not is_below(path, folders):
+        raise EditRefused(f"{file} is outside of the package")
+    source = source_of(file)
+    if source is None:
+        raise EditRefused(f"{file} cannot be read")
+    try:
+        before = path.read_bytes()
+        mode = path.stat().st_mode
+    except OSError as error:
+        raise EditRefused(f"{file} cannot be read: {reason_of(error)}") from error
+    if any(edit.seen != hash(source.text) for edit in edits):
+        raise EditRefused(f"{file} has changed since it was checked")
+    if not mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
+        raise EditRefused(f"{file} is read-only")
+    try:
+        if source.text.encode(source.encoding) != before:
+            raise EditRefused(f"{file} has changed since it was checked")
+        after = apply_edits(edits, source.text).encode(source.encoding)
+    except UnicodeEncodeError as error:
+        raise EditRefused(
+            f"{file} is in {source.encoding}, which has no {error.object[error.start]}"
+        ) from error
+    except ValueError as error:
+        raise EditRefused(f"{file}: {error}") from error
+    return FileChange(file, before, after, source.encoding)
+
+
+def write_changes(made: Iterable[FileChange]) -> None:
+    """Write changes; all of them or none.
+
+    Raises:
+        EditRefused: a file is not as it was before, or cannot be written.
+    """
+    written: list[FileChange] = []
+    try:
+        for change in made:
+            _replace(change.file, change.before, change.after)
+            written.append(change)
+    except EditRefused:
+        undo_changes(written)
+        raise
+
+
+def undo_changes(made: Iterable[FileChange]) -> None:
+    """Write the content before changes again, where nothing else was written since."""
+    for change in made:
+        with suppress(EditRefused):
+            _replace(change.file, change.after, change.before)
+
+
+def _replace(file: str, expected: bytes, data: bytes) -> None:
+    path = Path(file)
+    try:
+        if path.read_bytes() != expected:
+            raise EditRefused(f"{file} has changed since it was checked")
+        write_atomically(path, data)
+    except OSError as error:
+        raise EditRefused(f"{file} cannot be written: {reason_of(error)}") from error
