@@ -7,13 +7,14 @@ import re
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from problem_samples import all_samples
 
 from sambot_viz import fixes
+from sambot_viz.checks import checked
 from sambot_viz.cli import main
-from sambot_viz.commands import check as command
 from sambot_viz.commands.fix import Fixing
 from sambot_viz.errors import Edit, Problem
 
@@ -210,15 +211,15 @@ def test_a_file_that_changed_meanwhile_is_left_alone(
     model: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     other = WRONG.replace("arm", "leg")
-    check = command.check
+    check = checked.check_all
 
-    def check_and_save(path: Path, **options: object) -> list[Problem]:
-        found = check(path, **options)  # type: ignore[arg-type]
+    def check_and_save(path: Path, **options: Any) -> checked.Checked:
+        found = check(path, **options)
         if model.read_text() == WRONG:
             model.write_text(other)
         return found
 
-    monkeypatch.setattr(command, "check", check_and_save)
+    monkeypatch.setattr(checked, "check_all", check_and_save)
     assert fix(model) == 1
     assert model.read_text() == other
     out = capsys.readouterr().out

@@ -57,7 +57,12 @@ def _fix(
     folder = path if path.is_dir() else None
     models = [one.model for one in found.models] or [path]
     folders = [one for model in models for one in folders_of(model, folder)]
-    return tuple(Fixing(lambda: [*check().problems], folders, asks=asks).run())
+    known = [found]
+
+    def find_problems() -> list[Problem]:
+        return [*(known.pop() if known else check()).problems]
+
+    return tuple(Fixing(find_problems, folders, asks=asks).run())
 
 
 def _print(path: Path, found: Checked, how: str) -> None:
