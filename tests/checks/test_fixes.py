@@ -94,15 +94,17 @@ def test_a_doubtful_hint_has_no_edits(
     assert problem.edits == ()
 
 
-@pytest.mark.parametrize("built_as", ["r_description", "r", None])
-def test_a_launch_file_that_calls_the_package_as_its_build_does_has_no_edits(
+@pytest.mark.parametrize("built_as", ["r", None])
+def test_a_launch_file_that_calls_the_package_otherwise_has_an_edit(
     built_as: str | None, tmp_path: Path
 ) -> None:
     file = tmp_path / "r.launch.py"
     file.write_text("FindPackageShare('r_description')")
     (problem,) = check_launch_file(file, "r_descriptions", built_as=built_as)
     assert problem.hint == "write r_descriptions"
-    assert bool(problem.edits) == (built_as != "r_description")
+    assert problem.edits
+    # Where its build calls it so, the name in package.xml is wrong.
+    assert not check_launch_file(file, "r_descriptions", built_as="r_description")
 
 
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
