@@ -45,6 +45,7 @@ MAY = {
     "support/usage.py": "measures, for benchmarks",
     "support/slow_line.py": "is a slow line",
     "support/troublemakers.py": "sends garbage at a rate",
+    "sources/test_real_rosbridge.py": "has the clock of its robot in this computer",
     "browser/test_keys_and_mouse.py": "moves a mouse for two seconds, to count",
     "browser/test_reload.py": "waits until a picture is the same twice",
     "browser/test_views_and_tools.py": "waits while a page goes on drawing",

@@ -88,14 +88,19 @@ def edited_files(edits: Iterable[Edit]) -> dict[str, bytes]:
     Raises:
         ValueError: two edits replace the same text.
     """
-    of_file: dict[str, list[Edit]] = {}
-    for edit in edits:
-        of_file.setdefault(edit.file, []).append(edit)
     changed: dict[str, bytes] = {}
-    for file, own in of_file.items():
+    for file, own in by_file(edits).items():
         if (source := source_of(file)) is not None:
             changed[file] = apply_edits(own, source.text).encode(source.encoding)
     return changed
+
+
+def by_file(edits: Iterable[Edit]) -> dict[str, list[Edit]]:
+    """Return file → its edits, in the order in which they came."""
+    of_file: dict[str, list[Edit]] = {}
+    for edit in edits:
+        of_file.setdefault(edit.file, []).append(edit)
+    return of_file
 
 
 def write(

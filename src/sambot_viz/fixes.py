@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from sambot_viz.edits import apply_edits, source_of
+from sambot_viz.edits import apply_edits, by_file, source_of
 from sambot_viz.errors import Edit, SambotVizError
 from sambot_viz.files import is_below, reason_of, write_atomically
 
@@ -59,11 +59,8 @@ def changes(edits: Iterable[Edit], folders: Iterable[Path]) -> list[FileChange]:
         EditRefused: a file is elsewhere, read-only, or not as it was checked; or two
             edits replace the same text.
     """
-    of_file: dict[str, list[Edit]] = {}
-    for edit in edits:
-        of_file.setdefault(edit.file, []).append(edit)
     allowed = tuple(folder.resolve() for folder in folders)
-    return [_change(file, own, allowed) for file, own in of_file.items()]
+    return [_change(file, own, allowed) for file, own in by_file(edits).items()]
 
 
 def _change(file: str, edits: Sequence[Edit], folders: Sequence[Path]) -> FileChange:

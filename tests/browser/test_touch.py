@@ -9,6 +9,7 @@ import pytest
 import robots
 from ax_tree import Thing
 from inside import session_of
+from navigator_peer import NavigatorPeer
 from viewer_page import ViewerPage
 
 from sambot_viz import Visualizer
@@ -85,3 +86,17 @@ def test_on_a_phone_what_is_selected_has_the_room_of_the_hint_and_texts_are_in_l
     row = user.row("Selection", "Link head_yaw", "Parent")
     name, value = (user.box(cell.all("StaticText")[0]) for cell in row.all("gridcell"))
     assert abs(name[1] - value[1]) <= 2.0
+
+
+def test_a_long_sentence_makes_the_joints_of_a_phone_no_wider(
+    repository: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    peer = NavigatorPeer()
+    model = repository / "assets" / "sam_bot.urdf.xacro"
+    with Visualizer(model, source=peer.uri, publish="", port=0) as viz:
+        viewer = open_viewer(viz.url, width=390, height=844, touch=True)
+        viewer.user.reads("Nobody has subscribed to /joint_states")
+        panel = "document.querySelector('.joints')"
+        widths = f"[{panel}.scrollWidth, {panel}.clientWidth]"
+        assert viewer.page.evaluate(widths) == [390, 390]
+    peer.stop()

@@ -125,6 +125,7 @@ def test_a_goal_is_cancelled(robot: ActionPeer, source: Source) -> None:
 def test_a_goal_that_is_cancelled_at_once_is_cancelled_when_the_robot_has_it(
     robot: ActionPeer, source: Source
 ) -> None:
+    robot.hesitate()
     reports, cancel = send_and_cancel(action(source))
     cancel()
     eventually(lambda: robot.places())

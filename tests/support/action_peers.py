@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import json
 import struct
+import threading
 from abc import ABC, abstractmethod
 from functools import cache
 from typing import Any
 
 from blank_messages import blank_message
-from live_peers import LivePeer
+from live_peers import WAIT, LivePeer
 from navigator_peer import NavigatorPeer
 from rosbags.typesys import Stores, get_typestore
 from rosbridge_peer import RosbridgePeer, Topic
@@ -62,6 +63,10 @@ class ActionPeer(ABC):
         """Take no goal from now on."""
 
     @abstractmethod
+    def hesitate(self) -> None:
+        """Say nothing to goals before `go`."""
+
+    @abstractmethod
     def go(self, metres: float) -> None:
         """Say how far the last goal is."""
 
@@ -85,6 +90,7 @@ class FoxgloveAction(ActionPeer):
         self.peer = self._peer = NavigatorPeer(statuses=())
         kind = f"{KIND}_FeedbackMessage"
         self._peer.offer(f"{INNER}/feedback", kind, FEEDBACK)
+        self._decided = threading.Event()
         self._accept(accepts)
         self._peer.serve(f"{INNER}/cancel_goal", reply=b"\0\1\0\0" + bytes(8))
         self._peer.serve(f"{INNER}/get_result", reply=_result(0, 0))
@@ -99,7 +105,15 @@ class FoxgloveAction(ActionPeer):
     def reject(self) -> None:
         self._accept(False)
 
+    def hesitate(self) -> None:
+        def wait(service: str) -> None:
+            if service.endswith("/send_goal"):
+                self._decided.wait(WAIT)
+
+        self._peer.before_answer = wait
+
     def go(self, metres: float) -> None:
+        self._decided.set()
         self._say(2)
         head = b"\0\1\0\0" + self._id()
         self._peer.log(f"{INNER}/feedback", head + struct.pack("<iIf", 12, 0, metres))
@@ -117,8 +131,7 @@ class FoxgloveAction(ActionPeer):
         self._peer.serve(f"{INNER}/send_goal", reply=reply)
 
     def _requests(self, service: str) -> list[bytes]:
-        both = zip(self._peer.calls(), self._peer.requests, strict=True)
-        return [request for name, request in both if name == service]
+        return [request for name, request in self._peer.served() if name == service]
 
     def _goals(self) -> list[bytes]:
         return self._requests(f"{INNER}/send_goal")
@@ -151,6 +164,9 @@ class RosbridgeAction(ActionPeer):
 
     def reject(self) -> None:
         self._peer.rejects = True
+
+    def hesitate(self) -> None:
+        """It never says anything before."""
 
     def go(self, metres: float) -> None:
         left = {"sec": 12, "nanosec": 0}

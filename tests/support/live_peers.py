@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 import socket
+import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
@@ -157,6 +158,7 @@ class FoxglovePeer(LivePeer, ServerListener):
 
     Attributes:
         listeners: a topic and the nodes that have subscribed to it.
+        before_answer: is called with the service before it answers, in its thread.
     """
 
     def __init__(self, **options: Any) -> None:
@@ -173,6 +175,8 @@ class FoxglovePeer(LivePeer, ServerListener):
         self._services: dict[str, tuple[str, bytes | None]] = {}
         self._calls: list[str] = []
         self.requests = []
+        self.before_answer: Callable[[str], object] = lambda service: None
+        self._lock = threading.Lock()
         self.listeners: tuple[str, list[str]] | None = None
         self._publishers: dict[str, list[str]] = {}
         self.start()
@@ -282,10 +286,17 @@ class FoxglovePeer(LivePeer, ServerListener):
     def calls(self) -> list[str]:
         return list(self._calls)
 
+    def served(self) -> list[tuple[str, bytes]]:
+        """The services that were called and what with, in their order."""
+        with self._lock:
+            return list(zip(self._calls, self.requests, strict=True))
+
     def _service(self, name: str) -> Service:
         def answer(request: ServiceRequest) -> bytes:
-            self._calls.append(name)
-            self.requests.append(bytes(request.payload))
+            with self._lock:
+                self._calls.append(name)
+                self.requests.append(bytes(request.payload))
+            self.before_answer(name)
             failure, reply = self._services[name]
             if failure:
                 raise RuntimeError(failure)

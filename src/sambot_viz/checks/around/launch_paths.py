@@ -163,10 +163,7 @@ def world_names(around: Surroundings) -> Iterator[Problem]:
                     "launch-world-name",
                     f"the robot is put into the world {fact.value}, but the world is "
                     f"called {name} ({where(place, fact.place)}): it does not appear",
-                    # The blank in the name of a world is itself the mistake.
-                    f"write {name}"
-                    if " " in name
-                    else write(fact.place, fact.value, name),
+                    write(fact.place, fact.value, name),
                 )
 
 
