@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 from lower_limit import lower
 
 from sambot_viz.edits import (
     apply_edits,
-    edited_files,
     rename_attribute,
     rename_element,
     together,
@@ -18,6 +18,7 @@ from sambot_viz.edits import (
     write_between,
 )
 from sambot_viz.errors import Edit, Fix, Place
+from sambot_viz.fixes import EditRefused
 
 
 @pytest.fixture
@@ -175,7 +176,8 @@ def test_what_cannot_be_read_has_no_edits(tmp_path: Path) -> None:
         assert write(place, "a", "b") == Fix("write b")
         assert write_between(place, place, "a", "write a") == Fix("write a")
         assert rename_element(place, "a", "b", "write <b>") == Fix("write <b>")
-        assert edited_files([Edit(place.file, 0, 0, "a")]) == {}
+        with pytest.raises(EditRefused):
+            edited_files([Edit(place.file, 0, 0, "a")])
     file = tmp_path / "short"
     file.write_text("a")
     assert write(Place(str(file), 7, 3), "a", "b").edits == ()

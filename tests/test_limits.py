@@ -38,6 +38,7 @@ NO_LIMITS = {
         robot/xml/diagnose/lexer.py MOST_ERRORS
         robot/xml/diagnose/structure.py _MOST
         rviz/support_report.py _WIDEST
+        session/model_edits.py _LONGEST_NAME _MOST_LINES
         session/own_config.py MOST_NAMES
         session/people/roles.py _LONGEST_LOGIN
         sources/bag/left_out.py _MOST_NAMED

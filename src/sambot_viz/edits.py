@@ -79,22 +79,6 @@ def apply_edits(edits: Iterable[Edit], text: str) -> str:
     return "".join(made) + text[done:]
 
 
-def edited_files(edits: Iterable[Edit]) -> dict[str, bytes]:
-    """Return the files that edits change, each with its new content.
-
-    Encoding and line ends are those of the file. A file that cannot be read is left
-    out.
-
-    Raises:
-        ValueError: two edits replace the same text.
-    """
-    changed: dict[str, bytes] = {}
-    for file, own in by_file(edits).items():
-        if (source := source_of(file)) is not None:
-            changed[file] = apply_edits(own, source.text).encode(source.encoding)
-    return changed
-
-
 def by_file(edits: Iterable[Edit]) -> dict[str, list[Edit]]:
     """Return file → its edits, in the order in which they came."""
     of_file: dict[str, list[Edit]] = {}

@@ -10,7 +10,7 @@ import difflib
 import stat
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sambot_viz.edits import apply_edits, by_file, source_of
@@ -19,7 +19,22 @@ from sambot_viz.files import is_below, reason_of, write_atomically
 
 
 class EditRefused(SambotVizError):
-    """Edits that cannot be made; the text says why."""
+    """Edits that cannot be made; nothing was changed.
+
+    Attributes:
+        file: path of the file that stands against it.
+        why: what is said of the file.
+        is_old: the file is not as it was when it was checked.
+    """
+
+    def __init__(self, file: str, why: str, *, is_old: bool = False) -> None:
+        super().__init__(f"{file} {why}")
+        self.file, self.why, self.is_old = file, why, is_old
+
+    @classmethod
+    def changed(cls, file: str) -> EditRefused:
+        """A file that is not as it was when it was checked."""
+        return cls(file, "has changed since it was checked", is_old=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +46,19 @@ class FileChange:
         before: its content as it was checked.
         after: its content with the edits.
         encoding: of both.
+        lines: where the text is before, counted from 1.
     """
 
     file: str
     before: bytes
     after: bytes
     encoding: str
+    lines: tuple[int, ...]
+
+    @property
+    def inverse(self) -> FileChange:
+        """The change back."""
+        return replace(self, before=self.after, after=self.before)
 
     def diff(self) -> list[str]:
         """Return the change as the lines of a unified diff, without line ends."""
@@ -66,30 +88,31 @@ def changes(edits: Iterable[Edit], folders: Iterable[Path]) -> list[FileChange]:
 def _change(file: str, edits: Sequence[Edit], folders: Sequence[Path]) -> FileChange:
     path = Path(file)
     if not is_below(path, folders):
-        raise EditRefused(f"{file} is outside of the package")
+        raise EditRefused(file, "is outside of the package")
     source = source_of(file)
     if source is None:
-        raise EditRefused(f"{file} cannot be read")
+        raise EditRefused(file, "cannot be read")
     try:
         before = path.read_bytes()
         mode = path.stat().st_mode
     except OSError as error:
-        raise EditRefused(f"{file} cannot be read: {reason_of(error)}") from error
+        raise EditRefused(file, f"cannot be read: {reason_of(error)}") from error
     if any(edit.seen != hash(source.text) for edit in edits):
-        raise EditRefused(f"{file} has changed since it was checked")
+        raise EditRefused.changed(file)
     if not mode & (stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH):
-        raise EditRefused(f"{file} is read-only")
+        raise EditRefused(file, "is read-only")
     try:
         if source.text.encode(source.encoding) != before:
-            raise EditRefused(f"{file} has changed since it was checked")
+            raise EditRefused.changed(file)
         after = apply_edits(edits, source.text).encode(source.encoding)
     except UnicodeEncodeError as error:
         raise EditRefused(
-            f"{file} is in {source.encoding}, which has no {error.object[error.start]}"
+            file, f"is in {source.encoding}, which has no {error.object[error.start]}"
         ) from error
     except ValueError as error:
-        raise EditRefused(f"{file}: {error}") from error
-    return FileChange(file, before, after, source.encoding)
+        raise EditRefused(file, f"cannot be changed: {error}") from error
+    lines = sorted({source.text.count("\n", 0, edit.start) + 1 for edit in edits})
+    return FileChange(file, before, after, source.encoding, tuple(lines))
 
 
 def write_changes(made: Iterable[FileChange]) -> None:
@@ -101,7 +124,7 @@ def write_changes(made: Iterable[FileChange]) -> None:
     written: list[FileChange] = []
     try:
         for change in made:
-            _replace(change.file, change.before, change.after)
+            _write(change)
             written.append(change)
     except EditRefused:
         undo_changes(written)
@@ -112,14 +135,15 @@ def undo_changes(made: Iterable[FileChange]) -> None:
     """Write the content before changes again, where nothing else was written since."""
     for change in made:
         with suppress(EditRefused):
-            _replace(change.file, change.after, change.before)
+            _write(change.inverse)
 
 
-def _replace(file: str, expected: bytes, data: bytes) -> None:
-    path = Path(file)
+def _write(change: FileChange) -> None:
+    path = Path(change.file)
     try:
-        if path.read_bytes() != expected:
-            raise EditRefused(f"{file} has changed since it was checked")
-        write_atomically(path, data)
+        if path.read_bytes() != change.before:
+            raise EditRefused.changed(change.file)
+        write_atomically(path, change.after)
     except OSError as error:
-        raise EditRefused(f"{file} cannot be written: {reason_of(error)}") from error
+        why = f"cannot be written: {reason_of(error)}"
+        raise EditRefused(change.file, why) from error

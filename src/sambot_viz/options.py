@@ -354,6 +354,13 @@ class Options:
         switch="yes-no",
         flag_default=True,
     )
+    edit: bool = option(
+        False,
+        "browsers may change the model's files on this computer: whoever has control "
+        "applies fixes in Problems, only inside the package of the model",
+        "--edit",
+        switch="yes-no",
+    )
     left_wheel: str | None = option(
         None,
         "the joint of the left wheel to drive with",
@@ -421,6 +428,7 @@ class Options:
                 object.__setattr__(self, name, token)
         self._check_presenter()
         self._check_publish()
+        self._check_edit()
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
@@ -486,6 +494,19 @@ class Options:
             )
         if self.presenter == self.token:
             raise UsageError("--presenter and --token need different secrets")
+
+    def _check_edit(self) -> None:
+        """Refuse to let visitors, or a model of unknown origin, change files."""
+        if self.edit and self.session == "private":
+            raise UsageError(
+                "--edit needs a robot that all browsers share; leave --session private "
+                "out"
+            )
+        if self.edit and not self.trusted:
+            raise UsageError(
+                "--edit changes files, and --untrusted is for models that must not "
+                "touch any; leave one of them out"
+            )
 
     def having(self, **values: object) -> Options:
         """Return the same options with other values; no file is read again."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 from problem_samples import Sample, all_samples
 
 from sambot_viz.checks import check
-from sambot_viz.edits import edited_files
 from sambot_viz.problems import group_problems
 
 REVEALED = {"xacro-prefix-missing": {"root-not-unique"}}

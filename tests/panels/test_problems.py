@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from panel_rows import data_of, edit, rows_of
+from panel_rows import commands_of, data_of, edit, rows_of
 
 from sambot_viz import Problem, limits
+from sambot_viz.errors import Edit
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.problems.problems_panel import ProblemsPanel
 from sambot_viz.panels.rows.row import Row
@@ -28,7 +29,7 @@ def remade() -> list[Panel]:
 
 @pytest.fixture
 def panel(session: Session, remade: list[Panel]) -> ProblemsPanel:
-    return ProblemsPanel(session.problems, remade.append)
+    return ProblemsPanel(session.problems, session.history, remade.append)
 
 
 def listed(panel: ProblemsPanel) -> list[Row]:
@@ -196,3 +197,36 @@ def test_a_text_of_a_file_is_safe_to_show(
         shown = str(row.json())
         assert "\ud800" not in shown
         assert "\u202e" not in shown
+
+
+def test_a_fix_of_one_text_can_be_copied(
+    panel: ProblemsPanel, session: Session
+) -> None:
+    edits = (Edit("a.urdf", 0, 3, "base_link"), Edit("a.urdf", 8, 9, "base_link"))
+    fixed = replace(Problem("error", "e", "no", "write base_link"), edits=edits)
+    session.problems.set_model([fixed])
+    (hint,) = below(panel, *listed(panel))
+    assert hint.value == "To fix it: write base_link"
+    assert hint.extra == {"copy": "base_link"}
+    assert "problems/apply" not in commands_of(panel)
+
+
+def test_a_fix_of_several_texts_is_not_copied(
+    panel: ProblemsPanel, session: Session
+) -> None:
+    edits = (Edit("a.urdf", 0, 3, "x"), Edit("a.urdf", 8, 9, "y"))
+    fixed = replace(Problem("error", "e", "no", "write x and y"), edits=edits)
+    session.problems.set_model([fixed])
+    (hint,) = below(panel, *listed(panel))
+    assert hint.extra is None
+
+
+def test_others_than_those_at_the_disk_copy_no_folder_of_it(
+    session: Session, tmp_path: Path
+) -> None:
+    panel = ProblemsPanel(session.problems, session.history, lambda _: None, False)
+    edits = (Edit("a.urdf", 0, 3, str(tmp_path / "a.stl")),)
+    fixed = replace(Problem("error", "e", "no", "write the path"), edits=edits)
+    session.problems.set_model([fixed])
+    (hint,) = below(panel, *listed(panel))
+    assert hint.extra is None

@@ -16,7 +16,7 @@ from sambot_viz.fixes import (
 )
 from sambot_viz.outlet import Line, Painted, Style, ask, write_out
 from sambot_viz.problems import ProblemGroup, group_in_words, group_problems
-from sambot_viz.robot.packages.package_index import package_name
+from sambot_viz.robot.packages.package_index import package_of
 
 _MOST_ROUNDS = 10
 """Edits may lead to findings with other edits, which are applied in other rounds."""
@@ -32,9 +32,7 @@ def folders_of(model: Path, folder: Path | None) -> list[Path]:
             beside it.
         folder: the folder that was given in place of a model.
     """
-    beside = model.absolute().parent
-    above = (beside, *beside.parents)
-    package = next((each for each in above if package_name(each) is not None), beside)
+    package = package_of(model)
     return [package] if folder is None else [folder, package]
 
 

@@ -31,6 +31,7 @@ from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.panels.sources.time_panel import TimePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
 _NUMBERS = ("int", "float", "slider")
@@ -46,6 +47,7 @@ class Window:
         ask_page: makes a page of what is seen; None leaves that out.
         invite: makes the link for viewers; None leaves inviting out.
         recordings: those that can be opened; None where none can.
+        edits: writes fixes into files; None where no browser may.
     """
 
     def __init__(
@@ -56,12 +58,14 @@ class Window:
         ask_page: AskPage | None = None,
         invite: Invite | None = None,
         recordings: OtherRecordings | None = None,
+        edits: ModelEdits | None = None,
     ) -> None:
         self._session = session
         self._files = files
         self._ask_page = ask_page
         self._invite = invite
         self._recordings = recordings
+        self._edits = edits
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
         self._folders = files is not None and not session.roles.presented
@@ -91,7 +95,9 @@ class Window:
             StatusBarPanel(scene),
             PeoplePanel(session.roles, is_copy),
             self._displays,
-            ProblemsPanel(session.problems, remake, self._folders),
+            ProblemsPanel(
+                session.problems, session.history, remake, self._folders, self._edits
+            ),
             DisplayCommands(
                 session.display_edits,
                 self._displays,

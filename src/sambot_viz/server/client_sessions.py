@@ -96,6 +96,7 @@ class ClientSessions:
                     self._ask_page,
                     partial(invite, options) if shared else None,
                     None if recordings is None else recordings.of(sessions, session),
+                    sessions.edits if shared else None,
                 )
         self._on_joined()
 

@@ -22,6 +22,7 @@ from sambot_viz.server import reload_problems
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
+from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
 from sambot_viz.session.worker import Worker
@@ -62,6 +63,8 @@ class Sessions:
         robot: what is shown in all of them that have no model of their own: the opened
             one, with those that a program has added.
         assemble: makes the second of the first.
+        edits: writes fixes into the files of the model, where browsers may; only in
+            the session of all clients.
         on_files: called after other files may be shown than before, in any thread.
     """
 
@@ -81,6 +84,7 @@ class Sessions:
         self._models = models
         self._poses = poses or Presets()
         self.on_files: Callable[[], object] = lambda: None
+        self.edits: ModelEdits | None = None
         self.meshes = MeshCache()
         self.meshes.on_read = self._tell_files
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)

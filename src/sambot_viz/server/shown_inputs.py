@@ -23,6 +23,7 @@ from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.document.document import ShownDocument
 from sambot_viz.session.first_sight import is_map, show_topics
+from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.own_config import fit_own_config, fit_robot
 from sambot_viz.session.undo import History
 from sambot_viz.topics.robot_topics import STAND_IN_LINK, STAND_IN_NAME, RobotTopics
@@ -95,6 +96,8 @@ class ShownInputs:
             inputs.moved_by,
             self._recordings,
         )
+        if options.edit and inputs.model is not None:
+            self.server.sessions.edits = ModelEdits(inputs.model, options.watch)
 
     def start(self) -> None:
         """Show the robot, and follow the files if the options say so.

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
-from sambot_viz.edits import edited_files
 from sambot_viz.errors import Problem
 
 MODEL = "urdf/cart.urdf.xacro"

@@ -2,7 +2,7 @@
 /* The value of a row, and how a hand changes it: one component for each kind. */
 
 import { html, useRef } from "../vendor/preact.js";
-import { newGesture, rows, send } from "../wire/channel.js";
+import { act, newGesture, rows, send } from "../wire/channel.js";
 import { copy } from "../window/clipboard.js";
 import { Combo } from "./combo.js";
 import { Field, leave } from "./field.js";
@@ -150,11 +150,24 @@ function LeadButton({ row, tab }) {
     onClick=${() => wantedRow.set({ panel, id })}>${label}</button>`;
 }
 
+/** Calls a command with which what a sentence says is done.
+ * @param {{row: Row, tab: number}} props */
+export function ActButton({ row, tab }) {
+  const [label, command, id] = row.act;
+  /** @param {Press} event */
+  const press = (event) => {
+    // What is at this place by the second click of a double one is another button.
+    if (event.detail < 2) act(command, [id]);
+  };
+  return html`<button class="repair needs-control" tabindex=${tab} title=${row.value}
+    onClick=${press}>${label}</button>`;
+}
+
 /** @param {{row: Row, tab: number}} props */
 export function CopyButton({ row, tab }) {
   return html`<button class="flat copy" tabindex=${tab} aria-label=${`Copy ${row.name}`}
     title=${`Copy ${row.name}`}
-    onClick=${() => copy(String(row.value), `Copied: ${row.name || "the text"}`)}><${Icon} name="copy" />
+    onClick=${() => copy(String(row.copy === true ? row.value : row.copy), `Copied: ${row.name || "the text"}`)}><${Icon} name="copy" />
       </button>`;
 }
 

@@ -5,6 +5,7 @@ import { html, useEffect } from "../vendor/preact.js";
 import { Icon } from "../window/icons.js";
 import { useData, wantedRow } from "../state.js";
 import { Tree } from "../tree/tree.js";
+import { edited, EDITED, rows } from "../wire/channel.js";
 
 const KINDS = /** @type {const} */ ([
   ["error", "error"],
@@ -109,6 +110,14 @@ function useOpening(count, { shown, show, byItself }) {
       if (shown) show(false);
     }
   }, [count?.error, count?.old]);
+  // One who has applied a fix goes on with what is left.
+  useEffect(
+    () =>
+      rows.listen(EDITED, () => {
+        if (edited() === "problems/apply") known.opened = false;
+      }),
+    [],
+  );
   // A hand that has closed or opened it decides.
   useEffect(() => {
     if (!shown) known.opened = false;

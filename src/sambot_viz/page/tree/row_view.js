@@ -2,7 +2,7 @@
 /* One row of a tree: its name at the left, its value at the right. */
 
 import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
-import { CopyButton, ValueCell } from "../cells/cells.js";
+import { ActButton, CopyButton, ValueCell } from "../cells/cells.js";
 import { Icon } from "../window/icons.js";
 import { refusals } from "../window/notices.js";
 import { useRow } from "../state.js";
@@ -84,7 +84,8 @@ function Wide({ row, twist, tab }) {
   return html`<span class="wide" role="gridcell">
     ${twist}${row.level && row.kind === "note" && html`<${Icon} name=${row.level} />`}${text}
     ${row.place && html`<span class="at">${row.place}</span>`}
-  </span>${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}`;
+  </span>${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}
+  ${row.act && html`<span role="gridcell"><${ActButton} row=${row} tab=${tab} /></span>`}`;
 }
 
 /**

@@ -9,16 +9,19 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path, PurePath
-from typing import cast
+from typing import NamedTuple, cast
 
 from sambot_viz import limits
-from sambot_viz.errors import Problem, Severity
-from sambot_viz.panels.command import Command
+from sambot_viz.errors import Edit, Problem, Severity, UsageError
+from sambot_viz.fixes import EditRefused
+from sambot_viz.panels.command import TEXT, Command, command
 from sambot_viz.panels.panel import Panel
-from sambot_viz.panels.rows.row import Data, Json, Level, Row
+from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
+from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.shown_problems import Problems
+from sambot_viz.session.undo import History
 from sambot_viz.text import text
 
 LINES_AROUND = 2
@@ -26,6 +29,13 @@ _LONGEST_FILE = 60
 _FOLDERS = re.compile(r"(?<![\w.)])/([^\s/'\"<>]+)/(?:[^\s/'\"<>]+/)*")
 """The folders of an absolute path in a text."""
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
+
+
+class _Fix(NamedTuple):
+    """What a button does: a hint, and the edits that it is made of."""
+
+    hint: str
+    edits: tuple[Edit, ...]
 
 
 class ProblemsPanel(Panel):
@@ -36,9 +46,11 @@ class ProblemsPanel(Panel):
 
     Args:
         problems: what is shown.
+        history: keeps fixes that were written into files.
         remake: called when a page has unfolded something.
         folders: whether paths are whole; others than those at the server's own disk
             see only the names of its files.
+        edits: writes fixes into files; None where no browser may.
     """
 
     name = "problems"
@@ -46,17 +58,24 @@ class ProblemsPanel(Panel):
     def __init__(
         self,
         problems: Problems,
+        history: History,
         remake: Callable[[Panel], None],
         folders: bool = True,
+        edits: ModelEdits | None = None,
     ) -> None:
         self._folders = folders
         self.remade_by = (problems.shown,)
         self._problems = problems
+        self._history = history
+        self._edits = edits
+        self._fixes: dict[str, _Fix] = {}
+        self._applied: tuple[_Fix, Answer] | None = None
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
 
     def rows(self) -> Sequence[Row]:
         """Return the banner, and a row for each cause."""
         self._lazy.clear()
+        self._fixes.clear()
         shown = self._problems.shown.value
         note = shown.note
         banner = Row("problems/good", "", "note", value=note, level="error")
@@ -76,8 +95,31 @@ class ProblemsPanel(Panel):
         return [Data("problems/count", {**counts, **state})]
 
     def commands(self) -> list[Command]:
-        """Return the command to unfold a row."""
-        return [self._lazy.command()]
+        """Return the commands to unfold a row, and to apply a fix."""
+        return [self._lazy.command(), *super().commands()]
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether browsers may change files."""
+        return self._edits is not None
+
+    @command("problems/apply", TEXT, name="Apply")
+    def _apply(self, row_id: str) -> Answer:
+        fix = self._fixes.get(row_id)
+        if self._edits is None or fix is None:
+            raise UsageError("this problem is no longer there")
+        try:
+            where = self._edits.write(fix.edits, self._history)
+        except EditRefused as error:
+            if error.is_old and self._applied is not None and self._applied[0] == fix:
+                # It was pressed twice before the file was read again.
+                return self._applied[1]
+            raise
+        hint = fix.hint if self._folders else without_folders(fix.hint)
+        said = f"Applied: {hint} in {where}"
+        if not self._edits.watched:
+            said += "; start the program again to see it (--no-watch)"
+        self._applied = fix, Answer(said)
+        return self._applied[1]
 
     def _group_rows(self, groups: Sequence[ProblemGroup]) -> Iterator[Row]:
         for index, group in enumerate(groups[: limits.PROBLEM_ROWS.value]):
@@ -100,7 +142,8 @@ class ProblemsPanel(Panel):
         if not unfolded:
             return
         if group.hint:
-            yield _hint(row_id, group.hint)
+            edits = group.edits if all(p.edits for p in group.problems) else ()
+            yield self._hint(row_id, group.hint, edits)
         for problem in group.problems[: limits.PROBLEM_ROWS.value]:
             yield from self._problem_rows(problem, row_id, hint=False)
         if len(group.problems) > limits.PROBLEM_ROWS.value:
@@ -120,14 +163,51 @@ class ProblemsPanel(Panel):
     ) -> Iterator[Row]:
         own = _problem_id(problem)
         row_id = f"{parent}/{own}" if parent else own
-        below = [*_details(problem, row_id, hint=hint)] if unfolded else None
-        if below is None and self._lazy.is_unfolded(row_id):
-            below = [*_details(problem, row_id, hint=hint)]
+        unfolded = self._lazy.is_unfolded(row_id) or unfolded
+        below = [*self._details(problem, row_id, hint=hint)] if unfolded else None
         more = bool(problem.file or (hint and problem.hint))
         yield _head(
             row_id, parent, problem.message, problem, lazy=below is None and more
         )
         yield from below or ()
+
+    def _details(self, problem: Problem, parent: str, *, hint: bool) -> Iterator[Row]:
+        """Yield the remedy, the lines around the place, and the whole path."""
+        if hint and problem.hint:
+            yield self._hint(parent, problem.hint, problem.edits)
+        lines = problem_lines(problem, LINES_AROUND)
+        if lines:
+            marked = {"line": problem.line, "column": problem.column}
+            yield Row(f"{parent}/lines", parent, "lines", value=lines, extra=marked)
+        if problem.file is not None:
+            numbers = (n for n in (problem.line, problem.column) if n is not None)
+            place = ":".join((str(Path(problem.file).absolute()), *map(str, numbers)))
+            copied = {"copy": True}
+            row_id = f"{parent}/place"
+            yield Row(row_id, parent, "note", "the place", place, extra=copied)
+
+    def _hint(self, parent: str, hint: str, edits: Sequence[Edit]) -> Row:
+        """Return the row of a remedy, with a button that does it or the text to copy.
+
+        What is copied must not have a folder that the page is not to see.
+        """
+        extra: dict[str, Json] | None = None
+        texts = {edit.text for edit in edits}
+        if self._edits is not None and self._edits.may_write(edits):
+            self._fixes[parent] = _Fix(hint, tuple(edits))
+            extra = {"act": ["Apply", "problems/apply", parent]}
+        elif len(texts) == 1 and (
+            self._folders or texts == {*map(without_folders, texts)}
+        ):
+            extra = {"copy": texts.pop()}
+        return Row(
+            f"{parent}/hint",
+            parent,
+            "note",
+            "the fix",
+            f"To fix it: {hint}",
+            extra=extra,
+        )
 
 
 def place_of(problem: Problem) -> str:
@@ -189,25 +269,6 @@ def _head(
         expanded=not lazy,
         extra={"place": place_of(problem), "lazy": lazy},
     )
-
-
-def _details(problem: Problem, parent: str, *, hint: bool) -> Iterator[Row]:
-    """Yield the remedy, the lines around the place, and the whole path."""
-    if hint and problem.hint:
-        yield _hint(parent, problem.hint)
-    lines = problem_lines(problem, LINES_AROUND)
-    if lines:
-        marked = {"line": problem.line, "column": problem.column}
-        yield Row(f"{parent}/lines", parent, "lines", value=lines, extra=marked)
-    if problem.file is not None:
-        numbers = (n for n in (problem.line, problem.column) if n is not None)
-        place = ":".join((str(Path(problem.file).absolute()), *map(str, numbers)))
-        extra = {"copy": True}
-        yield Row(f"{parent}/place", parent, "note", "the place", place, extra=extra)
-
-
-def _hint(parent: str, hint: str) -> Row:
-    return Row(f"{parent}/hint", parent, "note", "Fix", f"To fix it: {hint}")
 
 
 def _rest(row_id: str, parent: str, count: int) -> Row:

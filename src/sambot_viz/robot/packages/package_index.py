@@ -67,6 +67,13 @@ def package_name(folder: Path) -> str | None:
     return match[1] if match else folder.name
 
 
+def package_of(file: Path) -> Path:
+    """Return the folder of the package that a file is in, or the folder it is in."""
+    beside = file.absolute().parent
+    above = (beside, *beside.parents)
+    return next((each for each in above if package_name(each) is not None), beside)
+
+
 def package_around(file: Path) -> Path | None:
     """Return the folder of the package that a file is in; None when it is in none."""
     folders = PackageIndex(file.absolute().parent).ancestors()

@@ -1,0 +1,110 @@
+"""Write the fixes of problems into the model's files, where that is allowed.
+
+Only files in the package of the model are written, and only while they are as they were
+when the problem was found. A model without a package has the folder that it is in.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TypeVar
+
+from sambot_viz import bundled
+from sambot_viz.errors import Edit, UsageError
+from sambot_viz.files import is_below
+from sambot_viz.fixes import EditRefused, FileChange, changes, write_changes
+from sambot_viz.robot.packages.package_index import package_of
+from sambot_viz.session.undo import History
+from sambot_viz.text import text
+
+T = TypeVar("T")
+_LONGEST_NAME = 60
+_MOST_LINES = 3
+"""More are counted."""
+
+
+class ModelEdits:
+    """Writes edits into the files of a model.
+
+    Args:
+        model: its file.
+        watched: whether what is saved is shown.
+
+    Attributes:
+        watched: the same.
+    """
+
+    def __init__(self, model: Path, watched: bool) -> None:
+        self._model = model.absolute()
+        self.watched = watched
+
+    @cached_property
+    def _folders(self) -> tuple[Path, ...]:
+        """The packages of the model: where it is, and where a link to it leads."""
+        real = Path(os.path.realpath(self._model))
+        if _is_bundled(real):
+            return ()
+        return tuple(dict.fromkeys(map(package_of, (self._model, real))))
+
+    def may_write(self, edits: Sequence[Edit]) -> bool:
+        """Tell whether all edits are in files of the package."""
+        folders = [folder.resolve() for folder in self._folders]
+        files = {edit.file for edit in edits}
+        return bool(files) and all(is_below(Path(file), folders) for file in files)
+
+    def write(self, edits: Sequence[Edit], history: History) -> str:
+        """Write edits into their files, as one step that can be undone.
+
+        Args:
+            edits: of problems that are shown.
+            history: keeps the step.
+
+        Returns:
+            Where they are, in words: "sam_bot.urdf.xacro line 7".
+
+        Raises:
+            EditRefused: nothing was written; the file has its name alone.
+        """
+        made = _of_names(lambda: changes(edits, self._folders))
+        _write(made)
+        history.record(
+            f"Fix in {' and '.join(_name(change.file) for change in made)}",
+            partial(_write, [change.inverse for change in made]),
+            partial(_write, made),
+            of_document=False,
+        )
+        return " and ".join(map(_places, made))
+
+
+def _write(made: Sequence[FileChange]) -> None:
+    _of_names(lambda: write_changes(made))
+
+
+def _of_names(call: Callable[[], T]) -> T:
+    try:
+        return call()
+    except EditRefused as error:
+        raise EditRefused(_name(error.file), error.why, is_old=error.is_old) from error
+
+
+def _is_bundled(file: Path) -> bool:
+    try:
+        return is_below(file, [bundled.assets_folder().resolve()])
+    except UsageError:
+        return False
+
+
+def _name(file: str) -> str:
+    return text(Path(file).name, _LONGEST_NAME)
+
+
+def _places(change: FileChange) -> str:
+    """Name a file and the lines that change."""
+    lines = change.lines
+    if len(lines) > _MOST_LINES:
+        return f"{_name(change.file)} in {len(lines)} lines"
+    word = "line" if len(lines) == 1 else "lines"
+    return f"{_name(change.file)} {word} {', '.join(map(str, lines))}"
