@@ -85,8 +85,8 @@ def test_it_is_said_how_far_it_is_and_how_it_ends(
     eventually(lambda: words(publisher) == "on the way: 3.2 m, about 12 s left")
     assert goals_of(publisher).is_on_the_way
     robot.end(4)
-    eventually(lambda: words(publisher) == "reached")
-    assert told[-1] == Outcome("reached", True, True)
+    eventually(lambda: told[-1] == Outcome("reached", True, True))
+    assert words(publisher) == "reached"
     # Nothing went over the topic.
     assert robot.peer.came() == []
 
@@ -101,8 +101,8 @@ def test_another_goal_takes_its_place(robot: ActionPeer, publisher: Publisher) -
     count = len(first)
     robot.end(6, 206)
     why = "not reached: something is where the goal is (error 206)"
-    eventually(lambda: words(publisher) == why)
-    assert len(first) == count and second[-1].words == why
+    eventually(lambda: second[-1].words == why)
+    assert len(first) == count and words(publisher) == why
 
 
 def test_stop_cancels_it(robot: ActionPeer, publisher: Publisher) -> None:

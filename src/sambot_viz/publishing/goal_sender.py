@@ -114,10 +114,12 @@ class GoalSender:
         def is_over() -> bool:
             nonlocal said
             self._require_taken()
-            for outcome in self._outcomes[said:]:
+            # More may come in another thread, and is for the next time.
+            new = self._outcomes[said:]
+            said += len(new)
+            for outcome in new:
                 say(outcome.words)
-            said = len(self._outcomes)
-            return any(outcome.is_over for outcome in self._outcomes)
+            return any(outcome.is_over for outcome in new)
 
         self._wait(is_over, seconds)
         return self._outcomes[-1] if self._outcomes else None
