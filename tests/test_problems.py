@@ -252,6 +252,32 @@ def test_the_problems_of_a_config_are_printed_by_another_command() -> None:
     assert last == "2 more; to see all of them: sambot-viz config 'my own.rviz'"
 
 
+def test_check_writes_one_cause_once_with_the_lines_of_all(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, other = tmp_path / "r.xacro", tmp_path / "s.xacro"
+    head = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    joint = '<joint name="{0}" type="fixed">\n<parent link="bse"/>\n'
+    joint += '<child link="{0}"/></joint><link name="{0}"/>\n'
+    other.write_text(f"{head}{joint.format('c')}</robot>")
+    file.write_text(
+        f'{head}<link name="base"/>\n{joint.format("a")}{joint.format("b")}'
+        f'<xacro:include filename="s.xacro"/>\n</robot>'
+    )
+    assert main(["check", str(file)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith(
+        f"{file}:4:1: error[joint-parent-unknown]: 3 joints have the parent"
+    )
+    assert lines[1:] == [
+        '    4 | <parent link="bse"/>',
+        "        ^",
+        '    7 | <parent link="bse"/>',
+        f"{other}:3:1:",
+        '    3 | <parent link="bse"/>',
+    ]
+
+
 def test_check_prints_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "r.urdf"
     links = "".join(f'<link name="arm {n}"/>' for n in range(12))

@@ -23,7 +23,7 @@ SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
 """The order in which problems are shown."""
 
 MOST = 10
-"""A terminal gets at most so many groups; ``sambot-viz check`` prints each problem."""
+"""A terminal gets at most so many groups; ``sambot-viz check`` prints all of them."""
 
 _LONGEST_LINE = 160
 _LINE_BREAK = re.compile("\n")
@@ -200,18 +200,26 @@ def _lines(file: str, saved: int, size: int) -> list[str]:
     return lines if lines[-1] else lines[:-1]
 
 
-def problem_in_words(problem: Problem) -> list[Line]:
-    """Write a problem as lines: the sentence with the fix, the excerpt with a mark."""
-    lines: list[Line] = [_sentence(problem, problem.message)]
-    for number, excerpt in problem_lines(problem, context=0):
-        if not excerpt.strip():
-            continue
-        margin = f"{number:>5} | "
+def problem_in_words(problem: Problem, message: str | None = None) -> list[Line]:
+    """Write a problem as lines: the sentence with the fix, the excerpt with a mark.
+
+    Args:
+        problem: what is wrong, and where.
+        message: what to say instead of its own message.
+    """
+    lines: list[Line] = [_sentence(problem, message or problem.message)]
+    for margin, excerpt in _excerpt(problem):
         lines.append([Painted(margin, "dim"), excerpt])
         if problem.column is not None and problem.column <= len(excerpt) + 1:
             blank = " " * (len(margin) + problem.column - 1)
             lines.append([blank, Painted("^", problem.severity)])
     return lines
+
+
+def _excerpt(problem: Problem) -> list[tuple[str, str]]:
+    """Return the margin and the text of the line of a problem, if it has one."""
+    lines = problem_lines(problem, context=0)
+    return [(f"{number:>5} | ", text) for number, text in lines if text.strip()]
 
 
 def _sentence(problem: Problem, message: str) -> Line:
@@ -234,14 +242,14 @@ def write_problems(
     Args:
         problems: what to write.
         write: `outlet.write_err` or `outlet.write_out`.
-        most: problems of one cause are written as one; after so many only the number of
-            the others is written, and the command that prints each. None writes each.
+        most: after so many causes only the number of the other problems is written,
+            and the command that prints them. None writes all, and the lines of all.
         model: the model as the user wrote it, for that command.
     """
+    groups = group_problems(problems)
     if most is None:
-        lines = [line for each in in_order(problems) for line in problem_in_words(each)]
+        lines = [line for each in groups for line in _with_places(each)]
     else:
-        groups = group_problems(problems)
         lines = [line for each in groups[:most] for line in group_in_words(each)]
         rest = sum(len(group.problems) for group in groups[most:])
         if rest:
@@ -268,3 +276,21 @@ def group_in_words(group: ProblemGroup) -> list[Line]:
     if len(group.problems) == 1:
         return problem_in_words(group.first)
     return [_sentence(group.first, group.message)]
+
+
+def _with_places(group: ProblemGroup) -> list[Line]:
+    """Write several problems as one, and the lines of all of them."""
+    lines = problem_in_words(group.first, group.message)
+    before, seen = group.first, {(group.first.file, group.first.line)}
+    for problem in group.problems[1:]:
+        if not problem.place:
+            lines.append([problem.message])
+        if (problem.file, problem.line) in seen:
+            continue
+        seen.add((problem.file, problem.line))
+        excerpt = _excerpt(problem)
+        if problem.place and (problem.file != before.file or not excerpt):
+            lines.append([Painted(f"{problem.place}:", "bold")])
+        lines += ([Painted(margin, "dim"), text] for margin, text in excerpt)
+        before = problem
+    return lines
