@@ -30,6 +30,7 @@ COMMANDS = (
     "check",
     "completion",
     "config",
+    "diff",
     "echo",
     "expand",
     "export",

@@ -44,11 +44,13 @@ class Parser(argparse.ArgumentParser):
         prog: the command, such as "sambot-viz check".
         groups: which of the `Options` it takes; with any, it takes a MODEL.
         takes_model: whether it does.
+        takes_arguments: whether it takes NAME:=VALUE, as it does with a MODEL.
         model: what MODEL is.
         rest: as for `argparse.ArgumentParser`.
 
     Attributes:
         takes_model: whether the command takes a MODEL.
+        takes_arguments: whether it takes NAME:=VALUE.
         alone: flags whose value, if any, is written in the same word, and the value
             without one.
     """
@@ -59,9 +61,11 @@ class Parser(argparse.ArgumentParser):
         groups: Sequence[Group] = (),
         model: str = "model file or package folder",
         takes_model: bool = True,
+        takes_arguments: bool = False,
         **rest: Any,
     ) -> None:
         self.takes_model = takes_model and bool(groups)
+        self.takes_arguments = takes_arguments or self.takes_model
         if self.takes_model:
             rest.setdefault("epilog", _ABOUT_MODELS)
         super().__init__(prog=prog, **rest)
@@ -171,7 +175,9 @@ def parse(
     given = parser.parse_args([*by_word, *rest])
     named = (given.model, given.model_option) if parser.takes_model else ()
     models = [m for m in (*named, launch_model) if m is not None]
-    if not parser.takes_model and (arguments or models):
+    if models and not parser.takes_model:
+        arguments["model"] = models[0]
+    if arguments and not parser.takes_arguments:
         raise UsageError(
             f"{parser.prog} takes no NAME:=VALUE; see {parser.prog} --help"
         )
