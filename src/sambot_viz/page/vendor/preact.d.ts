@@ -14,3 +14,6 @@ export function useRef(first: null): { current: any };
 export function useRef<T>(first: T): { current: T };
 export function useMemo<T>(make: () => T, of: readonly any[]): T;
 export function useCallback<F extends (...args: any[]) => any>(call: F, of: readonly any[]): F;
+export function useErrorBoundary(
+  told?: (failure: any) => void,
+): [failure: any, again: () => void];

@@ -36,6 +36,7 @@ import { PlayerBar } from "./player_bar.js";
 import { StatusBar } from "./status_bar.js";
 import { Top } from "./header.js";
 import { useRow } from "../state.js";
+import { Part } from "./part.js";
 import { Icon } from "./icons.js";
 
 /** What tells that a part of the window has come. */
@@ -54,7 +55,10 @@ export function Window() {
     .join(";");
   const listed = form === "wide" ? away.problems === false : tab.value === "problems" && !away.side;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
-    ${!away.all && html`<${Top} panels=${panelList} hideAll=${togglePanels} />`}
+    ${
+      !away.all &&
+      html`<${Part} title="The toolbar"><${Top} panels=${panelList} hideAll=${togglePanels} /><//>`
+    }
     ${form === "wide" && !away.all && html`<${Left} />`}
     <div class="view" ref=${view}></div>
     ${away.all && html`<button class="back" onClick=${togglePanels}>Show panels (H)</button>`}
@@ -67,16 +71,16 @@ export function Window() {
     }
     ${form === "wide" && !away.all && html`<${Right} /><${Bottom} />`}
     ${form !== "wide" && !away.all && html`<${Sheet} />`}
-    <${PlayerBar} openOther=${openRecording} />
+    <${Part} title="The player"><${PlayerBar} openOther=${openRecording} /><//>
     ${
       !away.all &&
-      html`<${StatusBar}
-      problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} />`
+      html`<${Part} title="The status bar"><${StatusBar}
+      problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} /><//>`
     }
     <${StopRobot} />
-    <${MarkerMenu} />
+    <${Part} title="The menu"><${MarkerMenu} /><//>
     <div class="over-view"><${Asking} /><${Connection} /></div>
-    <${Dialogs} />
+    <${Part} title="The dialog"><${Dialogs} /><//>
   </div>`;
 }
 
@@ -108,11 +112,12 @@ function Left() {
   const lower = useChosenViews() ? "lower" : "lower free";
   if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
   return html`<aside class="left" aria-label="Left panels">
-    ${!away.displays && html`<${DisplaysPanel} />`}
+    ${!away.displays && html`<${Part} title="Displays"><${DisplaysPanel} /><//>`}
     ${
       views &&
       html`<div class=${lower} style=${`flex-basis:${height}px`}>
-      <${Splitter} side="views" label="Height of Views" /><${ViewsPanel} /></div>`
+      <${Splitter} side="views" label="Height of Views" />
+      <${Part} title="Views"><${ViewsPanel} /><//></div>`
     }
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
@@ -122,6 +127,12 @@ function Left() {
 function useTabs(of) {
   tab.use();
   for (const name of [...Object.keys(of).map((name) => `panel:${name}`), ...PARTS]) useRow(name);
+}
+
+/** @param {{of: Record<string, {title: string, content: any}>, name: string}} props */
+function Panel({ of, name }) {
+  const { title, content } = of[name];
+  return html`<${Part} key=${name} title=${title}><${content} /><//>`;
 }
 
 function Right() {
@@ -134,12 +145,12 @@ function Right() {
   return html`<aside class="right" aria-label="Right panels">
     <${Tabs} names=${names} of=${TABS} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${TABS[current].title}>
-    <${TABS[current].content} /></div>
+    <${Panel} of=${TABS} name=${current} /></div>
     ${
       below &&
       html`<section class="panel below" aria-label=${TABS[below].title}>
         <header class="title">${TABS[below].title}</header>
-        <div class="content"><${TABS[below].content} /></div>
+        <div class="content"><${Panel} of=${TABS} name=${below} /></div>
       </section>`
     }
     <${Splitter} side="right" label="Width of the right panels" />
@@ -171,7 +182,7 @@ function Sheet() {
   return html`<aside class="sheet" aria-label="Panels">
     <${Tabs} names=${names} of=${of} current=${current} />
     <div class="content" role="tabpanel" id="panel-right" aria-label=${of[current].title}>
-    <${of[current].content} /></div>
+    <${Panel} of=${of} name=${current} /></div>
     ${beside && html`<${Splitter} side="side" label="Width of the panels" />`}
   </aside>`;
 }
@@ -230,7 +241,7 @@ function Bottom() {
       <button class="flat" aria-label="Close Problems" title="Close"
         onClick=${() => hidden.set({ ...away, problems: true })}><${Icon} name="close" /></button>
     </header>
-    <${ProblemsPanel} />
+    <${Part} title="Problems"><${ProblemsPanel} /><//>
   </section>`;
 }
 
