@@ -293,7 +293,9 @@ def test_while_there_is_no_robot_its_display_names_the_mistakes(tmp_path: Path) 
         assert "'amr'" in mistake
         line = mistake.split(":")[1]
         extra = displays.named("RobotModel", "Status", "Model").extra
-        problems = rows_of(panel_of(ProblemsPanel, session_of(viz), folders=True))
+        problems = rows_of(
+            panel_of(ProblemsPanel, session_of(viz), folders=True, edits=None)
+        )
         assert extra is not None
         said, panel, row = extra["leads"]
         assert (said, panel) == (f"Show line {line}", "problems")
