@@ -217,7 +217,8 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/side_connection.py": "asyncio",
     "sources/websocket/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",
-    "sources/websocket/websocket_source.py": "asyncio concurrent threading",
+    "sources/websocket/live_source.py": "asyncio concurrent threading",
+    "sources/websocket/websocket_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.

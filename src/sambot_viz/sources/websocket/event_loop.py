@@ -1,16 +1,20 @@
-"""An event loop whose look-up of names never holds up the end of the program."""
+"""An event loop in which nothing slow holds up the end of the program."""
 
 from __future__ import annotations
 
 import asyncio
 import socket
 import threading
+from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from functools import partial
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 
 class SourceLoop(asyncio.SelectorEventLoop):
-    """Looks up names in a daemon thread.
+    """Looks up names, and does what else takes long, in daemon threads.
 
     asyncio does so in a pool of threads, and Python waits for those when it ends: a
     name server that does not answer would hold up Ctrl-C for half a minute.
@@ -18,25 +22,25 @@ class SourceLoop(asyncio.SelectorEventLoop):
 
     async def getaddrinfo(self, *args: Any, **options: Any) -> Any:
         """Return what `socket.getaddrinfo` does."""
-        found: asyncio.Future[Any] = self.create_future()
+        return await self.aside(lambda: socket.getaddrinfo(*args, **options))
 
-        def settle(result: Any, error: Exception | None) -> None:
-            if found.done():
-                return
-            if error is not None:
-                found.set_exception(error)
-            else:
-                found.set_result(result)
+    async def aside(self, work: Callable[[], T]) -> T:
+        """Return what something gives that may take long, done in a daemon thread."""
+        found: asyncio.Future[T] = self.create_future()
 
-        def look_up() -> None:
-            result, error = None, None
+        def settle(settled: Callable[[], object]) -> None:
+            if not found.done():
+                settled()
+
+        def do() -> None:
             try:
-                result = socket.getaddrinfo(*args, **options)
-            except Exception as caught:
-                error = caught
+                result = work()
+                settled = partial(found.set_result, result)
+            except Exception as error:
+                settled = partial(found.set_exception, error)
             # The loop may have been closed meanwhile.
             with suppress(RuntimeError):
-                self.call_soon_threadsafe(settle, result, error)
+                self.call_soon_threadsafe(settle, settled)
 
-        threading.Thread(target=look_up, name="sambot-viz names", daemon=True).start()
+        threading.Thread(target=do, name="sambot-viz aside", daemon=True).start()
         return await found
