@@ -68,6 +68,7 @@ NO_LIMITS = {
         sources/websocket/delivery.py LONGEST_STOP
         sources/websocket/runner.py LONGEST_SILENCE
         sources/websocket/live_source.py LONGEST_PAUSE LONGEST_STOP
+        sources/zenoh/session.py LONGEST_OPENING
     """,
     "work: what is kept to be quick, or for how long a quick way is taken": """
         displays/robot_model/link_overlays.py MOST_ELEMENTS

@@ -116,7 +116,7 @@ ROOMS: Mapping[str, Row] = {
     "meanings": Row("messages", "numpy"),
     # From recordings and robots on the network to messages as bytes.
     "sources": Row(
-        "_version messages", "lz4 mcap msgspec numpy websockets yaml zstandard"
+        "_version messages", "lz4 mcap msgspec numpy websockets yaml zenoh zstandard"
     ),
     # What there is at a time, and why something is not seen.
     "topics": Row("frames joints meanings messages robot sources", "numpy"),
@@ -219,6 +219,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/live_source.py": "asyncio concurrent threading",
     "sources/websocket/websocket_source.py": "asyncio",
+    "sources/zenoh/zenoh_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process
     # In that child: the one thread of the pure rooms watches for the parent's end.

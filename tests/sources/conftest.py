@@ -8,6 +8,7 @@ from contextlib import ExitStack
 import pytest
 from live_peers import FoxglovePeer, Inbox, LivePeer
 from rosbridge_peer import RosbridgePeer
+from zenoh_peer import ZenohPeer
 
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import Source
@@ -15,6 +16,7 @@ from sambot_viz.sources.source import Source
 PEERS: dict[str, Callable[[], LivePeer]] = {
     "foxglove": FoxglovePeer,
     "rosbridge": RosbridgePeer,
+    "zenoh": ZenohPeer,
 }
 
 

@@ -15,6 +15,7 @@ from action_peers import (
     ActionPeer,
     FoxgloveAction,
     RosbridgeAction,
+    ZenohAction,
 )
 from live_peers import FoxglovePeer, LivePeer, cdr_string, eventually
 from rosbridge_peer import RosbridgePeer
@@ -34,7 +35,7 @@ GOAL = "geometry_msgs/PoseStamped pose\nstring behavior_tree"
 STATUS = f"{INNER}/status"
 
 
-@pytest.fixture(params=[FoxgloveAction, RosbridgeAction])
+@pytest.fixture(params=[FoxgloveAction, RosbridgeAction, ZenohAction])
 def robot(request: pytest.FixtureRequest) -> Iterator[ActionPeer]:
     made = request.param()
     yield made
@@ -178,7 +179,11 @@ def test_a_robot_without_the_action_says_what_would_show_it(
     source = opened(peer.uri)
     source.subscribe(STATUS, lambda message: None)
     eventually(lambda: STATUS in source.topics())
-    why = "include_hidden:=true" if isinstance(peer, FoxglovePeer) else "Jazzy"
+    why = {
+        "foxglove": "include_hidden:=true",
+        "rosbridge": "Jazzy",
+        "zenoh": "the robot has no service",
+    }[peer.uri.partition(":")[0]]
     with pytest.raises(SourceError, match=why):
         source.action(ACTION, KIND)
     if isinstance(peer, RosbridgePeer):

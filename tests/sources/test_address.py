@@ -60,7 +60,6 @@ def test_what_is_shown_has_no_secret() -> None:
             "dds:",
             "dds comes later; known: FILE or folder of a recording, foxglove://HOST:8765",
         ),
-        ("zenoh://robot:7447", "zenoh comes later"),
         ("rclpy:", "rclpy comes later"),
         ("http://robot", "unknown kind of source; known: FILE"),
         ("robot", "unknown kind of source"),

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import pytest
-from live_peers import FoxglovePeer, LivePeer, eventually
+from live_peers import LivePeer, eventually
 from parameter_messages import message, read, reply, value
+from rosbridge_peer import RosbridgePeer
 
 from sambot_viz.messages import MessageTypes
 from sambot_viz.publishing.parameters import Value, get_parameters, set_parameter
@@ -91,6 +92,6 @@ def test_a_node_that_is_not_there_says_so(source: Source) -> None:
 
 
 def test_an_answer_without_sense_is_said(peer: LivePeer, source: Source) -> None:
-    nothing = b"\0\1\0\0\xff\xff\xff\xff" if isinstance(peer, FoxglovePeer) else 7
+    nothing = 7 if isinstance(peer, RosbridgePeer) else b"\0\1\0\0\xff\xff\xff\xff"
     peer.serve(f"{NODE}/set_parameters", reply=nothing)
     eventually(lambda: "makes no sense" in put(source, 1))

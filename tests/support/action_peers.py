@@ -19,6 +19,7 @@ from navigator_peer import NavigatorPeer
 from rosbags.typesys import Stores, get_typestore
 from rosbridge_peer import RosbridgePeer, Topic
 from websockets.sync.server import ServerConnection
+from zenoh_peer import ZenohPeer
 
 ACTION = "/navigate_to_pose"
 KIND = "nav2_msgs/action/NavigateToPose"
@@ -79,15 +80,16 @@ class ActionPeer(ABC):
         """How often the last goal was to be cancelled."""
 
 
-class FoxgloveAction(ActionPeer):
+class HiddenAction(ActionPeer):
     """Shows the hidden services and topics of the action.
 
     Args:
+        peer: has the topic of its status.
         accepts: goals.
     """
 
-    def __init__(self, *, accepts: bool = True) -> None:
-        self.peer = self._peer = NavigatorPeer(statuses=())
+    def __init__(self, peer: NavigatorPeer | ZenohPeer, accepts: bool = True) -> None:
+        self.peer = self._peer = peer
         kind = f"{KIND}_FeedbackMessage"
         self._peer.offer(f"{INNER}/feedback", kind, FEEDBACK)
         self._decided = threading.Event()
@@ -147,6 +149,22 @@ class FoxgloveAction(ActionPeer):
         one.status = status
         found.status_list.append(one)
         self._peer.log(f"{INNER}/status", bytes(_store().serialize_cdr(found, kind)))
+
+
+class FoxgloveAction(HiddenAction):
+    """An action behind foxglove_bridge; see `HiddenAction`."""
+
+    def __init__(self, *, accepts: bool = True) -> None:
+        super().__init__(NavigatorPeer(statuses=()), accepts)
+
+
+class ZenohAction(HiddenAction):
+    """An action of a node with rmw_zenoh; see `HiddenAction`."""
+
+    def __init__(self) -> None:
+        peer = ZenohPeer()
+        peer.advertise(f"{INNER}/status", True, "action_msgs/msg/GoalStatusArray")
+        super().__init__(peer)
 
 
 class RosbridgeAction(ActionPeer):

@@ -6,8 +6,9 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from live_peers import FoxglovePeer, LivePeer
+from live_peers import LivePeer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbridge_peer import RosbridgePeer
 
 TYPES = {
     "set": "rcl_interfaces/Parameter[] parameters",
@@ -43,7 +44,7 @@ def value(kind: int, **given: object) -> Any:
 
 def reply(peer: LivePeer, name: str, field: str, made: list[Any], plain: Any) -> Any:
     """An answer as the peer gives it: CDR, or fields."""
-    if not isinstance(peer, FoxglovePeer):
+    if isinstance(peer, RosbridgePeer):
         return {field: plain}
     kind = f"test/msg/{name}"
     return bytes(_store().serialize_cdr(_store().types[kind](made), kind))

@@ -54,7 +54,7 @@ FIELDS_MESSAGE = LimitRow(
     "it is not decoded; its topic says so",
 )
 CHANNELS = LimitRow(
-    "channels of a recording, and topics of a db3 file",
+    "channels of a recording, topics of a db3 file, definitions of a topic over zenoh",
     65_536,
     "",
     "later ones are left out; Problems says so",
@@ -64,6 +64,12 @@ TOPICS = LimitRow(
     20_000,
     "",
     "later ones are left out; the status of the source says so",
+)
+ENDPOINTS = LimitRow(
+    "nodes, publishers, subscribers and services of a robot over zenoh or DDS",
+    100_000,
+    "",
+    "later ones are left out",
 )
 FRAMES = LimitRow(
     "TF frames that messages bring",

@@ -3,6 +3,7 @@
 from sambot_viz.messages.decoder import Decoder
 from sambot_viz.messages.joint_state_decoder import JointStateTemplate
 from sambot_viz.messages.kept_elements import KeptElements
+from sambot_viz.messages.known_types import standard_definition, standard_hash
 from sambot_viz.messages.reason import Reason
 from sambot_viz.messages.rows import Rows
 from sambot_viz.messages.schema import Schema
@@ -20,4 +21,6 @@ __all__ = [
     "Rows",
     "Schema",
     "TransformDecoder",
+    "standard_definition",
+    "standard_hash",
 ]

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages.definition import Lookup, TypeDefinition, Types, closed
 from sambot_viz.messages.definition_text import parsed_types
+
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
 
 _DISTROS = (
     # Without definitions are recordings of Humble and older; the others follow for
@@ -22,6 +26,7 @@ _DISTROS = (
     *("ros2_humble", "ros2_lyrical", "ros2_kilted", "ros2_jazzy", "ros2_iron"),
     *("ros2_galactic", "ros2_foxy", "ros2_eloquent", "ros2_dashing"),
 )
+_NEWEST_FIRST = ("ros2_lyrical", "ros2_kilted", "ros2_jazzy", "ros2_iron")
 _ROS1 = ("ros1_noetic",)
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _ROS1_TRANSFORMS = (_TRANSFORMS, "tf/msg/tfMessage")
@@ -116,14 +121,46 @@ def _standard_type(distro: str, name: str) -> Types | None:
 @cache
 def standard_types(distro: str) -> Types:
     """Return the types that a distribution of ROS has by itself."""
-    from rosbags.typesys import Stores, get_typestore
-
-    fielddefs = get_typestore(Stores(distro)).fielddefs
+    fielddefs = _store(distro).fielddefs
     types = {name: fields for name, (_, fields) in fielddefs.items()}
     if distro in _ROS1:
         transforms = standard_types("ros2_humble")[_TRANSFORMS]
         types |= dict.fromkeys(_ROS1_TRANSFORMS, transforms)
     return types
+
+
+@lru_cache(maxsize=4096)
+def standard_definition(name: str, type_hash: str = "") -> str:
+    """Return the text of a type that ROS has by itself, as a recording has it.
+
+    Args:
+        name: of the type.
+        type_hash: which of its definitions, such as RIHS01_…; "" for the first one.
+
+    Returns:
+        The text; "" where no distribution has that definition.
+    """
+    for distro in _DISTROS:
+        store = _store(distro)
+        if name in store.fielddefs and type_hash in ("", store.hash_rihs01(name)):
+            return store.generate_msgdef(name, ros_version=2)[0]
+    return ""
+
+
+def standard_hash(name: str) -> str:
+    """Return the hash of the newest definition of a type; "" where ROS has none."""
+    for distro in _NEWEST_FIRST:
+        store = _store(distro)
+        if name in store.fielddefs:
+            return store.hash_rihs01(name)
+    return ""
+
+
+@cache
+def _store(distro: str) -> Typestore:
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores(distro))
 
 
 def _text(path: Path) -> str | None:

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 from sambot_viz.errors import UsageError
 from sambot_viz.sources.source import Source
 from sambot_viz.sources.websocket.address import Address, parse_address
 from sambot_viz.text import text
 
-KNOWN = "FILE or folder of a recording, foxglove://HOST:8765, rosbridge://HOST:9090"
+KNOWN = (
+    "FILE or folder of a recording, foxglove://HOST:8765, rosbridge://HOST:9090, "
+    "zenoh://HOST:7447"
+)
 """What `--source` takes, for help and messages."""
-_LATER = ("dds", "zenoh", "rclpy")
-_LIVE = ("foxglove", "rosbridge", "ws", "wss")
+_LATER = ("dds", "rclpy")
+_LIVE = ("foxglove", "rosbridge", "ws", "wss", "zenoh")
+_EXTRAS = ("zenoh",)
+"""Kinds that need a package of the same name, from an extra of the same name."""
 
 
 def is_live(uri: str) -> bool:
@@ -26,13 +33,18 @@ def live_address(uri: str) -> Address:
             rosbridge://robot:9090.
 
     Raises:
-        UsageError: there is no such kind of source, or the address makes no sense.
+        UsageError: there is no such kind of source, the address makes no sense, or a
+            package is missing.
     """
     scheme = _scheme(uri)
     if scheme in _LATER:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
         raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
+    if scheme in _EXTRAS and find_spec(scheme) is None:
+        raise UsageError(
+            f'{text(uri)}: needs the extra {scheme}: pip install "sambot-viz[{scheme}]"'
+        )
     return parse_address(uri)
 
 
@@ -43,6 +55,10 @@ def open_source(uri: str) -> Source:
         UsageError: as `live_address`.
     """
     address = live_address(uri)
+    if address.protocol == "zenoh":
+        from sambot_viz.sources.zenoh.zenoh_source import ZenohSource
+
+        return ZenohSource(uri, address)
     # websockets takes 0.1 s to import, and most commands need none.
     from sambot_viz.sources.foxglove import FoxgloveConversation
     from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS

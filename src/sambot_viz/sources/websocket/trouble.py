@@ -21,8 +21,10 @@ from sambot_viz.text import text
 START = {
     "foxglove": "`ros2 launch foxglove_bridge foxglove_bridge_launch.xml`",
     "rosbridge": "`ros2 launch rosbridge_server rosbridge_websocket_launch.xml`",
+    "zenoh": "`ros2 run rmw_zenoh_cpp rmw_zenohd`",
 }
 """Protocol → the command that starts its server on the robot."""
+_WHAT = {"foxglove": "bridge", "rosbridge": "bridge", "zenoh": "router"}
 
 _NO_WAY = {errno.EHOSTUNREACH, errno.ENETUNREACH, errno.EHOSTDOWN, errno.ENETDOWN}
 _TOO_BIG = 1009
@@ -152,11 +154,12 @@ def _not_a_websocket(address: Address) -> str:
 
 def _unreachable(error: OSError, address: Address) -> str:
     place, start = address.label, START[address.protocol]
+    what = _WHAT[address.protocol]
     # When a name has several addresses, asyncio joins their errors to a text.
     codes = {int(code) for code in re.findall(r"\[Errno (\d+)\]", str(error))}
     codes.add(error.errno or 0)
     if isinstance(error, ConnectionRefusedError) or errno.ECONNREFUSED in codes:
-        return f"Nothing listens at {place}: start the bridge there with {start}"
+        return f"Nothing listens at {place}: start the {what} there with {start}"
     if codes & _NO_WAY:
         return (
             f"There is no way to {place}: is this computer in the robot's network, "

@@ -1,0 +1,114 @@
+"""The nodes of a robot with what they publish, subscribe to and serve.
+
+A transport of ROS 2 itself says this of each endpoint; bridges say less of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from sambot_viz import limits
+from sambot_viz.sources.qos import Qos, parse_qos, profile_text
+from sambot_viz.sources.source import Receivers
+
+_MANGLED = re.compile(r"(\w+)::(msg|srv|action)::dds_::(\w+?)_", re.ASCII)
+NO_HASH = "TypeHashNotSupported"
+"""What ROS 2 Humble has where later ones have the hash of a type."""
+
+
+class Kind(Enum):
+    """What an endpoint does."""
+
+    PUBLISHER = "publisher"
+    SUBSCRIBER = "subscriber"
+    SERVICE = "service"
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """A publisher, a subscriber or a service of a node.
+
+    Attributes:
+        kind: which of them.
+        node: its full name; "" where it is not known.
+        name: of the topic or the service.
+        type_name: as ROS 2 writes it, such as sensor_msgs/msg/LaserScan.
+        type_hash: of the definition, such as RIHS01_…; "" where it is not known.
+        qos: what it offers or asks for.
+    """
+
+    kind: Kind
+    node: str
+    name: str
+    type_name: str
+    type_hash: str = ""
+    qos: Qos | None = None
+
+
+class RosGraph:
+    """The endpoints of a robot by the key with which they come and go."""
+
+    def __init__(self) -> None:
+        self._endpoints: dict[str, Endpoint] = {}
+        self._named: dict[tuple[Kind, str], dict[str, Endpoint]] = {}
+
+    def add(self, key: str, endpoint: Endpoint) -> bool:
+        """Add an endpoint; return whether there was room for it."""
+        named = endpoint.kind, endpoint.name
+        if named not in self._named and self.is_full:
+            return False
+        self.discard(key)
+        self._endpoints[key] = endpoint
+        self._named.setdefault(named, {})[key] = endpoint
+        return True
+
+    def discard(self, key: str) -> None:
+        """Remove an endpoint, if it is there."""
+        if (endpoint := self._endpoints.pop(key, None)) is not None:
+            named = endpoint.kind, endpoint.name
+            del self._named[named][key]
+            if not self._named[named]:
+                del self._named[named]
+
+    def __len__(self) -> int:
+        return len(self._endpoints)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether names are left out."""
+        return len(self._named) >= limits.TOPICS.value
+
+    def published(self) -> Iterator[str]:
+        """Yield the topics that are published."""
+        return (name for kind, name in self._named if kind is Kind.PUBLISHER)
+
+    def of(self, kind: Kind, name: str) -> tuple[Endpoint, ...]:
+        """Return the endpoints of a kind with a name, the first one first."""
+        return tuple(self._named.get((kind, name), {}).values())
+
+    def receivers(self, topic: str) -> Receivers:
+        """Return who has subscribed to a topic, and the type that the robot knows."""
+        takers = self.of(Kind.SUBSCRIBER, topic)
+        known = (*takers, *self.of(Kind.PUBLISHER, topic))
+        names = tuple(dict.fromkeys(one.node for one in takers))
+        return Receivers(names, known[0].type_name if known else "")
+
+    def offered(self, topic: str) -> Qos | None:
+        """Return what the publishers of a topic offer together."""
+        profiles = [one.qos for one in self.of(Kind.PUBLISHER, topic) if one.qos]
+        return parse_qos("\n".join(map(profile_text, profiles)))
+
+
+def mangled(type_name: str) -> str:
+    """Return what a type such as std_msgs/msg/String is called on the wire."""
+    package, kind, name = type_name.split("/")
+    return f"{package}::{kind}::dds_::{name}_"
+
+
+def demangled(wire_name: str) -> str:
+    """Return the name of a type for one on the wire; "" where it is none of ROS."""
+    found = _MANGLED.fullmatch(wire_name)
+    return "/".join(found.groups()) if found else ""

@@ -1,0 +1,263 @@
+"""A session of zenoh: the one place that knows its Python package.
+
+zenoh calls back in threads of its own. Messages are taken there, as they may come a
+thousand times in a second; all else is handed to the loop.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from sambot_viz import limits
+from sambot_viz.errors import SourceError
+from sambot_viz.sources.websocket.address import Address
+from sambot_viz.sources.zenoh.names import attachment
+
+LONGEST_OPENING = 10.0
+"""A router that has not answered by then is given up [s]."""
+_CERTIFICATES = "SSL_CERT_FILE"
+
+Post = Callable[[Callable[[], object]], object]
+OnSample = Callable[[str, bytes, bytes], object]
+"""Called with the key, the payload and what is attached."""
+
+
+class ZenohDeclaration(Protocol):
+    """What was declared to a router, until it is taken back."""
+
+    def undeclare(self) -> object:
+        """Take it back."""
+        ...
+
+
+class ZenohSession:
+    """One connection of a client to a router.
+
+    Args:
+        session: of zenoh.
+        post: has something done in the thread of the connection.
+        on_lost: called there when the connection has ended.
+
+    Attributes:
+        name: of the session, as tokens say it.
+        router: identifies what it is connected to; "" when that has ended already.
+    """
+
+    def __init__(self, session: Any, post: Post, on_lost: Callable[[], object]) -> None:
+        from zenoh import SampleKind
+
+        self._session = session
+        self._post = post
+        self.name = str(session.zid())
+        found = [*session.info.routers_zid(), *session.info.peers_zid()]
+        self.router = str(found[0]) if found else ""
+
+        def changed(event: Any) -> None:
+            # zenoh would connect again by itself, and not say what was lost.
+            if event.kind == SampleKind.DELETE:
+                post(on_lost)
+
+        session.info.declare_transport_events_listener(_at_once(changed))
+
+    def close(self) -> None:
+        """End it."""
+        self._session.close()
+
+    def watch(self, key: str, told: Callable[[str, bool], object]) -> None:
+        """Tell of liveliness tokens, those that are there first.
+
+        Args:
+            key: of the tokens.
+            told: called with the key of each and whether it is there.
+        """
+        from zenoh import SampleKind
+
+        def take(sample: Any) -> None:
+            there = sample.kind == SampleKind.PUT
+            name = str(sample.key_expr)
+            self._post(lambda: told(name, there))
+
+        self._session.liveliness().declare_subscriber(key, _at_once(take), history=True)
+
+    def declare_token(self, key: str) -> ZenohDeclaration:
+        """Say that something is there."""
+        return self._session.liveliness().declare_token(key)
+
+    def subscribe(
+        self, key: str, is_latched: bool, take: OnSample, on_large: Callable[[int], Any]
+    ) -> ZenohDeclaration:
+        """Subscribe to a key.
+
+        Args:
+            key: may have wildcards.
+            is_latched: get what its publishers keep, too.
+            take: gets the messages, in a thread of zenoh.
+            on_large: gets the size of those that are too large [bytes].
+        """
+
+        def came(sample: Any) -> None:
+            size = len(sample.payload)
+            if size > limits.MESSAGE.value:
+                self._post(lambda: on_large(size))
+                return
+            take(*_content(sample))
+
+        if not is_latched:
+            return self._session.declare_subscriber(key, _at_once(came))
+        import zenoh.ext
+
+        extensions: Any = zenoh.ext
+        history = extensions.HistoryConfig(
+            detect_late_publishers=True, max_samples=limits.LATCHED_KEPT.value
+        )
+        return extensions.declare_advanced_subscriber(
+            self._session, key, _at_once(came), history=history
+        )
+
+    def ask_kept(self, key: str, take: OnSample) -> None:
+        """Ask the caches of older publishers for what they keep."""
+        from zenoh import ConsolidationMode, QueryTarget, ReplyKeyExpr
+
+        def answered(reply: Any) -> None:
+            if reply.ok is not None and len(reply.ok.payload) <= limits.MESSAGE.value:
+                take(*_content(reply.ok))
+
+        self._session.get(
+            f"*/{key}",
+            _at_once(answered),
+            target=QueryTarget.ALL,
+            consolidation=ConsolidationMode.NONE,
+            accept_replies=ReplyKeyExpr.ANY,
+        )
+
+    def call(
+        self,
+        key: str,
+        number: int,
+        request: bytes,
+        timeout: float,
+        answered: Callable[[bytes, str], object],
+    ) -> None:
+        """Ask a service.
+
+        Args:
+            key: of the service, without wildcards.
+            number: of the call.
+            request: CDR.
+            timeout: how long an answer is waited for [s].
+            answered: called with the response, or with why there is none.
+        """
+        from zenoh import ConsolidationMode, QueryTarget
+
+        def take(reply: Any) -> None:
+            said = reply.ok if reply.ok is not None else reply.err
+            content = bytes(said.payload)
+            is_answer = reply.ok is not None
+            why = "" if is_answer else content.decode("utf-8", "replace")
+            self._post(lambda: answered(content if is_answer else b"", why))
+
+        self._session.get(
+            key,
+            _at_once(take),
+            target=QueryTarget.ALL_COMPLETE,
+            consolidation=ConsolidationMode.NONE,
+            timeout=timeout,
+            payload=request,
+            attachment=attachment(number, time.time_ns(), os.urandom(16)),
+        )
+
+    def publisher(self, key: str) -> ZenohPublisher:
+        """Begin to publish on a key."""
+        return ZenohPublisher(self._session.declare_publisher(key))
+
+
+class ZenohPublisher:
+    """Publishes on one key."""
+
+    def __init__(self, publisher: Any) -> None:
+        self._publisher = publisher
+        self._source = os.urandom(16)
+        self._count = 0
+
+    def put(self, message: bytes) -> None:
+        """Publish a message."""
+        self._count += 1
+        attached = attachment(self._count, time.time_ns(), self._source)
+        self._publisher.put(message, attachment=attached)
+
+    def undeclare(self) -> None:
+        """Publish nothing more."""
+        self._publisher.undeclare()
+
+
+def open_session(
+    address: Address, post: Post, on_lost: Callable[[], object]
+) -> ZenohSession:
+    """Connect to a router, or to a node that listens; this takes its time.
+
+    Args:
+        address: of the router.
+        post: as of `ZenohSession`.
+        on_lost: as of `ZenohSession`.
+
+    Raises:
+        SourceError: the router does not speak zenoh, or not with TLS as asked.
+    """
+    import zenoh
+
+    config: Any = zenoh.Config()
+    for name, value in _settings(address).items():
+        config.insert_json5(name, json.dumps(value))
+    try:
+        return ZenohSession(zenoh.open(config), post, on_lost)
+    except zenoh.ZError as error:
+        raise SourceError(_refused(address)) from error
+
+
+def _settings(address: Address) -> dict[str, Any]:
+    protocol = "tls" if address.is_secure else "tcp"
+    settings: dict[str, Any] = {
+        # Routers of rmw_zenoh forward nothing between peers.
+        "mode": "client",
+        "connect/endpoints": [f"{protocol}/{address.label}"],
+        "scouting/multicast/enabled": False,
+        "transport/unicast/open_timeout": int(LONGEST_OPENING * 1000),
+    }
+    if address.is_secure and (trusted := os.environ.get(_CERTIFICATES)):
+        settings["transport/link/tls/root_ca_certificate"] = trusted
+    return settings
+
+
+def _refused(address: Address) -> str:
+    place = address.label
+    if address.is_secure:
+        return (
+            f"No TLS connection to the zenoh router at {place}: start sambot-viz with "
+            f"{_CERTIFICATES}=FILE, the certificate of who has signed the router's; or "
+            f"leave TLS out: --source {address.with_tls(False)}"
+        )
+    return (
+        f"{place} does not speak zenoh: is {address.port} the port of rmw_zenohd? If "
+        f"it speaks TLS, --source {address.with_tls(True)}"
+    )
+
+
+def _content(sample: Any) -> tuple[str, bytes, bytes]:
+    attached = sample.attachment
+    return (
+        str(sample.key_expr),
+        bytes(sample.payload),
+        b"" if attached is None else bytes(attached),
+    )
+
+
+def _at_once(callback: Callable[[Any], object]) -> Any:
+    """Return a handler that is called without a Python thread of its own."""
+    import zenoh
+
+    library: Any = zenoh
+    return library.handlers.Callback(callback, indirect=False)

@@ -1,0 +1,56 @@
+"""A source over zenoh: ROS 2 with rmw_zenoh_cpp, through its router."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+
+from sambot_viz.errors import SourceError
+from sambot_viz.sources.websocket.event_loop import SourceLoop
+from sambot_viz.sources.websocket.live_source import LiveSource
+from sambot_viz.sources.websocket.runner import TICK
+from sambot_viz.sources.websocket.trouble import explain
+from sambot_viz.sources.zenoh.conversation import ZenohConversation
+from sambot_viz.sources.zenoh.session import LONGEST_OPENING, ZenohSession, open_session
+
+
+class ZenohSource(LiveSource):
+    """A live source of a router of zenoh."""
+
+    async def _connect(self) -> None:
+        loop = asyncio.get_running_loop()
+        assert isinstance(loop, SourceLoop)
+        address = self._address
+        # What zenoh says of a place that it cannot reach is the same for all reasons.
+        _, writer = await asyncio.wait_for(
+            asyncio.open_connection(address.host, address.port), LONGEST_OPENING
+        )
+        writer.close()
+        lost = asyncio.Event()
+        session = await loop.aside(partial(open_session, address, self._post, lost.set))
+        try:
+            if session.router:
+                await self._speak(session, lost)
+        finally:
+            session.close()
+
+    async def _speak(self, session: ZenohSession, lost: asyncio.Event) -> None:
+        """Speak until the connection is lost."""
+        conversation = self._converse(partial(ZenohConversation, session))
+        self._follow()
+        loop = asyncio.get_running_loop()
+        gone = asyncio.ensure_future(lost.wait())
+        try:
+            while not gone.done():
+                await asyncio.wait((gone,), timeout=TICK)
+                if not gone.done():
+                    conversation.tick(loop.time())
+                    self._follow()
+                    self._tell_health()
+        finally:
+            gone.cancel()
+
+    def _explain(self, error: BaseException) -> str:
+        if isinstance(error, SourceError):
+            return str(error)
+        return explain(error, self._address)
