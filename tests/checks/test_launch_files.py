@@ -107,3 +107,28 @@ def test_of_two_names_of_the_package_one_is_wrong(checked: Checked) -> None:
     codes = [p.code for p in check(package)]
     assert "launch-package-unknown" not in codes
     assert "cmake-project-name" in codes
+
+
+@pytest.mark.parametrize(
+    ("asked", "beside"),
+    [
+        ("cart_descriptions", "cart_descriptions"),
+        ("cart_description_moveit_config", ""),
+        ("cart_controller", ""),
+    ],
+)
+def test_another_package_of_the_robot_is_no_misspelt_one(
+    asked: str, beside: str, checked: Checked, tmp_path: Path
+) -> None:
+    if beside:
+        manifest = tmp_path / beside / "package.xml"
+        manifest.parent.mkdir()
+        manifest.write_text(f"<package><name>{beside}</name></package>")
+    launch = (
+        "from launch import LaunchDescription\n"
+        "from launch_ros.substitutions import FindPackageShare\n\n"
+        "def generate_launch_description():\n"
+        f'    FindPackageShare("{asked}")\n'
+        "    return LaunchDescription([])\n"
+    )
+    assert checked(launch, "cart_description") == []

@@ -236,3 +236,5 @@ def test_a_misspelt_dependency_on_a_package_that_is_used(copied: Copied) -> None
     assert depend_on("xcaro", "rviz2") == ["write xacro"]
     assert depend_on("robot_localisation") == ["write robot_localization"]
     assert depend_on("xacro", "xcaro", "rviz_common", "cart_bringup") == []
+    real = "joint_state_publisher", "robot_state_publisher_gui", "xacro_msgs"
+    assert depend_on(*real) == []

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from sambot_viz import limits
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
@@ -199,9 +200,10 @@ def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
     used = {word for launch in around.launches for word in _words(launch)}
     for element in listed:
         name = element.text.strip()
-        # A package of the workspace may have almost the same name as another one.
         near = nearest(name, sorted(used & _KNOWN - named), _LIKENESS)
-        if name in used or near is None:
+        if name in used or near is None or not is_misspelt(name, near):
+            continue
+        if around.files.knows(name):
             continue
         user = next(one for one in around.launches if near in _words(one))
         yield Problem.at(

@@ -7,6 +7,7 @@ import difflib
 import re
 from collections.abc import Iterator
 
+from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
@@ -16,10 +17,10 @@ from sambot_viz.robot.xml.element import Element
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
 _PARTS = frozenset(
     """
-    base bringup common control controller demo description driver examples fake
-    gazebo generator gz hardware interfaces launch localization mapping moveit msgs nav
-    nav2 navigation node perception robot sim simulation simulator slam support teleop
-    tests tools utils viz
+    base bringup common config control controller demo description driver examples
+    fake firmware gazebo generator gz hardware interfaces launch localization
+    mapping moveit msgs nav nav2 navigation node perception robot sim simulation
+    simulator slam support teleop tests tools utils viz
     """.split()
 )
 """What the names of the packages of one robot end with."""
@@ -73,18 +74,15 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
             # Where they ask for the name there, that of package.xml is wrong.
             others |= {package.cmake.project.text}
         for launch in package.launches:
-            asked = [
-                (text, call)
-                for call in launch.calls
-                if call_name(call.func) in _SHARE_CALLS
-                and call.args
-                and (text := _text(call.args[0])) is not None
-            ]
+            asked = list(_asked(launch))
             if any(text == package.name for text, _ in asked):
                 continue
-            for text, call in asked:
-                if text not in others and _alike(text, package.name):
-                    place = launch.place(call)
+            for text, place in asked:
+                if (
+                    text not in others
+                    and _alike(text, package.name)
+                    and not package.knows(text)
+                ):
                     yield Problem.at(
                         place,
                         "error",
@@ -96,6 +94,14 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
                     break
 
 
+def _asked(launch: LaunchFile) -> Iterator[tuple[str, Place]]:
+    """Give the packages whose share folders a launch file asks for."""
+    for call in launch.calls:
+        text = _text(call.args[0]) if call.args else None
+        if text is not None and call_name(call.func) in _SHARE_CALLS:
+            yield text, launch.place(call)
+
+
 def _dependencies(manifest: Element | None) -> set[str]:
     """The packages that package.xml says are needed."""
     tags = (e for e in manifest.children if "depend" in e.tag) if manifest else ()
@@ -105,8 +111,8 @@ def _dependencies(manifest: Element | None) -> set[str]:
 def _alike(name: str, package: str) -> bool:
     """Tell whether one package name looks like a misspelling of the other."""
     words, others = (re.split(r"[_\-]", text) for text in (name, package))
-    if {words[-1], others[-1]} <= _PARTS and words[-1] != others[-1]:
-        # Two packages of one robot.
+    if words[-1] in _PARTS and words[-1] != others[-1]:
+        # Two packages of one robot; the other one may not be here.
         return False
     ratio = difflib.SequenceMatcher(None, name, package).ratio()
     return ratio > 0.8 or (words[0] == others[0] and ratio > 0.5)

@@ -53,6 +53,7 @@ class Package:
             working folder, or absolute.
         trusted: False reads no file that a link leads out of the package.
         read: gets each file that is looked for.
+        workspace: finds other packages; None for a folder that is looked at alone.
     """
 
     folder: Path
@@ -60,6 +61,7 @@ class Package:
     relative: bool
     trusted: bool
     read: set[Path]
+    workspace: Workspace | None = None
 
     @cached_property
     def paths(self) -> tuple[str, ...]:
@@ -149,6 +151,18 @@ class Package:
             for value in values
         )
 
+    def knows(self, name: str) -> bool:
+        """Tell whether there is another package of that name, here or installed."""
+        return self.workspace is not None and self.workspace.is_known(name)
+
+    @cached_property
+    def used(self) -> tuple[Package, ...]:
+        """The packages of the workspace that its launch files name."""
+        if self.workspace is None:
+            return ()
+        found = (self.workspace.named(name) for name in sorted(self.uses))
+        return tuple(package for package in found if package is not None)
+
     @cached_property
     def yaml_files(self) -> tuple[YamlFile, ...]:
         """The YAML files."""
@@ -237,7 +251,7 @@ class Workspace:
                 return None
             absolute = folder.absolute()
             self._made[key] = Package(
-                absolute, name, self.relative, self._trusted, self._read
+                absolute, name, self.relative, self._trusted, self._read, self
             )
         return self._made[key]
 
@@ -259,6 +273,11 @@ class Workspace:
         if lookup is None or lookup.path is None or lookup.installed:
             return next((p for p in self.given if p.name == name), None)
         return self.at(lookup.path)
+
+    def is_known(self, name: str) -> bool:
+        """Tell whether there is a package of that name, here or installed."""
+        found = self._trusted and self._index.find(name).path is not None
+        return found or any(package.name == name for package in self.given)
 
     def file(self, value: str) -> Path | None:
         """Return the file that a path such as package://p/urdf/x.urdf means."""
