@@ -88,7 +88,7 @@ def check_all(
 def _load(
     load: Callable[..., Robot], target: CheckedModel, given: Mapping[str, str]
 ) -> Robot:
-    """Load a model; arguments without a value get what launch files say by default.
+    """Load a model; where xacro refuses it, with the arguments of launch files.
 
     Raises:
         RobotError: as `load_robot`.
@@ -96,13 +96,15 @@ def _load(
     try:
         return load(xacro_args=given)
     except RobotError as error:
-        if all(p.code != "xacro-argument-missing" for p in error.problems):
+        if not any(p.code.startswith("xacro-") for p in error.problems):
             raise
-        launches = [file for package in target.packages for file in package.launches]
-        defaults = {k: v for file in launches for k, v in file.values.defaults()}
-        if not defaults:
+        # The import is late: most models need no arguments.
+        from sambot_viz.checks.around.xacro_arguments import xacro_arguments
+
+        found = xacro_arguments(target.model, target.packages)
+        if not found:
             raise
-        return load(xacro_args={**defaults, **given})
+        return load(xacro_args={**found, **given})
 
 
 def problems_around(

@@ -23,6 +23,7 @@ from sambot_viz.robot.packages.package_model import (
     ModelWalk,
     choose_model,
     is_model,
+    is_scenery,
     model_ending,
     models_in,
 )
@@ -201,7 +202,8 @@ class _TargetSearch:
 
     def _models_of(self, package: Package) -> list[Path]:
         if package not in self._own:
-            self._own[package] = models_in(package.folder, ModelWalk())
+            found = models_in(package.folder, ModelWalk())
+            self._own[package] = [path for path in found if not is_scenery(path)]
         return self._own[package]
 
     def _together(self, model: Path, first: tuple[Package, ...]) -> tuple[Package, ...]:
@@ -266,7 +268,7 @@ class _TargetSearch:
                         waiting.append((*other, first, chain))
                 elif value.endswith(MODEL_ENDINGS):
                     file = self._workspace.file(value)
-                    if file is not None and is_model(file):
+                    if file and is_model(file) and not is_scenery(file):
                         start = _Start(file, first, through)
                         found.setdefault(file.resolve(), start)
         return found

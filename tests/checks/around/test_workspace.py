@@ -366,3 +366,71 @@ def test_an_untrusted_model_leads_to_no_other_package(src: Path) -> None:
     assert os.path.isfile(LAUNCH)
     (note,) = check("cart_bringup", trusted=False)
     assert note.code == "package-without-model"
+
+
+XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" {}</robot>'
+NOT_A_ROBOT = {
+    "MoveIt's description": (
+        "config/a.srdf.xacro",
+        XACRO.format('name="a"><group name="arm"><link name="a"/></group>'),
+    ),
+    "constants": ("urdf/a.xacro", XACRO.format('><xacro:include filename="b.xacro"/>')),
+    "scenery": (
+        "models/maze/model.sdf",
+        "<sdf version='1.9'><model name='maze'><pose>1 0 0 0 0 0</pose><link name='a'/>"
+        "<link name='b'/><static>true</static></model></sdf>",
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", NOT_A_ROBOT)
+def test_what_only_looks_like_a_robot_is_not_the_model_of_a_package(
+    kind: str, tmp_path: Path
+) -> None:
+    file, text = NOT_A_ROBOT[kind]
+    package = _package(tmp_path / "a_description")
+    _write(package, file, text)
+    colours = (
+        '><xacro:property name="x" value="1"/><xacro:macro name="m"><link name="l"/>'
+    )
+    _write(package, "urdf/b.xacro", XACRO.format(f"{colours}</xacro:macro>"))
+    (note,) = check(package)
+    assert note.code == "package-without-model"
+    _write(package, "urdf/c.urdf", ROBOT.format("c"))
+    assert check(package) == []
+
+
+COMMAND = """\
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import Command, LaunchConfiguration
+
+
+def generate_launch_description():
+    size = DeclareLaunchArgument("size", choices=["large", "small"])
+    Command(["xacro a.urdf.xacro name:=", "a", " size:=", LaunchConfiguration("size")])
+    return [size]
+"""
+MAPPINGS = """\
+from xacro import process_file
+
+
+def generate_launch_description():
+    return [process_file("a.urdf.xacro", mappings={"name": "a", "size": "large"})]
+"""
+
+
+@pytest.mark.parametrize("launch", [COMMAND, MAPPINGS])
+def test_a_model_gets_the_arguments_that_launch_files_give(
+    launch: str, tmp_path: Path
+) -> None:
+    package = _package(tmp_path / "a_description", launch__a_launch_py="")
+    model = XACRO.format(
+        'name="$(arg name)"><xacro:arg name="name" default="b"/>'
+        '<xacro:arg name="size" default=""/>'
+        '<xacro:property name="sizes" value="${dict(large=1)}"/>'
+        "<link name=\"${sizes['$(arg size)']}\"/>"
+    )
+    _write(package, "urdf/a.urdf.xacro", model)
+    assert {p.severity for p in check(package)} == {"error"}
+    _write(package, "launch/a.launch.py", launch)
+    assert [p for p in check(package) if p.code.startswith("xacro")] == []

@@ -37,7 +37,15 @@ _MACRO = re.compile(r"<xacro:macro\b[^>]*(?<!/)>.*?</xacro:macro\s*>", re.DOTALL
 _INCLUDE = re.compile(r"<(?:xacro:)?include\b[^>]*?filename\s*=\s*[\"']([^\"']+)")
 _LINK = re.compile(r"<link\b")
 _WORLD = re.compile(r"<world\b")
+_STATIC = re.compile(r"<static>\s*(?:1|true)\s*</static>")
+_SEMANTIC = ".srdf.xacro"
+"""MoveIt's description of a robot, which has names of links and no links."""
 _CALL = re.compile(r"<xacro:(?!property|arg\b|include|macro|insert_block|element|attr)")
+_UNKNOWN = re.compile(
+    r"<(?![/?!]|robot\b|include\b|material\b|color\b|texture\b"
+    r"|xacro:(?:property|arg|include|macro)\b)"
+)
+"""An element that may be the call of a macro without its prefix."""
 _EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
 
 
@@ -47,13 +55,20 @@ class _ModelFile:
 
     Attributes:
         path: the file.
-        builds_links: it has links, or calls or includes something that may.
+        has_links: it has links, or calls something that may.
         includes: the files it includes, as it writes them.
+        may_be_robot: it is neither a world nor MoveIt's description of a robot.
     """
 
     path: Path
-    builds_links: bool
+    has_links: bool
     includes: tuple[str, ...]
+    may_be_robot: bool = True
+
+    @property
+    def builds_links(self) -> bool:
+        """True when it has links, or calls or includes something that may."""
+        return self.may_be_robot and (self.has_links or bool(self.includes))
 
 
 @dataclass(slots=True)
@@ -107,11 +122,18 @@ def models_in(folder: Path, walk: ModelWalk) -> list[Path]:
     """
     paths = list(walk.files(folder))
     products = [p for p in paths if not _is_for_tests(p.relative_to(folder))]
-    return (
+    found = (
         _complete_models(products)
         or _complete_models(paths)
         or [path for path in products if _is_model_in_world(path)]
     )
+    return [path for path in found if not is_scenery(path)] or found
+
+
+def is_scenery(path: Path) -> bool:
+    """Tell whether a file in SDF never moves: it is a part of a world, not a robot."""
+    is_sdf = "sdf" in model_ending(path.name)
+    return is_sdf and bool(_STATIC.search(_text_of(path)))
 
 
 def _is_model_in_world(path: Path) -> bool:
@@ -138,7 +160,30 @@ def _complete_models(paths: Sequence[Path]) -> list[Path]:
         for other in files
         if other is not file and _is_included(other.path, include, names)
     }
-    return [f.path for f in files if f.builds_links and f.path not in included]
+    complete = [f for f in files if f.builds_links and f.path not in included]
+    return [f.path for f in complete if _brings_links(f, files, names, {f.path})]
+
+
+def _brings_links(
+    file: _ModelFile, files: Sequence[_ModelFile], names: Sequence[str], seen: set[Path]
+) -> bool:
+    """Tell whether a file has links, or includes one that has some or is not here.
+
+    Args:
+        file: is looked at.
+        files: those of the package.
+        names: their names.
+        seen: files that were looked at.
+    """
+    if file.has_links:
+        return True
+    for include in file.includes:
+        here = [f for f in files if _is_included(f.path, include, names)]
+        more = [f for f in here if f.path not in seen]
+        seen |= {f.path for f in more}
+        if not here or any(_brings_links(f, files, names, seen) for f in more):
+            return True
+    return False
 
 
 def is_model(path: Path) -> bool:
@@ -188,9 +233,10 @@ def _look_at(path: Path) -> _ModelFile:
     text = _text_of(path)
     includes = tuple(_INCLUDE.findall(text))
     outside = _MACRO.sub("", text)
-    builds = bool(_LINK.search(outside) or _CALL.search(outside) or includes)
-    builds = builds and not _WORLD.search(outside)
-    return _ModelFile(path, builds, includes)
+    has_links = bool(_LINK.search(outside) or _CALL.search(outside))
+    has_links |= bool(includes and _UNKNOWN.search(outside))
+    other = _WORLD.search(outside) or path.name.endswith(_SEMANTIC)
+    return _ModelFile(path, has_links, includes, not other)
 
 
 def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
