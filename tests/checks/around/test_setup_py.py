@@ -214,6 +214,28 @@ def test_a_right_package_gives_nothing(package: Path) -> None:
         ),
         pytest.param(
             "entry-point-missing",
+            (SETUP, "cart_description.stop", "cart_description.stops"),
+            22,
+            "there is cart_description/stop.py: ros2 run stops",
+            "write stop = cart_description.stop:main",
+            (SETUP, "cart_description.stops", "cart_description.stop"),
+            id="module",
+        ),
+        pytest.param(
+            "entry-point-missing",
+            (
+                SETUP,
+                "stop = cart_description.stop",
+                "drive_on = cart_description.drive_on",
+            ),
+            22,
+            "there is no cart_description/drive_on.py: ros2 run stops",
+            "make that file, or delete drive_on",
+            (SETUP, "cart_description.drive_on", "cart_description.drive"),
+            id="module that is another",
+        ),
+        pytest.param(
+            "entry-point-missing",
             (SETUP, "drive:main", "drive:mian"),
             21,
             "cart_description/drive.py has no mian; it has main",
@@ -289,6 +311,14 @@ def test_a_program_that_the_package_does_not_have_is_not_started(
     (problem,) = found(package)
     assert problem.code == "launch-program-unknown"
     assert "it has drive (setup.py line 21)" in problem.message
+    assert problem.hint == "write drive"
+    edit(package, (launch, "drvie", "drive_on"))
+    (problem,) = found(package)
+    assert problem.hint == (
+        "add a line drive_on = … to console_scripts in setup.py, or write drive"
+    )
+    assert problem.edits == ()
+    edit(package, (launch, "drive_on", "drvie"))
     edit(package, (launch, "drvie", "drive"))
     assert found(package) == []
 
@@ -310,6 +340,7 @@ def test_a_program_that_the_package_does_not_have_is_not_started(
         ("glob('config/*.yaml')", "glob('**/*.yaml', recursive=True)"),
         ("glob('config/*.yaml')", "sorted(glob('config/*.yml') + glob('config/*.y*'))"),
         ("glob('config/*.yaml')", "[os.path.join('config', f) for f in names]"),
+        ("glob('launch/", "glob('./launch/"),
         ("cart_description.stop:", "other_package.go:"),
         ("package_name = ", "other = "),
     ],

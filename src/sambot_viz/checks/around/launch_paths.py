@@ -8,11 +8,14 @@ from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch import LaunchFile, LaunchNode
+from sambot_viz.checks.around.files.launch_values import keyword
 from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -26,6 +29,7 @@ OWN_NAMES = {
 }
 """Programs whose nodes have other names than the programs."""
 
+_ASKING = frozenset({"exists", "isfile", "is_file", "write_text"})
 _WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
 _WORLDS = (".sdf", ".world", ".wbt")
 _MODELS = (".urdf", ".xacro", ".sdf")
@@ -35,14 +39,15 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
     """Report files that a launch file names otherwise than they are called."""
     for launch in around.launches:
         known: set[str] = set()
-        for fact in launch.paths:
+        for fact in () if _makes_files(launch) else launch.paths:
             package, below = around.named(fact.value) or (None, "")
             if package is None or fact.value in known or "*" in below:
                 continue
             known.add(fact.value)
-            near = None
+            near = read = None
             if _is_missing(below, package):
-                near = _read_by(launch, fact, package) or _near(below, package.paths)
+                read = _read_by(launch, fact, package)
+                near = read or _near(below, package.paths)
             if near is not None:
                 yield Problem.at(
                     fact.place,
@@ -50,8 +55,32 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
                     "launch-file-missing",
                     f"the launch file uses {below}, which {_whose(package, launch)} "
                     f"does not have; it has {near}",
-                    f"write {near}",
+                    f"write {near}"
+                    if read or _is_meant(below, near, package.paths)
+                    else f"add that file, or write {near} if it is meant",
                 )
+
+
+def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
+    """Tell whether a file is misspelt, or there is only one that can be meant."""
+    names = (PurePosixPath(path).name for path in (below, near))
+    if is_misspelt(*(name.partition(".")[0] for name in names)):
+        return True
+    folder, kind = PurePosixPath(near).parent, PurePosixPath(near).suffix
+    beside = [p for p in paths if PurePosixPath(p).parent == folder]
+    return sum(p.endswith(kind) for p in beside) == 1
+
+
+def _makes_files(launch: LaunchFile) -> bool:
+    """Tell whether a launch file asks which files there are, or writes some."""
+    return any(
+        call_name(call.func) in _ASKING
+        or (
+            call_name(call.func) == "open"
+            and "w" in (launch.values.text(keyword(call, "mode", 1)) or "")
+        )
+        for call in launch.calls
+    )
 
 
 def _whose(package: Package, launch: LaunchFile) -> str:

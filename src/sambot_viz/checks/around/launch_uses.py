@@ -13,6 +13,7 @@ from sambot_viz.checks.around.files.launch_values import SHARE, keyword, values_
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.launch_code import undefined_names
+from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -114,13 +115,16 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
             if near is None or name in every or keyword(call, "default", 1) is not None:
                 continue
             place = launch.place(call)
+            instead = f"write LaunchConfiguration('{near}')"
             yield Problem.at(
                 place,
                 "error",
                 "launch-argument-unknown",
                 f"the launch argument {name} is not declared; {near} is "
                 f"({where(declared[near], place)}): ros2 launch stops with it",
-                write(place, name, near, hint=f"write LaunchConfiguration('{near}')"),
+                write(place, name, near, hint=instead)
+                if is_misspelt(name, near) or near.endswith(f"_{name}")
+                else f"declare {name}, or {instead}",
             )
 
 
@@ -161,9 +165,14 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
                 f"the package {package} has no program {program}{there}: ros2 launch "
                 "stops with it",
                 write(place, program, near)
-                if near
-                else f"add a line {program} = … to console_scripts in setup.py",
+                if near and (own is None or is_misspelt(program, near))
+                else _other_program(program, near),
             )
+
+
+def _other_program(program: str, near: str | None) -> str:
+    other = f", or write {near}" if near else ""
+    return f"add a line {program} = … to console_scripts in setup.py{other}"
 
 
 def _own_programs(package: Package) -> dict[str, Place] | None:

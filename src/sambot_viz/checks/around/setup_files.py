@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.setup_py import DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.launch_code import PREDEFINED, bound_names
+from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
@@ -140,7 +141,7 @@ def _no_module(
         if p.endswith(".py") and not p.endswith("__.py")
     }
     near = nearest(program.module, modules)
-    if near is None:
+    if near is None or not is_misspelt(program.module, near):
         return f"there is no {path}.py", f"make that file, or delete {program.name}"
     return (
         f"there is no {path}.py; there is {modules[near]}",
