@@ -203,3 +203,11 @@ def test_one_part_in_another_unit_is_found_beside_parts_in_metres(
     (problem,) = found(tmp_path, text)
 
     assert problem.hint == f"write metres: {hint}"
+
+
+def test_a_ground_below_a_robot_may_be_large(tmp_path: Path) -> None:
+    ground = '<link name="caster">\n<visual><geometry><box size="5 5 {}"/>'
+    ground += "</geometry></visual>"
+    text = cart(1).replace('<link name="caster">', ground)
+    assert found(tmp_path, text.format(0.001)) == []
+    assert found(tmp_path, text.format(0.3)) != []

@@ -13,7 +13,7 @@ from sambot_viz.checks.lengths import UNITS, is_lighter_than_foam, written_lengt
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.parts import Joint, MeshFile, Shape
+from sambot_viz.robot.parts import Box, Joint, MeshFile, Shape
 
 if TYPE_CHECKING:
     from sambot_viz.robot.xacro.diagnose.source_files import SourceSet
@@ -22,6 +22,8 @@ _TIMES, _TIMES_WITH_MESHES = 4.5, 8.0
 """So many times larger than all others; the sizes of meshes are not known here."""
 _LARGE = 1.5
 """What is smaller may be right [m]."""
+_THIN = 0.001
+"""A shape is a plane when it is so thin, as a share of its length."""
 _SMALL = 0.01
 """What is smaller says nothing of the size of a robot [m]."""
 _LEAST, _SHARE = 8, 0.25
@@ -95,7 +97,7 @@ def _elements(robot: Robot) -> Iterator[_Written]:
     carrying = {joint.parent for joint in robot.joints.values()}
     for link in robot.links.values():
         for shape in (*link.visuals, *link.collisions):
-            if not isinstance(shape.geometry, MeshFile):
+            if not isinstance(shape.geometry, MeshFile) and not _is_plane(shape):
                 what, values = written_lengths(shape.geometry)
                 place = shape.geometry_place or shape.place
                 what = f"link {link.name}: the {what}"
@@ -106,6 +108,12 @@ def _elements(robot: Robot) -> Iterator[_Written]:
         # Where the robot stands in a map is no part of it.
         if all(_has_shapes(robot, name) for name in (joint.parent, joint.child)):
             yield _origin(f"the place of joint {joint.name}", joint, robot)
+
+
+def _is_plane(shape: Shape) -> bool:
+    """Tell whether a shape is a ground or a wall, which has hardly any thickness."""
+    box = shape.geometry
+    return isinstance(box, Box) and min(box.size) < _THIN * max(box.size)
 
 
 def _is_rail(element: _Written, robot: Robot) -> bool:

@@ -170,3 +170,13 @@ def test_what_a_bridge_reads_is_not_reported(
     bridge = package / BRIDGE
     bridge.write_text(bridge.read_text().replace(right, other))
     assert check(package / MODEL) == []
+
+
+def test_of_parameters_ros_reads_all_documents(copied: Copied) -> None:
+    package = copied("gz")
+    ekf, bridge = package / EKF, package / BRIDGE
+    ekf.write_text(f"{ekf.read_text()}---\nother:\n  ros__parameters:\n    a: 1\n")
+    assert check(package / MODEL) == []
+    bridge.write_text(f"{bridge.read_text()}---\n- service_name: /world/room/control\n")
+    (problem,) = check(package / MODEL)
+    assert (problem.code, problem.hint) == ("parameters-yaml", "delete this line")

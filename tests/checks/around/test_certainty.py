@@ -207,6 +207,23 @@ def test_any_package_of_ros_brings_the_commands_of_ament(
     assert codes(package) == ([] if known else ["cmake-command-missing"])
 
 
+def test_a_build_file_with_two_projects_has_no_certain_name(copied: Copied) -> None:
+    package = copied("gz")
+    found = "find_package(ament_cmake REQUIRED)"
+    edit(package / "CMakeLists.txt", found, f"{found}\nproject(SUPERBUILD NONE)")
+    assert codes(package) == []
+
+
+def test_a_node_that_gets_its_parameters_from_the_launch_file_needs_no_other(
+    copied: Copied,
+) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, 'os.path.join(share, "config/ekf.yaml"),', "")
+    assert codes(package) == ["launch-parameters-missing"]
+    edit(package / LAUNCH, '{"use_sim_time": use', '{"odom0": "o", "use_sim_time": use')
+    assert codes(package) == []
+
+
 def test_a_node_that_is_defined_and_not_started_is_not_judged(copied: Copied) -> None:
     package = copied("gz")
     edit(package / LAUNCH, 'name="ekf_filter_node"', 'name="ekf"')
@@ -498,6 +515,29 @@ def test_a_footprint_may_keep_a_distance(copied: Copied) -> None:
     assert codes(package) == ["footprint-size"]
     bumper = '<visual><geometry><box size="1.4 0.1 0.1"/></geometry></visual>'
     edit(package / MODEL, '<link name="base_link">', f'<link name="base_link">{bumper}')
+    assert codes(package) == []
+
+
+def test_files_with_other_footprints_may_be_for_several_robots(copied: Copied) -> None:
+    package = copied("gz")
+    other = package / "config" / "slow_params.yaml"
+    other.write_text((package / NAV2).read_text().replace("robot_radius: 0.3", "r: 0"))
+    edit(package / NAV2, "robot_radius: 0.3", "robot_radius: 0.05")
+    severities = {p.severity for p in check(package / MODEL)}
+    assert severities == {"warning"}
+    edit(other, "r: 0", "robot_radius: 0.1")
+    severities = {p.severity for p in check(package / MODEL)}
+    assert severities == {"info"}
+
+
+@pytest.mark.parametrize("done", ["os.path.exists(model)", "open(model, 'w')"])
+def test_a_file_that_a_launch_file_makes_or_looks_for_may_be_missing(
+    copied: Copied, done: str
+) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, "config/ekf.yaml", "config/my_ekf.yaml")
+    assert codes(package) == ["launch-file-missing"]
+    edit(package / LAUNCH, "    rviz =", f"    {done}\n    rviz =")
     assert codes(package) == []
 
 

@@ -101,6 +101,7 @@ def test_a_node_that_is_started_may_publish_a_frame(
         ("src/driver.cpp", 'msg.header.frame_id = "dock";\n'),
         ("scripts/dock.py", "FRAME = 'dock'\n"),
         ("config/driver.yaml", "driver:\n  ros__parameters:\n    dock_frame: dock\n"),
+        ("config/cart.srdf", '<virtual_joint name="v" parent_frame="dock"/>'),
         ("launch/driver.launch.xml", '<launch><node pkg="cart_driver"/></launch>'),
     ],
 )

@@ -147,7 +147,10 @@ def _form(key: yaml.ScalarNode, below: yaml.Node | None) -> tuple[str, str]:
 
 
 def second_documents(around: Surroundings) -> Iterator[Problem]:
-    """Report a second YAML document in a file of which only the first is read."""
+    """Report a second YAML document in a file of which only the first is read.
+
+    That is a list for a bridge: of parameters, ROS reads all documents.
+    """
     for package, path, _user in parameter_files(around):
         line = _second_document(package.text(path) or "")
         if line is not None:
@@ -161,15 +164,18 @@ def second_documents(around: Surroundings) -> Iterator[Problem]:
 
 
 def _second_document(text: str) -> int | None:
-    """The line of the --- of a second document; None for a file with one."""
+    """The line of the --- after a list; None for a file with one document."""
     if "---" not in text:
         return None
-    starts = 0
+    starts, is_list = 0, False
     try:
         for event in _YAML.parse(text, _LOADER):
             starts += isinstance(event, yaml.DocumentStartEvent)
             if starts == 2:
                 return int(event.start_mark.line) + 1
+            is_list |= isinstance(event, yaml.SequenceStartEvent)
+            if isinstance(event, yaml.MappingStartEvent) and not is_list:
+                return None
     except (yaml.YAMLError, RecursionError):
         return None
     return None

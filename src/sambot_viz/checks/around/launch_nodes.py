@@ -227,8 +227,21 @@ def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
                 continue
             ((package, file),) = files
             unsaid = not any(posixpath.basename(file.path) in text for text in said)
-            if file.shown not in used and unsaid:
+            if file.shown not in used and unsaid and not _gives(launch, node, file):
                 yield _left_out(launch, node, name, file, package)
+
+
+def _gives(launch: LaunchFile, node: LaunchNode, file: YamlFile) -> bool:
+    """Tell whether a launch file itself gives a node parameters that a file has."""
+    names = {p.name for p in file.parameters}
+    return any(
+        launch.values.text(key) in names - {"use_sim_time"}
+        for call in launch.calls
+        if launch.place(call) == node.place
+        for item in launch.values.items(keyword(call, "parameters"))
+        if isinstance(item, ast.Dict)
+        for key in item.keys
+    )
 
 
 def _left_out(

@@ -21,6 +21,7 @@ _OF_MAPS = frozenset({"map", "odom"})
 """Frames that localization publishes, and needs."""
 _LAUNCHED = (".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
 _PACKAGE = re.compile(r"pkg\s*[=:]\s*[\"']?([\w$()-]+)")
+_HELD_BY = re.compile(r"<virtual_joint\b[^>]*\bparent_frame\s*=\s*[\"']([^\"']+)")
 _PUBLISHERS = (*DRIVE_ODOMS, "odom_frame")
 
 
@@ -53,6 +54,10 @@ def _named(around: Surroundings) -> Iterator[str]:
             yield bare_frame(parameter.fact.value)
         elif parameter.name == "left_wheel_names":
             yield "odom"
+    for package in around.packages:
+        # MoveIt publishes where its virtual joint holds the robot.
+        for path in package.ending(".srdf", ".srdf.xacro"):
+            yield from _HELD_BY.findall(package.text(path) or "")
     if any(_MAPS.search(text) for text in _started(around)):
         yield from _OF_MAPS
     if any(_MAPS.search(node) for file in around.yaml_files for node in file.nodes):

@@ -20,6 +20,7 @@ from sambot_viz.robot.xml.element import Element
 
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
 _MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")
+_PARAMETERS = (".yaml", ".yml")
 _AS_TOPIC = r"(?<!frame)(?<!frame_id)[\"'> ]/?"
 
 
@@ -197,4 +198,13 @@ class Surroundings:
                 quoted = in_model if is_model else in_program
                 if text is not None and quoted.search(text):
                     return True
-        return False
+        return self._said_in_used(re.compile(rf"[\"'>/ ]{re.escape(bare)}(?![\w/])"))
+
+    def _said_in_used(self, name: re.Pattern[str]) -> bool:
+        """Tell whether a package says a name that is started with these."""
+        used = {p for package in self.packages for p in package.used}
+        return any(
+            name.search(package.text(path) or "")
+            for package in used.difference(self.packages)
+            for path in package.ending(*_SOURCES, *_MODELS, *_PARAMETERS)
+        )

@@ -205,7 +205,8 @@ class _ElementChecker:
     ) -> None:
         better = re.sub(r"(?<=\d),(?=\d)", ".", text)
         better = without_units(better, degrees=_in_degrees(element))
-        better = re.sub(r"(?<=[\d.])[^\d\s.,+eE-]+", "", better)
+        better = re.sub(r"(?<=[\d.])(?![eE][-+]?\d)[^\d\s.,+-]+", "", better)
+        better = " ".join(w for w in better.split() if re.search(r"\d", w))
         if wanted.kind in ("vector2", "vector3"):
             better = " ".join(better.split()[: int(wanted.kind[-1])])
         hint = f"write {better}" if better != text else "write nothing but numbers"

@@ -119,12 +119,12 @@ class CMakeFile:
 
     @cached_property
     def project(self) -> CMakeWord | None:
-        """The name of the project, when it is plain text."""
-        for command in self.commands:
-            if command.name == "project" and command.words:
-                name = command.words[0]
-                return name if re.fullmatch(r"[\w.-]+", name.text) else None
-        return None
+        """The name of the project, when it is plain text, and the only one."""
+        projects = [c for c in self.commands if c.name == "project" and c.words]
+        if len({c.words[0].text for c in projects}) != 1:
+            return None
+        name = projects[0].words[0]
+        return name if re.fullmatch(r"[\w.-]+", name.text) else None
 
     def is_name(self, part: str) -> bool:
         """Tell whether ${PROJECT_NAME} is meant, such as by ${PROJECT_NAM}."""

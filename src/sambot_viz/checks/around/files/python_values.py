@@ -142,7 +142,8 @@ class PythonValues:
             paths = sorted(islice(found, most + 1))
         except OSError:
             return None
-        return Items(tuple((node, path.replace(os.sep, "/")) for path in paths))
+        slashed = (posixpath.normpath(path.replace(os.sep, "/")) for path in paths)
+        return Items(tuple((node, path) for path in slashed))
 
 
 def _variables(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
