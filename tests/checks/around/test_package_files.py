@@ -141,6 +141,56 @@ LICENSE = "<license>BSD-3-Clause</license>"
             "write DIRECTORY for FILES",
             "DIRECTORY",
         ),
+        (
+            "package-xml",
+            MANIFEST,
+            "  <export>\n",
+            "  <run_depend>xacro</run_depend>\n  <export>\n",
+            9,
+            "format 3 has no <run_depend>",
+            "write <exec_depend>",
+            "  <exec_depend>xacro</exec_depend>\n  <export>\n",
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            "<version>0.0.1</version>",
+            "<version>1.2</version>",
+            4,
+            "the version 1.2 is not three numbers",
+            "write <version>1.2.0</version>",
+            "<version>1.2.0</version>",
+        ),
+        (
+            "package-xml",
+            MANIFEST,
+            '<maintainer email="cart@example.org">',
+            "<maintainer>",
+            6,
+            "no <maintainer> has an email",
+            'write <maintainer email="me@example.org">',
+            '<maintainer email="me@example.org">',
+        ),
+        (
+            "package-dependency",
+            MANIFEST,
+            "  <export>\n",
+            "  <exec_depend>rviz</exec_depend>\n  <export>\n",
+            9,
+            "rviz is a package of ROS 1",
+            "write rviz2",
+            "  <exec_depend>rviz2</exec_depend>\n  <export>\n",
+        ),
+        (
+            "package-dependency",
+            CMAKE,
+            "find_package(ament_cmake REQUIRED)\n",
+            "find_package(ament_cmkae REQUIRED)\nfind_package(xacro)\n",
+            4,
+            "CMake is to find ament_cmkae, but package.xml depends on ament_cmake",
+            "write ament_cmake",
+            "find_package(ament_cmake REQUIRED)\n",
+        ),
     ],
 )
 def test_what_stops_colcon(
@@ -161,7 +211,8 @@ def test_what_stops_colcon(
 
     (problem,) = check(package / MODEL)
 
-    assert (problem.code, problem.severity) == (code, "error")
+    severity = "warning" if code == "package-dependency" else "error"
+    assert (problem.code, problem.severity) == (code, severity)
     assert (problem.file, problem.line) == (str(package / file), line)
     assert cause in problem.message
     assert problem.hint == hint

@@ -62,6 +62,24 @@ def edit(folder: Path, file: str, old: str, new: str) -> None:
             (EKF, "imu0: demo/odom", "imu0: /demo/imu"),
             id="topic of another type",
         ),
+        pytest.param(
+            "parameter-unknown",
+            (EKF, "odom0: demo", "odom: demo"),
+            EKF,
+            "ekf_filter_node has no parameter odom, but odom0",
+            "write odom0",
+            (EKF, "odom: demo", "odom0: demo"),
+            id="misspelt sensor of a filter",
+        ),
+        pytest.param(
+            "parameter-unknown",
+            (EKF, "imu0_config", "imu0_conf"),
+            EKF,
+            "has no parameter imu0_conf, but imu0_config",
+            "write imu0_config",
+            (EKF, "imu0_conf", "imu0_config"),
+            id="misspelt choice of values",
+        ),
     ],
 )
 def test_a_mistake_is_found_and_its_fix_leaves_nothing(

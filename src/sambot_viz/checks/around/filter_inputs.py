@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.navigation import filters
+from sambot_viz.checks.around.parameter_names import meant_name
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
 
@@ -20,10 +21,11 @@ def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
         if not any(name.endswith("_config") for name in one.given):
             # Perhaps the values are set elsewhere.
             continue
+        meant = {meant_name(name, one.given, "filter") for name in one.given}
         for kind, used in _USED.items():
             for parameter in one.inputs(kind):
                 wanted = f"{parameter.name}_config"
-                if (parameter.node, wanted) in given or wanted in said:
+                if (parameter.node, wanted) in given or wanted in said | meant:
                     continue
                 yield Problem.at(
                     parameter.place,

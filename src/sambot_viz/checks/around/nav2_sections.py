@@ -21,6 +21,7 @@ _NODES = frozenset(
 )
 _LIKENESS = 0.85
 _SOURCES, _PLUGIN = ".observation_sources", ".plugin"
+_LISTS = ("plugins", "filters", "checker_plugin")
 _SLASHED = frozenset({"robot_base_frame", "global_frame", "local_frame"})
 
 
@@ -103,7 +104,7 @@ def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
             "error",
             "nav2-plugin",
             f"Nav2 has no plugin {said}: {node} stops with an error",
-            f"write {known[near].format(joint)}",
+            write(parameter.value_place, said, known[near].format(joint)),
         )
 
 
@@ -146,9 +147,7 @@ def _sources(parameter: Parameter, given: Mapping[str, Parameter]) -> Iterator[P
 
 
 def _plugins(given: Mapping[str, Parameter]) -> Iterator[Problem]:
-    lists = [
-        p for p in given.values() if p.name.endswith("plugins") or p.name == "filters"
-    ]
+    lists = [p for p in given.values() if p.name.endswith(_LISTS)]
     named = {name for one in lists for name in one.values}
     left = {
         name.removesuffix(_PLUGIN): parameter.place

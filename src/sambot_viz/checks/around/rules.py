@@ -94,6 +94,12 @@ from sambot_viz.checks.around.manifest import (
     misspelt_dependencies,
     unreadable_manifest,
 )
+from sambot_viz.checks.around.manifest_words import (
+    malformed_values,
+    misspelt_packages,
+    packages_of_ros1,
+    unknown_elements,
+)
 from sambot_viz.checks.around.nav2_sections import (
     frames_with_slash,
     odd_clocks,
@@ -103,6 +109,10 @@ from sambot_viz.checks.around.nav2_sections import (
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
 from sambot_viz.checks.around.own_names import setup_name, unknown_packages
+from sambot_viz.checks.around.parameter_names import (
+    misspelt_parameters,
+    unknown_values,
+)
 from sambot_viz.checks.around.parameter_types import parameter_types
 from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.sensors import (
@@ -167,6 +177,10 @@ OF_BUILD: tuple[Check, ...] = (
     unreadable_manifest,
     incomplete_manifest,
     misspelt_dependencies,
+    unknown_elements,
+    malformed_values,
+    packages_of_ros1,
+    misspelt_packages,
     build_types,
     missing_commands,
     folders_as_files,
@@ -192,6 +206,8 @@ OF_FILES: tuple[Check, ...] = (
     empty_parameters,
     misspelt_key,
     parameter_types,
+    misspelt_parameters,
+    unknown_values,
     unreadable_footprints,
     unread_sections,
     unknown_plugins,

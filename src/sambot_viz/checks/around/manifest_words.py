@@ -1,0 +1,142 @@
+"""Words of package.xml that colcon does not know, and packages that ROS 2 lacks."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import rename_element, write
+from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.xml.element import Element
+
+_TAGS = frozenset(
+    """
+    author build_depend build_export_depend buildtool_depend buildtool_export_depend
+    conflict depend description doc_depend exec_depend export group_depend license
+    maintainer member_of_group name replace test_depend url version
+    """.split()
+)
+"""The elements of formats 2 and 3."""
+_OF_FORMAT_1 = {"run_depend": "exec_depend"}
+_LIKENESS = 0.75
+_VERSION = re.compile(r"\d+\.\d+\.\d+")
+_STARTED = re.compile(r"v?(\d+)(?:\.(\d+))?")
+_MOST_LIKE = 0.8
+
+
+def unknown_elements(around: Surroundings) -> Iterator[Problem]:
+    """Report elements of package.xml that its format does not have."""
+    root = around.manifest
+    if root is None or root.tag != "package" or root.get("format") not in ("2", "3"):
+        return
+    for element in root.children:
+        tag = element.tag
+        near = _OF_FORMAT_1.get(tag) or nearest(tag, _TAGS, _LIKENESS)
+        if tag in _TAGS or near is None:
+            continue
+        place = _place(element, around)
+        yield _stops(
+            place,
+            f"package.xml of format {root.get('format')} has no <{tag}>",
+            rename_element(place, tag, near, f"write <{near}>"),
+        )
+
+
+def malformed_values(around: Surroundings) -> Iterator[Problem]:
+    """Report a version without three numbers, and a maintainer without an address."""
+    root = around.manifest
+    if root is None or root.tag != "package":
+        return
+    version = root.find("version")
+    said = version.text.strip() if version is not None else ""
+    if version is not None and said and not _VERSION.fullmatch(said):
+        place, started = _place(version, around), _STARTED.fullmatch(said)
+        right = f"{started[1]}.{started[2] or 0}.0" if started else "0.0.0"
+        hint = f"write <version>{right}</version>"
+        yield _stops(
+            place,
+            f"the version {said} is not three numbers with dots between them",
+            write(place, said, right, hint=hint) if started else hint,
+        )
+    people = [child for child in root.children if child.tag == "maintainer"]
+    if people and not any(person.get("email") for person in people):
+        yield _stops(
+            _place(people[0], around),
+            "no <maintainer> has an email",
+            'write <maintainer email="me@example.org">',
+        )
+
+
+def _stops(place: Place, cause: str, hint: str | Fix) -> Problem:
+    follows = "colcon does not take it for a package"
+    return Problem.at(place, "error", "package-xml", f"{cause}: {follows}", hint)
+
+
+def _place(element: Element, around: Surroundings) -> Place:
+    shown = around.files.shown("package.xml")
+    return Place(shown, element.place.line, element.place.column)
+
+
+def packages_of_ros1(around: Surroundings) -> Iterator[Problem]:
+    """Report dependencies of a package of ROS 2 on packages that only ROS 1 has."""
+    root = around.manifest
+    built = (
+        {e.text.strip() for e in root.iter() if e.tag == "build_type"} if root else ()
+    )
+    if root is None or not any(kind.startswith("ament") for kind in built):
+        return
+    for element in root.children:
+        name = element.text.strip()
+        better = vocabulary("ros1_packages").get(name, ())
+        skipped = name in around.names or element.get("condition") is not None
+        if not element.tag.endswith("depend") or not better or skipped:
+            continue
+        place = _place(element, around)
+        yield Problem.at(
+            place,
+            "warning",
+            "package-dependency",
+            f"{name} is a package of ROS 1, and this package is of ROS 2: rosdep does "
+            "not find it",
+            write(place, name, better[0]),
+        )
+
+
+def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
+    """Report a find_package that is almost a dependency, which nothing else finds."""
+    root, cmake = around.manifest, around.cmake
+    if root is None or cmake is None or cmake.fault is not None:
+        return
+    needed = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
+    calls = [c for c in cmake.commands if c.name == "find_package" and c.words]
+    found = {call.words[0].text for call in calls}
+    for call in calls:
+        name = call.words[0].text
+        near = nearest(name, sorted(needed - found), _MOST_LIKE)
+        if near is None or name in needed or not _is_one_slip(name, near):
+            continue
+        required = "REQUIRED" in (word.text for word in call.words)
+        if not required or not call.certain:
+            continue
+        place = cmake.place(call.words[0].line)
+        yield Problem.at(
+            place,
+            "warning",
+            "package-dependency",
+            f"CMake is to find {name}, but package.xml depends on {near}: colcon build "
+            f"stops where there is no {name}",
+            write(place, name, near),
+        )
+
+
+def _is_one_slip(one: str, other: str) -> bool:
+    """Tell whether two names differ in one letter, or in the order of their letters.
+
+    There is nav_msgs and nav2_msgs: a digit is no slip.
+    """
+    letters, wanted = Counter(one), Counter(other)
+    more, less = [*(letters - wanted).elements()], [*(wanted - letters).elements()]
+    return max(len(more), len(less)) < 2 and all(c.isalpha() for c in more + less)
