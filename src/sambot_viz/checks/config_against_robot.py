@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import is_bundled
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import QOS_PROPERTIES
-from sambot_viz.rviz.declarations import kind_of
+from sambot_viz.rviz.declarations import is_ros1, kind_of
 from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
         for display in models:
             problems += _description(display, config.file)
     misspelt = list(_misspelt_classes(config))
-    problems += misspelt
+    problems += [*misspelt, *_classes_of_ros1(config)]
     meant = any(_ROBOT_MODEL in problem.hint for problem in misspelt)
     if not models and not meant:
         problems.append(_no_robot_model(config.file))
@@ -67,14 +68,43 @@ def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
             continue
         near = nearest(kind, known, _LIKENESS)
         if near is not None:
+            place = _place(config.file, display.node.get("Class"))
             yield Problem.at(
-                _place(config.file, display.node.get("Class")),
+                place,
                 "warning",
                 "config-class",
                 f"RViz has no display {display.class_id}: it shows an error in its "
                 "place",
-                f"write {near}",
+                _written(place, display.class_id, near, near),
             )
+
+
+def _classes_of_ros1(config: RvizConfig) -> Iterator[Problem]:
+    """Find displays of RViz 1 beside those of RViz 2."""
+    displays = _all(config.displays)
+    if not any(d.class_id.startswith("rviz_default_plugins/") for d in displays):
+        return
+    for display in displays:
+        if is_ros1(display.class_id):
+            place = _place(config.file, display.node.get("Class"))
+            right = kind_of(display.class_id)
+            yield Problem.at(
+                place,
+                "warning",
+                "config-class",
+                f"{display.class_id} is a display of RViz 1, and the others are of "
+                "RViz 2, which shows an error in its place",
+                _written(place, display.class_id, right, right),
+            )
+
+
+def _written(
+    place: Place | str | None, wrong: str, right: str, shown: str
+) -> str | Fix:
+    hint = f"write {shown}"
+    if not isinstance(place, Place):
+        return hint
+    return write(place, wrong, right, hint=hint)
 
 
 def _no_robot_model(file: str | None) -> Problem:
@@ -149,13 +179,14 @@ def _description(display: DisplayConfig, file: str | None) -> Iterator[Problem]:
     value = topic.get("Value") if isinstance(topic, Map) else topic
     name = _text(value)
     if name and name.rpartition("/")[2] != _DESCRIPTION:
+        place = _place(file, value)
         yield Problem.at(
-            _place(file, value),
+            place,
             "warning",
             "setup-description-topic",
             f"the display {display.name} reads the robot from the topic {name}, but "
             f"robot_state_publisher publishes it on /{_DESCRIPTION}",
-            f"write Value: /{_DESCRIPTION}",
+            _written(place, name, f"/{_DESCRIPTION}", f"Value: /{_DESCRIPTION}"),
         )
     yield from _volatile(display, topic, file)
 
@@ -169,14 +200,15 @@ def _volatile(
         return
     if all(_text(topic.get(k.name)) == str(k.default) for k in QOS_PROPERTIES):
         return
+    place, right = _place(file, durability), "Transient Local"
     yield Problem.at(
-        _place(file, durability),
+        place,
         "warning",
         "setup-description-volatile",
         f"the display {display.name} reads the robot with the Durability Policy "
         "Volatile: RViz then misses the description, which is published only once, "
         "and shows nothing and no error",
-        "write Durability Policy: Transient Local",
+        _written(place, "Volatile", right, f"Durability Policy: {right}"),
     )
 
 

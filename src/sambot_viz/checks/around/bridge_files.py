@@ -36,6 +36,7 @@ def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
             if not any(key.endswith("type_name") for key in entry):
                 continue
             yield from _misspelt_keys(entry)
+            yield from _named_twice(entry)
             way = entry.get("direction")
             near = (
                 nearest(way.value.upper(), DIRECTIONS, 0.7) if way is not None else None
@@ -94,6 +95,25 @@ def _misspelt_keys(entry: dict[str, Fact]) -> Iterator[Problem]:
                 f"the bridge does not know the key {key}: {follows}",
                 write(fact.place, key, near),
             )
+
+
+def _named_twice(entry: dict[str, Fact]) -> Iterator[Problem]:
+    """Report topic_name, which gives both names, beside one of the two."""
+    both = entry.get("topic_name")
+    given = [key for key in ("ros_topic_name", "gz_topic_name") if key in entry]
+    if both is None or not given:
+        return
+    lacking = "gz_topic_name" if given == ["ros_topic_name"] else "ros_topic_name"
+    yield Problem.at(
+        both.place,
+        "error",
+        "bridge-entry",
+        f"topic_name is the name in ROS and in Gazebo, and {given[0]} is given too: "
+        "the bridge leaves this topic out",
+        write(both.place, "topic_name", lacking)
+        if len(given) == 1
+        else "delete this line",
+    )
 
 
 def entries_outside_lists(around: Surroundings) -> Iterator[Problem]:

@@ -35,6 +35,18 @@ _CLASSIC = frozenset(
     odometry_topic odometry_source covariance_x covariance_y covariance_yaw
     """.split()
 )
+_MEANT = {
+    "cmd_vel_topic": "topic",
+    "cmd_topic": "topic",
+    "cmdvel_topic": "topic",
+    "odom_frame": "frame_id",
+    "odom_frame_id": "frame_id",
+    "base_frame": "child_frame_id",
+    "robot_base_frame_id": "child_frame_id",
+    "wheel_base": "wheel_separation",
+    "wheel_distance": "wheel_separation",
+}
+"""What other programs call an element of Gazebo's differential drive."""
 _ALIKE = 0.9
 _ALONG = 0.99
 """Least cosine between two directions that are one."""
@@ -49,7 +61,10 @@ def misspelt_elements(robot: Robot) -> Iterator[Problem]:
         for child in plugin.element.children if plugin.is_drive else ():
             if child.tag in _GZ | _CLASSIC | _LIMITS:
                 continue
-            near = nearest(child.tag, sorted(own), _ALIKE)
+            meant = _MEANT.get(child.tag) if own is not _CLASSIC else None
+            near = meant or nearest(child.tag, sorted(own), _ALIKE)
+            if near in {one.tag for one in plugin.element.children}:
+                continue
             if near is not None:
                 yield Problem.at(
                     child.place,

@@ -57,6 +57,7 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
     if around.namespaced:
         return
     links = around.robot.links
+    named = {s.get("name") for _, s in sensors(around.robot.gazebo)}
     prefixed = {link.rpartition("/")[2] for link in links}
     for fact, user, meant in _robot_frames(around):
         name = bare_frame(fact.value)
@@ -64,7 +65,7 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             name in prefixed
             or is_open(name)
             or "/" in name
-            or around.said_elsewhere(name)
+            or (around.said_elsewhere(name) and name not in named)
         ):
             continue
         near = meant or nearest(name, links) or around.robot.root

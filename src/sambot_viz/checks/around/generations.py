@@ -10,7 +10,7 @@ from sambot_viz.checks.around.files.gazebo import Generation, Plugin
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import attributes
-from sambot_viz.edits import write
+from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Place, Problem
 
 _NAMES: dict[Generation, str] = {"gz": "Gazebo", "classic": "Gazebo Classic"}
@@ -72,6 +72,7 @@ def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
         present = {child.tag for child in plugin.element.children}
         for child in plugin.element.children:
             better, value = _ELEMENTS.get(child.tag, ("", ""))
+            hint = f"write <{better}>, with {value} as its value"
             if better and better not in present:
                 yield Problem.at(
                     child.place,
@@ -80,7 +81,9 @@ def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
                     f"<{child.tag}> is of Gazebo Classic: {plugin.filename} "
                     f"({where(plugin.element.place, child.place)}) does not read it "
                     "and uses its own default",
-                    f"write <{better}>, with {value} as its value",
+                    rename_element(child.place, child.tag, better, hint)
+                    if value == "the same"
+                    else hint,
                 )
 
 

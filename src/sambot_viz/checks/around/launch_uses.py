@@ -12,6 +12,7 @@ from sambot_viz.checks.around.files.launch import NODES, LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE, keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.known_nodes import starts_only_known
+from sambot_viz.checks.around.launch_calls import meant_word
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
@@ -19,6 +20,7 @@ from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -35,18 +37,6 @@ _STARTED = frozenset(
 )
 _SETTING = frozenset({"SetLaunchConfiguration", "OpaqueFunction", "GroupAction"})
 _TOPIC, _PUBLISHER = "robot_description", "robot_state_publisher"
-_PROGRAMS: dict[str, str] = {
-    "joint_state_publisher": "joint_state_publisher",
-    "joint_state_publisher_gui": "joint_state_publisher_gui",
-    "robot_localization": "ekf_node ukf_node navsat_transform_node",
-    "robot_state_publisher": "robot_state_publisher",
-    "ros_gz_bridge": "parameter_bridge static_bridge bridge_node",
-    "rviz2": "rviz2",
-    "slam_toolbox": "async_slam_toolbox_node sync_slam_toolbox_node "
-    "localization_slam_toolbox_node lifelong_slam_toolbox_node "
-    "map_and_localization_slam_toolbox_node",
-}
-"""Package → the programs that launch files start from it."""
 
 
 def unused_actions(around: Surroundings) -> Iterator[Problem]:
@@ -149,10 +139,11 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
             program = launch.values.text(given)
             here = next((p for p in around.packages if p.name == package), None)
             own = None if here is None else _own_programs(here)
-            known = _PROGRAMS.get(package, "").split() if own is None else [*own]
+            every = vocabulary("launch_programs").get(package, ())
+            known = every if own is None else tuple(own)
             if given is None or program is None or program in known:
                 continue
-            near = nearest(program, known)
+            near = meant_word(known, program, 0.6)
             if near is None and own is None:
                 continue
             place = launch.place(given)
@@ -233,7 +224,12 @@ def joined_words(around: Surroundings) -> Iterator[Problem]:
                     "launch-command",
                     "Command joins its words without a blank: xacro and the name of "
                     "the model become one word, and ros2 launch stops",
-                    "write 'xacro ', with a blank at the end",
+                    write(
+                        launch.place(first),
+                        "xacro",
+                        "xacro ",
+                        hint="write 'xacro ', with a blank at the end",
+                    ),
                 )
 
 

@@ -37,13 +37,14 @@ _REQUIRED = {
 }
 """What each package.xml needs, and a line for it."""
 
-_KNOWN = frozenset(
+KNOWN = frozenset(
     """
     controller_manager gazebo_ros joint_state_publisher joint_state_publisher_gui
     nav2_bringup robot_localization robot_state_publisher ros_gz_bridge ros_gz_image
     ros_gz_sim rviz2 slam_toolbox teleop_twist_keyboard tf2_ros twist_mux xacro
     """.split()
 )
+"""Packages that launch files often use."""
 _LIKENESS = 0.8
 _BUILD_FILES = {"ament_cmake": "CMakeLists.txt", "ament_python": "setup.py"}
 
@@ -200,19 +201,21 @@ def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
     used = {word for launch in around.launches for word in _words(launch)}
     for element in listed:
         name = element.text.strip()
-        near = nearest(name, sorted(used & _KNOWN - named), _LIKENESS)
+        near = nearest(name, sorted(used & KNOWN - named), _LIKENESS)
         if name in used or near is None or not is_misspelt(name, near):
             continue
         if around.files.knows(name):
             continue
         user = next(one for one in around.launches if near in _words(one))
+        place = element.place
+        here = Place(around.files.shown(_FILE), place.line, place.column)
         yield Problem.at(
-            Place(around.files.shown(_FILE), element.place.line, element.place.column),
+            here,
             "warning",
             "package-dependency",
             f"package.xml depends on {name}, but {user.path} uses {near}: rosdep finds "
             f"no {name}, and does not install {near}",
-            f"write {near}",
+            write(here, name, near),
         )
 
 

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from sambot_viz.checks.around.manifest import KNOWN
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, write
@@ -106,16 +107,18 @@ def packages_of_ros1(around: Surroundings) -> Iterator[Problem]:
 
 
 def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
-    """Report a find_package that is almost a dependency, which nothing else finds."""
+    """Report a find_package that is almost a well-known dependency."""
     root, cmake = around.manifest, around.cmake
     if root is None or cmake is None or cmake.fault is not None:
         return
     needed = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
     calls = [c for c in cmake.commands if c.name == "find_package" and c.words]
     found = {call.words[0].text for call in calls}
+    # Either of two names may be the misspelt one; these exist.
+    known = KNOWN | {name for (name,) in vocabulary("ros1_packages").values()}
     for call in calls:
         name = call.words[0].text
-        near = nearest(name, sorted(needed - found), _MOST_LIKE)
+        near = nearest(name, sorted(needed & known - found), _MOST_LIKE)
         if near is None or name in needed or not _is_one_slip(name, near):
             continue
         required = "REQUIRED" in (word.text for word in call.words)

@@ -109,7 +109,8 @@ def _renamed(
         agree = all(bare(u.parameter.fact.value) == gz for u in readers)
         if len(readers) < 2 or not agree or gz in names or gz == bare(ros.value):
             continue
-        if around.said_elsewhere(gz) or not entry.reaches_ros:
+        elsewhere = around.said_elsewhere(gz, as_topic=True, launched=True)
+        if elsewhere or not entry.reaches_ros:
             continue
         first = readers[0].parameter
         problem = Problem.at(

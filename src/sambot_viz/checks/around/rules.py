@@ -60,6 +60,13 @@ from sambot_viz.checks.around.joint_names import (
     unknown_references,
 )
 from sambot_viz.checks.around.joint_states import no_joint_states
+from sambot_viz.checks.around.launch_calls import (
+    arguments_that_are_no_texts,
+    files_without_folder,
+    misspelt_packages_of_nodes,
+    paths_from_the_root,
+    unknown_keywords,
+)
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
     missing_commas,
@@ -118,6 +125,7 @@ from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.sensors import (
     frames_of_sensors,
     lidars_of_the_other,
+    misspelt_frames,
     sensor_values,
     sensors_without_link,
     unknown_types,
@@ -128,13 +136,17 @@ from sambot_viz.checks.around.setup_files import (
     missing_entry_points,
     programs_elsewhere,
 )
+from sambot_viz.checks.around.setup_words import (
+    entry_points_without_colon,
+    misspelt_arguments,
+    texts_for_lists,
+)
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import (
     both_generations,
     malformed_numbers,
-    unknown_classes,
-    unknown_files,
+    unknown_systems,
 )
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -147,6 +159,7 @@ from sambot_viz.checks.around.world_systems import (
     missing_systems,
     plugins_of_worlds,
     unreadable_worlds,
+    values_of_worlds,
 )
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
@@ -158,13 +171,13 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     wrong_sides,
     misspelt_elements,
     both_generations,
-    unknown_classes,
-    unknown_files,
+    unknown_systems,
     malformed_numbers,
     sensors_without_link,
     unknown_types,
     lidars_of_the_other,
     sensor_values,
+    misspelt_frames,
     frames_of_sensors,
 )
 """The rules that need only the model."""
@@ -185,7 +198,10 @@ OF_BUILD: tuple[Check, ...] = (
     missing_commands,
     folders_as_files,
     setup_name,
+    misspelt_arguments,
     joined_scripts,
+    texts_for_lists,
+    entry_points_without_colon,
     missing_data_files,
     missing_entry_points,
     programs_elsewhere,
@@ -219,6 +235,11 @@ OF_FILES: tuple[Check, ...] = (
     missing_entries,
     unknown_names,
     missing_commas,
+    unknown_keywords,
+    arguments_that_are_no_texts,
+    misspelt_packages_of_nodes,
+    paths_from_the_root,
+    files_without_folder,
     arguments_without_list,
     descriptions,
     rviz_without_option,
@@ -244,6 +265,7 @@ OF_FILES: tuple[Check, ...] = (
     world_names,
     unreadable_worlds,
     plugins_of_worlds,
+    values_of_worlds,
 )
 """The rules about launch files and parameters, with or without a robot."""
 
@@ -286,7 +308,7 @@ OF_ROS2: frozenset[Callable[..., Iterable[Problem]]] = frozenset(
 } | {
     misspelt_elements,
     both_generations,
-    unknown_classes,
+    unknown_systems,
     lidars_of_the_other,
 }
 """The rules that know only the plugins, parameters and launch files of ROS 2."""

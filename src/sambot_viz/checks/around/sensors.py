@@ -16,7 +16,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import together, write
+from sambot_viz.edits import rename_element, together, write, write_attribute
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.units import usual_degrees
@@ -24,6 +24,7 @@ from sambot_viz.robot.xml.element import Element
 
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
+_FRAMES = ("frame_id", "frame", "sensor_frame", "optical_frame_id", "link_frame")
 _LIKENESS = 0.75
 _FULL_TURN = 2 * math.pi + 0.01
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
@@ -99,7 +100,7 @@ def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
                 f'a lidar of type "{kind}" is for Gazebo Classic: with '
                 f"{plugin.filename} ({where(plugin.element.place, place)}) the robot "
                 "is for Gazebo, whose lidars are computed by the graphics alone",
-                'write type="gpu_lidar"',
+                write_attribute(place, "type", kind, "gpu_lidar"),
             )
 
 
@@ -107,8 +108,9 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
     """Report types of sensors that are almost one of Gazebo's."""
     known = vocabulary("sensor_types")
     for _, sensor in sensors(robot.gazebo):
-        kind = (sensor.get("type") or "").strip().removesuffix("_sensor")
-        near = None if kind in known else nearest(kind.lower(), known, _LIKENESS)
+        kind = (sensor.get("type") or "").strip()
+        bare = kind.lower().removesuffix("_sensor")
+        near = None if kind in known else nearest(bare, known, _LIKENESS)
         if near is not None:
             yield Problem.at(
                 sensor.place,
@@ -116,7 +118,7 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
                 "gazebo-sensor",
                 f'Gazebo has no sensors of type "{kind}": it leaves {_named(sensor)} '
                 "out",
-                f'write type="{near}"',
+                write_attribute(sensor.place, "type", sensor.get("type") or "", near),
             )
 
 
@@ -162,6 +164,26 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
                     write(least[0].place, least[0].value, most[0].value),
                     write(most[0].place, most[0].value, least[0].value),
                 ),
+            )
+
+
+def misspelt_frames(robot: Robot) -> Iterator[Problem]:
+    """Report a frame of a sensor in an element that Gazebo does not read."""
+    for _, sensor in sensors(robot.gazebo):
+        if facts(sensor, *SENSOR_FRAMES) or sensor.find("plugin") is not None:
+            continue
+        for fact in facts(sensor, *_FRAMES):
+            if fact.value not in robot.links:
+                continue
+            tag = next(c.tag for c in sensor.children if c.place == fact.place)
+            yield Problem.at(
+                fact.place,
+                "warning",
+                "gazebo-element-unknown",
+                f"Gazebo does not read <{tag}> of the sensor {_named(sensor)} "
+                f"({where(sensor.place, fact.place)}): its frame is then a long name "
+                "that no transform has",
+                rename_element(fact.place, tag, "gz_frame_id", "write <gz_frame_id>"),
             )
 
 

@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, plugins
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.xml.element import Element
 
 _FILE = re.compile(r"(?:lib)?(gz-sim\d*|ignition-gazebo\d*)-([a-z-]+)-system(?:\.so)?")
 _LIKE_FILE = re.compile(r"(lib)?(gz-sim\d*|ignition-gazebo\d*)[-_]([\w-]+?)(\.so)?")
@@ -34,38 +36,40 @@ def attributes(system: str) -> str:
     return f'filename="gz-sim-{system}-system" name="{name}"'
 
 
-def unknown_classes(robot: Robot) -> Iterator[Problem]:
-    """Report plugins of Gazebo whose name is not that of the class in their file."""
+def unknown_systems(robot: Robot) -> Iterator[Problem]:
+    """Report plugins of a model that Gazebo does not load."""
     for plugin in plugins(robot.gazebo):
-        file = _FILE.fullmatch(plugin.filename)
-        classes = vocabulary("gz_systems").get(file[2], ()) if file else ()
-        system = next(iter(classes), None)
-        name = (plugin.element.get("name") or "").strip()
-        if file is None or system is None or name.rpartition("::")[2] == system:
-            continue
-        right = f"{_SPACE[file[1].partition('-')[0]]}::{system}"
-        yield Problem.at(
-            plugin.element.place,
-            "warning",
-            "gazebo-plugin",
-            f"{plugin.filename} has no class {name or 'without a name'}: in Gazebo the "
-            "name of a plugin is that of its class, and it does not load this one",
-            f'write name="{right}"',
+        problem = faulty_system(plugin.element)
+        if problem is not None:
+            yield problem
+
+
+def faulty_system(plugin: Element) -> Problem | None:
+    """Report a file that is almost a system of Gazebo, or the name of another class."""
+    filename = plugin.get("filename") or ""
+    name = (plugin.get("name") or "").strip()
+    near, right = near_system(filename), _class_of(filename)
+    if near is not None:
+        what = f"Gazebo has no plugin {filename}: it does not load it"
+        fix = write_attribute(plugin.place, "filename", filename, near)
+    elif right is not None and name.rpartition("::")[2] != right.rpartition("::")[2]:
+        what = (
+            f"{filename} has no class {name or 'without a name'}: in Gazebo the name "
+            "of a plugin is that of its class, and it does not load this one"
         )
+        fix = write_attribute(plugin.place, "name", name, right)
+    else:
+        return None
+    return Problem.at(plugin.place, "warning", "gazebo-plugin", what, fix)
 
 
-def unknown_files(robot: Robot) -> Iterator[Problem]:
-    """Report files of plugins that are almost one of Gazebo's systems."""
-    for plugin in plugins(robot.gazebo):
-        near = near_system(plugin.filename)
-        if near is not None:
-            yield Problem.at(
-                plugin.element.place,
-                "warning",
-                "gazebo-plugin",
-                f"Gazebo has no plugin {plugin.filename}: it does not load it",
-                f'write filename="{near}"',
-            )
+def _class_of(filename: str) -> str | None:
+    """Return the class in a file of Gazebo, None where that is not known."""
+    file = _FILE.fullmatch(filename)
+    classes = vocabulary("gz_systems").get(file[2], ()) if file else ()
+    if file is None or not classes:
+        return None
+    return f"{_SPACE[file[1].partition('-')[0]]}::{classes[0]}"
 
 
 def near_system(filename: str) -> str | None:
@@ -73,7 +77,10 @@ def near_system(filename: str) -> str | None:
     file = _LIKE_FILE.fullmatch(filename)
     if file is None:
         return None
-    name = file[3].replace("_", "-").removesuffix("-system")
+    name = file[3].replace("_", "-")
+    head, _, last = name.rpartition("-")
+    if nearest(last, ["system"], _LIKENESS):
+        name = head
     near = nearest(name, vocabulary("gz_systems"), _LIKENESS)
     better = f"{file[1] or ''}{file[2]}-{near}-system{file[4] or ''}"
     return None if near is None or better == filename else better
@@ -125,5 +132,7 @@ def _malformed(plugin: Plugin, fact: Fact) -> Problem:
         "gazebo-plugin",
         f"{fact.value} is no number for {plugin.filename} "
         f"({where(plugin.element.place, fact.place)}): Gazebo uses another value",
-        f"write {fact.value.replace(',', '.')}" if comma else "write a number alone",
+        write(fact.place, fact.value, fact.value.replace(",", "."))
+        if comma
+        else "write a number alone",
     )

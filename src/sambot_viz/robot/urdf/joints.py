@@ -6,7 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import get_args
 
-from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
@@ -16,6 +17,21 @@ from sambot_viz.robot.xml.element import Element
 
 JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _REFUSED = "ROS refuses the model"
+_MEANT: dict[str, JointType] = {
+    "static": "fixed",
+    "rigid": "fixed",
+    "hinge": "revolute",
+    "rotary": "revolute",
+    "rotational": "revolute",
+    "rotation": "revolute",
+    "wheel": "continuous",
+    "linear": "prismatic",
+    "slider": "prismatic",
+    "sliding": "prismatic",
+    "translational": "prismatic",
+    "free": "floating",
+}
+"""What people call a type → the type."""
 
 
 def read_joint(element: Element, findings: ModelFindings) -> Joint | None:
@@ -59,12 +75,13 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
     plain = text.strip().lower()
     if plain in JOINT_TYPES:
         why = "ROS compares letter by letter, blanks and capitals count"
-        hint = f'write type="{plain}"'
+        hint: str | Fix = write_attribute(element.place, "type", text, plain)
     else:
-        why = did_you_mean(text, JOINT_TYPES)
-        near = nearest(text, JOINT_TYPES)
+        near = _MEANT.get(plain) or nearest(text, JOINT_TYPES)
+        why = did_you_mean(near or text, JOINT_TYPES)
         hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
-        hint = f'write type="{near}"' if near else hint
+        if near is not None:
+            hint = write_attribute(element.place, "type", text, near)
     findings.reject(
         "joint-type-unknown",
         f"joint {name} has the unknown type '{text}' ({why}); {_REFUSED}",

@@ -10,7 +10,8 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.edits import rename_attribute, together, write_attribute
+from sambot_viz.errors import Fix, did_you_mean
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import (
@@ -230,7 +231,13 @@ class LinkReader:
                 "cylinder-height",
                 f"<{element.tag}> of {owner} has a height; the attribute is called "
                 "length",
-                f'write length="{element.get("height")}"',
+                rename_attribute(
+                    element.place,
+                    "height",
+                    "length",
+                    element.get("height") or "",
+                    f'write length="{element.get("height")}"',
+                ),
                 element,
                 "height",
             )
@@ -244,7 +251,7 @@ class LinkReader:
             raise reader.fail(
                 "sphere-diameter",
                 f"<{element.tag}> of {owner} has a diameter; URDF wants the radius",
-                'write radius="…" with half of it',
+                _half(element),
                 element,
                 "diameter",
             )
@@ -254,6 +261,21 @@ class LinkReader:
         filename = reader.required(element, "filename", "package://…/meshes/….stl")
         scale = reader.vector(element, "scale", (1.0, 1.0, 1.0))
         return MeshFile(filename, scale, self._find_mesh(filename, element))
+
+
+def _half(element: Element) -> Fix:
+    """Write the radius for a diameter."""
+    place, diameter = element.place, element.get("diameter") or ""
+    try:
+        radius = f"{float(diameter) / 2:.6g}"
+    except ValueError:
+        return Fix('write radius="…" with half of it')
+    hint = f'write radius="{radius}"'
+    return together(
+        hint,
+        rename_attribute(place, "diameter", "radius", diameter, hint),
+        write_attribute(place, "diameter", diameter, radius),
+    )
 
 
 def _moments_to_add(inertia: Element, missing: list[str]) -> str:

@@ -22,6 +22,7 @@ _NEWER = re.compile(
 """Text that one version of Python reads and another does not."""
 
 _NAME_AT_END = re.compile(r"[A-Za-z_][\w.]*$")
+_LISTED = re.compile(r"""\[(?=["'][\w/]+["']\s*:)""")
 _MOST_LINES = 200
 _COMMA = "a comma is missing at the end of this line"
 
@@ -42,6 +43,9 @@ def fault_in_python(text: str) -> Fault | None:
     opened = _opened(lines, at) if "unexpected indent" in error.msg else None
     if opened is not None:
         return opened
+    table = _table(lines, at)
+    if table is not None:
+        return Fault(at, "a : is in square brackets", f"write {table}")
     if not _CERTAIN.search(error.msg):
         return None
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
@@ -84,6 +88,21 @@ def _opened(lines: list[str], at: int) -> Fault | None:
     if again is not None and (again.lineno or 0) <= at:
         return None
     return Fault(n, f"the ( after {name[0]} is missing", f"write {name[0]}(")
+
+
+def _table(lines: list[str], at: int) -> str | None:
+    """Write braces into a list with a name and a colon; None when they mend nothing."""
+    line = lines[at - 1]
+    listed = _LISTED.search(line)
+    if listed is None:
+        return None
+    start, end = listed.end() - 1, line.rfind("]")
+    inner = line[start + 1 : end]
+    better = f"{line[: start + 1]}{{{inner}}}{line[end:]}"
+    again = _error("\n".join([*lines[: at - 1], better, *lines[at:]]))
+    if end < start or (again is not None and (again.lineno or 0) <= at):
+        return None
+    return f"[{{{inner}}}]"
 
 
 def _hint(message: str) -> str:

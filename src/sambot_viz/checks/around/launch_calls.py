@@ -1,0 +1,222 @@
+"""Arguments of the actions in launch files, by name and by type."""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from collections.abc import Iterator, Mapping
+
+from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.files.launch_values import SHARE, keyword
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
+
+_LIKENESS = 0.75
+_ALIKE = 0.85
+_FILES = {"RosGzBridge": "config_file", "GzServer": "world_sdf_file"}
+"""Action → its argument that is the path of a file."""
+_ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
+
+
+def meant_word(words: tuple[str, ...], wrong: str, likeness: float) -> str | None:
+    """Return the word of a vocabulary that was meant by another one.
+
+    Args:
+        words: of the vocabulary; "wrong=right" gives the one that is meant.
+        wrong: what is written.
+        likeness: how like a word that is not given has to be.
+
+    Returns:
+        None for a word that is known, and for one that is like no other.
+    """
+    known = [word for word in words if "=" not in word]
+    if wrong in known:
+        return None
+    named = dict(word.split("=") for word in words if "=" in word)
+    return named.get(wrong) or nearest(wrong, known, likeness)
+
+
+def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
+    """Report arguments that an action does not have, where another one is meant."""
+    table = vocabulary("launch_calls")
+    for launch in around.launches:
+        for call in launch.calls:
+            name = call_name(call.func)
+            given = {k.arg for k in call.keywords if k.arg}
+            for argument in call.keywords if name in table else ():
+                wrong = argument.arg or ""
+                near = meant_word(table[name], wrong, _LIKENESS) if wrong else None
+                if near is None or near in given:
+                    continue
+                place = Place(launch.shown, argument.lineno, argument.col_offset + 1)
+                yield Problem.at(
+                    place,
+                    "error",
+                    "launch-code",
+                    f"{name} has no argument {wrong}, but {near}: ros2 launch stops "
+                    "with it",
+                    _renamed(place, wrong, near),
+                )
+
+
+def _renamed(place: Place, wrong: str, right: str) -> Fix:
+    end = Place(place.file, place.line, (place.column or 1) + len(wrong))
+    return write_between(place, end, right, f"write {right}")
+
+
+def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
+    """Report defaults and launch arguments that are no texts, and a table of them."""
+    for launch in around.launches:
+        for call in launch.calls:
+            if call_name(call.func) == "DeclareLaunchArgument":
+                default = keyword(call, "default_value", 1)
+                if default is not None:
+                    yield from _no_text(default, "default_value", launch)
+            elif call_name(call.func) == "IncludeLaunchDescription":
+                yield from _no_pairs(keyword(call, "launch_arguments"), launch)
+
+
+def _no_text(value: ast.expr, name: str, launch: LaunchFile) -> Iterator[Problem]:
+    inner = value.operand if isinstance(value, ast.UnaryOp) else value
+    said = inner.value if isinstance(inner, ast.Constant) else ""
+    if not isinstance(said, str):
+        written = ast.unparse(value)
+        yield _stops(
+            value,
+            launch,
+            f"{name} is {written}, and launch arguments are texts",
+            f"'{written}'",
+        )
+
+
+def _no_pairs(given: ast.expr | None, launch: LaunchFile) -> Iterator[Problem]:
+    if isinstance(given, ast.Dict):
+        end = Place(
+            launch.shown, given.end_lineno or 1, (given.end_col_offset or 0) + 1
+        )
+        yield Problem.at(
+            end,
+            "error",
+            "launch-code",
+            "launch_arguments takes pairs of a name and a value, and a dict gives its "
+            "names alone: ros2 launch stops with it",
+            write_between(end, end, ".items()", "write .items() after the }"),
+        )
+        return
+    is_items = isinstance(given, ast.Call) and call_name(given.func) == "items"
+    table = given.func if is_items and isinstance(given, ast.Call) else None
+    inner = table.value if isinstance(table, ast.Attribute) else None
+    if isinstance(inner, ast.Dict):
+        for key, value in zip(inner.keys, inner.values, strict=True):
+            name = key.value if isinstance(key, ast.Constant) else "a value"
+            yield from _no_text(value, str(name), launch)
+
+
+def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Problem:
+    begin, end = launch.place(value), _end(value, launch)
+    return Problem.at(
+        begin,
+        "error",
+        "launch-code",
+        f"{cause}: ros2 launch stops with it",
+        write_between(begin, end, right, f"write {right}"),
+    )
+
+
+def _end(value: ast.expr, launch: LaunchFile) -> Place:
+    line, column = value.end_lineno or value.lineno, value.end_col_offset or 0
+    return Place(launch.shown, line, column + 1)
+
+
+def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
+    """Report the package of a node that is almost the one that has its program."""
+    programs = vocabulary("launch_programs")
+    root = around.manifest
+    depends = [e.text.strip() for e in root.children] if root is not None else []
+    for launch in around.launches:
+        for call in launch.calls:
+            given = keyword(call, "package")
+            package = launch.values.text(given) or ""
+            program = launch.values.text(keyword(call, "executable")) or ""
+            near = nearest(package, programs, _ALIKE)
+            known = package in programs or package in around.names
+            if near is None or known or package in depends or given is None:
+                continue
+            if program in programs[near]:
+                place = launch.place(given)
+                yield Problem.at(
+                    place,
+                    "error",
+                    "launch-package-unknown",
+                    f"there is no package {package}, but {program} is in {near}: ros2 "
+                    "launch stops with it",
+                    write(place, package, near),
+                )
+
+
+def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
+    """Report a slash before a part of a path, where os.path.join begins again."""
+    for launch in around.launches:
+        for call in launch.calls:
+            if call_name(call.func) != "join" or not call.args:
+                continue
+            path = launch.values.text(call) or ""
+            for part in call.args[1:]:
+                said = part.value if isinstance(part, ast.Constant) else None
+                if not isinstance(said, str) or said[:1] != "/":
+                    continue
+                if around.text(path) is None or not path.startswith(SHARE):
+                    continue
+                place, bare = launch.place(part), said.lstrip("/")
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-file-missing",
+                    f"os.path.join drops what is before {said}, because that begins "
+                    f"with a slash: the path is {said} of the computer",
+                    write_between(
+                        place,
+                        _end(part, launch),
+                        f"'{bare}'",
+                        f"write '{bare}' without the slash",
+                    ),
+                )
+
+
+def files_without_folder(around: Surroundings) -> Iterator[Problem]:
+    """Report files of the package that are looked for where ros2 launch is run."""
+    has: Mapping[str, str] = {
+        posixpath.basename(path): path for path in around.files.ending(*_ENDINGS)
+    }
+    for launch in around.launches:
+        for call in launch.calls:
+            for given in _paths(call, launch):
+                said = launch.values.text(given) or ""
+                path = has.get(posixpath.basename(said))
+                begins = said[:1] in ("/", "~", "$") or ":" in said
+                if path is None or begins or not path.endswith(said):
+                    continue
+                share = f"get_package_share_directory('{around.files.name}')"
+                place = launch.place(given)
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "launch-file-missing",
+                    f"{said} is looked for in the folder where ros2 launch is run, "
+                    f"and the package has it as {path}",
+                    Fix(f"write os.path.join({share}, '{path}')"),
+                )
+
+
+def _paths(call: ast.Call, launch: LaunchFile) -> Iterator[ast.expr]:
+    name = call_name(call.func)
+    given = keyword(call, _FILES[name]) if name in _FILES else None
+    if given is not None:
+        yield given
+    if name == "Node":
+        for item in launch.values.items(keyword(call, "parameters")):
+            if isinstance(item, ast.Constant):
+                yield item
