@@ -23,6 +23,7 @@ NO_LIMITS = {
         displays/robot_model/robot_entries.py _MOST_NAMES
         errors.py _LONGEST_SENTENCE
         export/page_file.py LONGEST_NAME
+        graph/labels.py _LONGEST
         messages/shape.py _WIDEST_TEXT
         panels/joints/joint_rows.py LARGEST_GROUP
         panels/permalink/permalink_parts.py MOST_NAMED

@@ -32,6 +32,9 @@ from sambot_viz.frames import FrameTree
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.transform import Transform
+from sambot_viz.graph.drawing import graph_dot, graph_json_text
+from sambot_viz.graph.node_graph import GraphEdge, GraphNode, GraphTopic, node_graph
+from sambot_viz.graph.svg import graph_svg
 from sambot_viz.problems import write_problems
 
 Capture = pytest.CaptureFixture[str]
@@ -93,6 +96,22 @@ def test_drawings_of_frames_are_clean_and_json_keeps_the_names(kind: str) -> Non
     for draw in (tree_svg, tree_dot, tree_json_text):
         assert unclean(draw(tree)) == set()
     assert json.loads(tree_json_text(tree))["frames"] == ["base", name]
+
+
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_graphs_of_nodes_are_clean_and_json_keeps_the_names(kind: str) -> None:
+    name = f"/a{HOSTILE[kind]}<b>&\"'"
+    graph = node_graph(
+        [GraphNode(name, package=name, file=name, line=1)],
+        [GraphTopic(f"{name}/t", types=(name,), problem=Problem("error", "x", name))],
+        [GraphEdge(name, f"{name}/t", "publishes", remapped_from=name)],
+        [name],
+    )
+    drawn = graph_svg(graph, Path())
+    ElementTree.fromstring(drawn)
+    for text in (drawn, graph_dot(graph), graph_json_text(graph)):
+        assert unclean(text) == set()
+    assert json.loads(graph_json_text(graph))["nodes"][0]["name"] == name
 
 
 def test_a_model_is_expanded_to_the_same_xml(tmp_path: Path, capsys: Capture) -> None:

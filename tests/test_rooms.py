@@ -100,6 +100,7 @@ PURE = (
     "messages",
     "meanings",
     "topics",
+    "graph",
 )
 """Rooms that work in a notebook or a grader: no viser, no socket, no thread."""
 
@@ -123,6 +124,7 @@ ROOMS: Mapping[str, Row] = {
     # The way back to a robot.
     "publishing": Row("frames messages sources topics"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
+    "graph": Row("checks robot sources"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row(
@@ -163,9 +165,9 @@ ROOMS: Mapping[str, Row] = {
         "numpy viser",
     ),
     "commands": Row(
-        "_version bundled checks export fixes flags frames inputs joints listened "
-        "moved_by options problems publishing robot rviz server session sources "
-        "topics visualizer",
+        "_version bundled checks export fixes flags frames graph inputs joints "
+        "listened moved_by options problems publishing robot rviz server session "
+        "sources topics visualizer",
         "PIL",
         "signal threading webbrowser",
     ),
@@ -548,6 +550,7 @@ def rings(graph: Mapping[str, set[str]]) -> Iterator[set[str]]:
         ["expand", "MODEL"],
         ["echo", "MODEL", "base_link", "front_caster"],
         ["frames", "MODEL"],
+        ["graph", "MODEL"],
         ["topics", "RECORDING"],
     ],
 )

@@ -36,6 +36,7 @@ COMMANDS = (
     "export",
     "frames",
     "goal",
+    "graph",
     "snapshot",
     "topics",
 )

@@ -84,6 +84,8 @@ class RosbridgePeer(LivePeer):
             "/rosapi/topics": self._topics,
             "/rosapi/publishers": self._publishers,
             "/rosapi/subscribers": self._subscribers,
+            "/rosapi/nodes": self._nodes,
+            "/rosapi/node_details": self._node_details,
         }
         self.is_json = False
         self.operations: list[dict[str, Any]] = []
@@ -266,3 +268,16 @@ class RosbridgePeer(LivePeer):
 
     def _subscribers(self, arguments: dict[str, Any]) -> Answer:
         return {"subscribers": self._listeners.get(arguments["topic"], [])}
+
+    def _nodes(self, _: dict[str, Any]) -> Answer:
+        ends = [topic.publishers for topic in self.there.values()]
+        ends += self._listeners.values()
+        return {"nodes": sorted({node for nodes in ends for node in nodes})}
+
+    def _node_details(self, arguments: dict[str, Any]) -> Answer:
+        node = arguments["node"]
+        return {
+            "publishing": [t for t, of in self.there.items() if node in of.publishers],
+            "subscribing": [t for t, of in self._listeners.items() if node in of],
+            "services": [],
+        }

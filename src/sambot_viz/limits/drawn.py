@@ -208,3 +208,15 @@ MARKER_JUMP = LimitRow(
     "bytes",
     "the newest ones are drawn; the display says so",
 )
+GRAPH_PARTS = LimitRow(
+    "nodes and topics of a graph that is drawn",
+    600,
+    "",
+    "the first ones are drawn, by their names; a line below the graph says so",
+)
+GRAPH_EDGES = LimitRow(
+    "arrows of a graph that is drawn",
+    1500,
+    "",
+    "the first ones are drawn; a line below the graph says so",
+)

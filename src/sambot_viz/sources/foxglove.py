@@ -214,7 +214,9 @@ class FoxgloveConversation(Conversation):
     def topics(self) -> dict[str, SourceTopic]:
         """Return a topic for each name; of several channels the first counts."""
         found: dict[str, SourceTopic] = {}
-        has_graph = "connectionGraph" in self.capabilities and self._publishers
+        tells = "connectionGraph" in self.capabilities
+        has_graph = tells and self._publishers
+        has_readers = tells and (self._publishers or self._subscribers)
         for name, ids in self._by_topic.items():
             channel = self._channels[ids[0]]
             found[name] = SourceTopic(
@@ -224,6 +226,7 @@ class FoxgloveConversation(Conversation):
                 qos=channel.qos,
                 is_latched=channel.is_latched,
                 publishers=self._publishers.get(name, ()) if has_graph else None,
+                subscribers=self._subscribers.get(name, ()) if has_readers else None,
                 left_out=self.left_out(name),
             )
         for name, channel in self._from_parameters.items():

@@ -48,6 +48,7 @@ class SourceTopic:
         is_latched: late subscribers get its messages, as far as that can be known; in
             a recording they hold at any time, see `bag/latched.py`.
         publishers: their names, how many they are, or None when that is not said.
+        subscribers: names of the nodes that read it; None when that is not said.
         reason: why it cannot be read, with the remedy; None if it may be read.
         count: how many messages a recording has that can be read; None while that is
             not known, and of a live robot.
@@ -62,6 +63,7 @@ class SourceTopic:
     qos: Qos | None = None
     is_latched: bool = False
     publishers: tuple[str, ...] | int | None = None
+    subscribers: tuple[str, ...] | None = None
     reason: str | None = None
     count: int | None = None
     left_out: str = ""

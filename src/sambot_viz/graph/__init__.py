@@ -1,0 +1,1 @@
+"""The graph of nodes and topics, expected or running, as rqt_graph draws it."""

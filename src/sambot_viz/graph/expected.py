@@ -1,0 +1,118 @@
+"""The graph of what launch files would start, with what check found in it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from sambot_viz.checks.around.running import Endpoint, RunningNode, RunningSystem
+from sambot_viz.errors import Problem
+from sambot_viz.graph.labels import place_of
+from sambot_viz.graph.node_graph import (
+    GraphEdge,
+    GraphNode,
+    GraphTopic,
+    NodeGraph,
+    node_graph,
+)
+
+_NOTES = 3
+
+
+def expected_graph(
+    system: RunningSystem, problems: Iterable[Problem] = ()
+) -> NodeGraph:
+    """Return the nodes that start, or may, and their topics.
+
+    Args:
+        system: what launch files start.
+        problems: findings of check; each is at the topic that it names, at the line
+            of one of its ends, or at the node that its line starts.
+    """
+    ends = [
+        (node, end)
+        for node in system.started
+        for end in node.endpoints
+        if not end.in_gazebo
+    ]
+    of_topics = _by_topic(ends, problems := tuple(problems))
+    claimed = {id(found) for found in of_topics.values()}
+    others = [found for found in problems if id(found) not in claimed]
+    kinds: dict[str, dict[str, None]] = {}
+    for _, end in ends:
+        kinds.setdefault(end.topic, {}).update({end.kind: None} if end.kind else {})
+    known = all(node.endpoints_known for node in system.started)
+    return node_graph(
+        [_node(node, others) for node in system.started],
+        [
+            GraphTopic(name, types=tuple(types), problem=of_topics.get(name))
+            for name, types in kinds.items()
+        ],
+        [_edge(node, end) for node, end in ends],
+        _notes(system),
+        is_whole=system.is_whole and known,
+    )
+
+
+def _node(node: RunningNode, problems: Iterable[Problem]) -> GraphNode:
+    place = node.place
+    at = (p for p in problems if (p.file, p.line) == (place.file, place.line))
+    return GraphNode(
+        node.path,
+        package=node.package,
+        executable=node.executable,
+        file=place.file,
+        line=place.line,
+        is_certain=node.starts == "yes",
+        problem=next(at, None),
+    )
+
+
+def _edge(node: RunningNode, end: Endpoint) -> GraphEdge:
+    called = {name.strip("~/") for name, _ in node.remappings}
+    is_remapped = end.written.strip("~/") in called
+    return GraphEdge(
+        node.path,
+        end.topic,
+        "publishes" if end.publishes else "subscribes",
+        remapped_from=end.written if is_remapped else "",
+    )
+
+
+def _by_topic(
+    ends: Iterable[tuple[RunningNode, Endpoint]], problems: Iterable[Problem]
+) -> dict[str, Problem]:
+    """Return the first finding of each topic, by the lines and names of its ends."""
+    ends = list(ends)
+    found: dict[str, Problem] = {}
+    for problem in problems:
+        at = {
+            end.topic
+            for node, end in ends
+            if (end.place.file, end.place.line) == (problem.file, problem.line)
+            and end.place != node.place
+        }
+        named = {end.topic for _, end in ends if _names(problem.message, end.topic)}
+        for topic in at & named or named or at:
+            found.setdefault(topic, problem)
+    return found
+
+
+def _names(sentence: str, topic: str) -> bool:
+    """Tell whether a sentence has the name of a topic in it, as a whole."""
+    return re.search(rf"(?<![\w/]){re.escape(topic)}(?![\w/])", sentence) is not None
+
+
+def _notes(system: RunningSystem) -> Iterator[str]:
+    for unknown in system.unknown[:_NOTES]:
+        where = place_of(unknown.place.file or "", unknown.place.line)
+        yield f"more may start: {unknown.what} ({where})"
+    if more := len(system.unknown) - _NOTES:
+        if more > 0:
+            yield f"and at {more} other places"
+    by_name: dict[str, int] = {}
+    for node in system.started:
+        by_name[node.path] = by_name.get(node.path, 0) + 1
+    for name, count in by_name.items():
+        if count > 1:
+            yield f"{name} is started {count} times, and drawn once"

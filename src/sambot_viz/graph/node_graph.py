@@ -1,0 +1,184 @@
+"""Nodes, topics, and who publishes and reads what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from sambot_viz.errors import Problem
+
+Presence = Literal["expected", "running", "both"]
+"""Who says that a part is there: the launch files, the robot, or both of them."""
+Direction = Literal["publishes", "subscribes"]
+_HIDDEN_TOPICS = ("/rosout", "/rosout_agg", "/parameter_events", "/statistics")
+_HIDDEN_NODES = ("_", "transform_listener_impl_", "launch_ros_")
+"""Begins of the last part of names that every program of ROS has beside its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class GraphNode:
+    """A node.
+
+    Attributes:
+        name: with its namespace, such as /front/scanner.
+        presence: who says that it is there.
+        package: that has its executable; "" where that is not known.
+        executable: that starts it, or the plugin that it is; "" as well.
+        file: of the launch file that starts it; "" where none is known.
+        line: in that file, from 1.
+        is_certain: it starts; False where that depends on what is not known.
+        problem: what is wrong with it, from check.
+    """
+
+    name: str
+    presence: Presence = "expected"
+    package: str = ""
+    executable: str = ""
+    file: str = ""
+    line: int | None = None
+    is_certain: bool = True
+    problem: Problem | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class GraphTopic:
+    """A topic.
+
+    Attributes:
+        name: with its namespace.
+        presence: who says that it is there.
+        types: of its messages; several where its ends differ.
+        problem: what is wrong with it, from check.
+    """
+
+    name: str
+    presence: Presence = "expected"
+    types: tuple[str, ...] = ()
+    problem: Problem | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class GraphEdge:
+    """An end of a topic at a node.
+
+    Attributes:
+        node: name of the node.
+        topic: name of the topic.
+        direction: whether the node publishes it or subscribes to it.
+        presence: who says so.
+        remapped_from: what the node itself calls the topic, where that differs.
+    """
+
+    node: str
+    topic: str
+    direction: Direction
+    presence: Presence = "expected"
+    remapped_from: str = ""
+
+    @property
+    def key(self) -> tuple[str, str, Direction]:
+        """Return what two edges have in common that mean the same."""
+        return self.node, self.topic, self.direction
+
+
+@dataclass(frozen=True, slots=True)
+class NodeGraph:
+    """Nodes and topics by name, and the edges between them.
+
+    Attributes:
+        nodes: by name.
+        topics: by name.
+        edges: in the order in which they were found, each once.
+        is_compared: whether it says both what is expected and what runs.
+        is_whole: there is nothing but what it has.
+        notes: what is left out, or not known; sentences without a full stop.
+    """
+
+    nodes: Mapping[str, GraphNode] = field(default_factory=dict[str, GraphNode])
+    topics: Mapping[str, GraphTopic] = field(default_factory=dict[str, GraphTopic])
+    edges: tuple[GraphEdge, ...] = ()
+    is_compared: bool = False
+    is_whole: bool = True
+    notes: tuple[str, ...] = ()
+
+    def unwritten(self) -> frozenset[str]:
+        """Return the topics that nodes read and none publishes."""
+        ends = {
+            way: {edge.topic for edge in self.edges if edge.direction == way}
+            for way in ("publishes", "subscribes")
+        }
+        return frozenset(ends["subscribes"] - ends["publishes"])
+
+    def without_hidden(self) -> NodeGraph:
+        """Leave out what every program has, as rqt_graph does: logs and parameters."""
+        nodes = {n: node for n, node in self.nodes.items() if not _is_hidden_node(n)}
+        topics = {t: one for t, one in self.topics.items() if t not in _HIDDEN_TOPICS}
+        edges = [e for e in self.edges if e.node in nodes and e.topic in topics]
+        return replace(self, nodes=nodes, topics=topics, edges=tuple(edges))
+
+
+def compared(expected: NodeGraph, running: NodeGraph) -> NodeGraph:
+    """Join what launch files would start with what runs, by the names of both."""
+    nodes = {
+        **{n: replace(one, presence="running") for n, one in running.nodes.items()},
+        **{
+            n: replace(one, presence="both" if n in running.nodes else "expected")
+            for n, one in expected.nodes.items()
+        },
+    }
+    topics = {
+        **{t: replace(one, presence="running") for t, one in running.topics.items()},
+        **{
+            t: replace(
+                one,
+                presence="both" if t in running.topics else "expected",
+                types=_types_of(one, running.topics.get(t)),
+            )
+            for t, one in expected.topics.items()
+        },
+    }
+    there = {edge.key for edge in running.edges}
+    edges = {edge.key: replace(edge, presence="running") for edge in running.edges}
+    for edge in expected.edges:
+        both = edge.key in there
+        edges[edge.key] = replace(edge, presence="both" if both else "expected")
+    notes = (*expected.notes, *running.notes)
+    return NodeGraph(
+        nodes, topics, tuple(edges.values()), True, running.is_whole, notes
+    )
+
+
+def node_graph(
+    nodes: Iterable[GraphNode],
+    topics: Iterable[GraphTopic],
+    edges: Iterable[GraphEdge],
+    notes: Iterable[str] = (),
+    *,
+    is_whole: bool = True,
+) -> NodeGraph:
+    """Return a graph in which everything has a name once, in the order of names.
+
+    Nodes and topics that only edges name are added.
+    """
+    kept = {edge.key: edge for edge in edges}
+    ends = list(kept.values())
+    all_nodes = {e.node: GraphNode(e.node, e.presence) for e in ends}
+    all_topics = {e.topic: GraphTopic(e.topic, e.presence) for e in ends}
+    all_nodes.update((node.name, node) for node in nodes)
+    all_topics.update((topic.name, topic) for topic in topics)
+    return NodeGraph(
+        dict(sorted(all_nodes.items())),
+        dict(sorted(all_topics.items())),
+        tuple(kept[key] for key in sorted(kept)),
+        is_whole=is_whole,
+        notes=tuple(notes),
+    )
+
+
+def _types_of(expected: GraphTopic, running: GraphTopic | None) -> tuple[str, ...]:
+    return expected.types if running is None else running.types or expected.types
+
+
+def _is_hidden_node(name: str) -> bool:
+    return name.rpartition("/")[2].startswith(_HIDDEN_NODES)
