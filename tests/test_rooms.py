@@ -134,15 +134,16 @@ ROOMS: Mapping[str, Row] = {
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes publishing robot rviz views", "numpy viser"),
     "session": Row(
-        "bundled checks displays drive fixes frames joints meanings meshes options "
-        "problems publishing robot rviz sources tools topics views viser_private",
+        "bundled checks displays drive fixes frames graph joints meanings meshes "
+        "options problems publishing robot rviz sources tools topics views "
+        "viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
     ),
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "_version displays drive fixes frames joints options page problems "
+        "_version displays drive fixes frames graph joints options page problems "
         "publishing robot rviz session tools topics views viser_private",
         "msgspec numpy viser",
     ),

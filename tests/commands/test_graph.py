@@ -9,6 +9,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from launch_package import launch_package
 from live_peers import STRING, FoxglovePeer
 from patience import patience
 from rosbridge_peer import RosbridgePeer
@@ -17,33 +18,11 @@ from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
 FOR = ["--for", str(patience(5.0))]
-MANIFEST = """
-<package format="3"><name>robot</name><version>0.0.1</version>
-<description>A robot.</description><maintainer email="a@b.c">A</maintainer>
-<license>MIT</license><export><build_type>ament_cmake</build_type></export></package>
-"""
-LAUNCH = """
-from launch import LaunchDescription
-from launch_ros.actions import Node
-
-def generate_launch_description():
-    return LaunchDescription([
-        {nodes}
-    ])
-"""
-LISTENER = "Node(package='demo_nodes_cpp', executable='listener', name='listener'),"
-TALKER = "Node(package='demo_nodes_cpp', executable='talker', name='talker'),"
 
 
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
-    folder = tmp_path / "robot"
-    (folder / "launch").mkdir(parents=True)
-    (folder / "package.xml").write_text(MANIFEST)
-    for name, nodes in (("small", LISTENER), ("whole", LISTENER + TALKER)):
-        path = folder / "launch" / f"{name}.launch.py"
-        path.write_text(LAUNCH.format(nodes=nodes))
-    return folder
+    return launch_package(tmp_path)
 
 
 @pytest.fixture(params=[FoxglovePeer, RosbridgePeer])

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.checks.around.running import RunningSystem, running_system
+from sambot_viz.graph.launch_names import is_launch_file
 from sambot_viz.robot.packages.package_index import package_around
-
-_ENDINGS = ("launch.py", ".launch", "launch.xml", "launch.yaml", "launch.yml")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +53,7 @@ def started_launches(
         )
 
     package = package_around(path) or (path if path.is_dir() else path.parent)
-    if path.is_file() and path.name.endswith(_ENDINGS):
+    if is_launch_file(path):
         return (StartedLaunch(str(path), package, of(path)),)
     names = of(path if path.is_dir() else package).launches
     found = [StartedLaunch(name, package, of(Path(name))) for name in names]

@@ -42,7 +42,12 @@ _WINDOW_STYLES = (
     "panels/panels.css",
     "window/shapes.css",
 )
-_STYLES = (*_WINDOW_STYLES, "tree/tree.css", "dialogs/dialogs.css")
+_STYLES = (
+    *_WINDOW_STYLES,
+    "tree/tree.css",
+    "dialogs/dialogs.css",
+    "panels/graph.css",
+)
 _PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (

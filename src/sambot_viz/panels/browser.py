@@ -9,6 +9,7 @@ from sambot_viz.panels.displays.add_by_topic import AddByTopicPanel
 from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.files_panel import Files, FilesPanel
 from sambot_viz.panels.frames.frames_panel import FramesPanel
+from sambot_viz.panels.graph.graph_panel import GraphPanel
 from sambot_viz.panels.joints.poses import GhostPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
@@ -114,6 +115,11 @@ class BrowserPanels:
             ToolPropertiesPanel(client, document),
             GhostPanel(session.poses, robot, scene, remake),
             FramesPanel(frames, robot, scene, self.say, remake),
+            GraphPanel(
+                session.graph,
+                session.problems,
+                files is not None and not roles.presented,
+            ),
             PermalinkPanel(
                 client,
                 document,

@@ -49,6 +49,7 @@ from sambot_viz.session.scene.goal_mark import GoalMark
 from sambot_viz.session.scene.picker import Picker
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.session_graph import SessionGraph
 from sambot_viz.session.shown_problems import Checks, Problems
 from sambot_viz.session.signals import Audience, Change, Signal, connect
 from sambot_viz.session.undo import History
@@ -83,6 +84,7 @@ class Session:
         joints_out: publishes the joints that users move.
         sent: the last messages that went to it; sending is told with each.
         driven: who drives that robot.
+        graph: the nodes and topics of the package and of the robot.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -144,6 +146,15 @@ class Session:
         worker.in_control = self.roles.may_edit
         self.checks = Checks(
             robot, document, scene, self.problems, change, options.workspace
+        )
+        self.graph = SessionGraph(
+            robot,
+            self.problems,
+            self.sources,
+            change,
+            worker,
+            options.package_path,
+            options.workspace,
         )
         self.driven = Signal(change, None)
         drive = DriveSettings(

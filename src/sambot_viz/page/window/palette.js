@@ -85,7 +85,7 @@ export const GO_TO = "Ctrl+K";
 /** Rows that name nothing. */
 const UNNAMED = new Set(["note", "lines"]);
 /** Panels whose rows are not listed: what is wrong is a sentence, and frames and topics have lists. */
-const NOT_BY_ROWS = new Set(["problems", "frames", "topics"]);
+const NOT_BY_ROWS = new Set(["problems", "frames", "topics", "graph"]);
 
 /** The rows of the panels, and the frames. @returns {Target[]} */
 function places() {

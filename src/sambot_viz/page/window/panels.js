@@ -5,6 +5,7 @@ import { html } from "../vendor/preact.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
+import { GraphPanel } from "../panels/graph.js";
 import { ImagesPanel } from "../panels/images.js";
 import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
@@ -29,6 +30,7 @@ export const tab = new Cell("", "tab");
 export const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   frames: { title: "Frames", content: FramesPanel },
+  graph: { title: "Graph", content: GraphPanel },
   images: { title: "Images", content: ImagesPanel },
   topics: { title: "Topics", content: TopicsPanel },
   selection: {

@@ -1,0 +1,171 @@
+"""The nodes and topics of a session: of its model's package, and of its robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sambot_viz.graph.launch_names import has_launch_files
+from sambot_viz.robot.packages.package_index import package_around
+from sambot_viz.session.data.session_sources import SessionSources
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.shown_problems import Problems
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.session.worker import Worker
+
+# The first page does not wait for what only the tab needs.
+if TYPE_CHECKING:
+    from sambot_viz.graph.launches import StartedLaunch
+    from sambot_viz.graph.node_graph import NodeGraph
+    from sambot_viz.graph.placed_graph import PlacedGraph
+    from sambot_viz.graph.running import RunningNodes
+    from sambot_viz.sources.source import Source
+
+PAUSE = 3.0
+"""A robot is looked at so often while somebody sees the graph [s]."""
+
+
+class SessionGraph:
+    """Makes the graph while somebody looks at it, and again when it has changed.
+
+    Args:
+        robot: has the model, whose package is read.
+        problems: are drawn where they are.
+        sources: a live one says what runs.
+        change: tells changes.
+        worker: makes it.
+        package_path: folders of packages, as for `check`.
+        workspace: as for `check`.
+
+    Attributes:
+        changed: told when there is another graph.
+        facts: told when there may be something to draw, or nothing any longer.
+        launch: name of the launch file to draw; "" for the one that starts most.
+    """
+
+    def __init__(
+        self,
+        robot: RobotState,
+        problems: Problems,
+        sources: SessionSources,
+        change: Change,
+        worker: Worker,
+        package_path: Sequence[Path | str] = (),
+        workspace: Sequence[Path | str] = (),
+    ) -> None:
+        self.changed = Signal(change, None)
+        self.launch = ""
+        self._robot, self._problems, self._sources = robot, problems, sources
+        self._worker = worker
+        self._package_path, self._workspace = package_path, workspace
+        self._viewers: set[object] = set()
+        self._launches: tuple[StartedLaunch, ...] = ()
+        self._read: object = None
+        self._nodes: tuple[Source, RunningNodes] | None = None
+        self._graph: NodeGraph | None = None
+        self._placed: PlacedGraph | None = None
+        self._is_looking = False
+        self.facts = (robot.changed, sources.replaced)
+        connect([*self.facts, problems.shown], self._look)
+
+    @property
+    def is_there(self) -> bool:
+        """Whether there is something to draw: launch files, or a live robot."""
+        return self._package is not None or self._live is not None
+
+    @property
+    def launches(self) -> Sequence[str]:
+        """The names of the launch files, once they were read."""
+        return [one.name for one in self._launches]
+
+    @property
+    def placed(self) -> PlacedGraph | None:
+        """The picture; None until somebody has looked at it."""
+        return self._placed
+
+    def follow(self, viewer: object, on: bool) -> None:
+        """Make the graph while a viewer sees it."""
+        if not on:
+            self._viewers.discard(viewer)
+            return
+        self._viewers.add(viewer)
+        self._look()
+        self._look_later()
+
+    def choose(self, launch: str) -> None:
+        """Draw another launch file."""
+        self.launch = launch
+        self._look()
+
+    @property
+    def _package(self) -> Path | None:
+        """The folder of the model's package, where that has launch files."""
+        robot = self._robot.model
+        # What a page or a robot has sent is read, never what lies around it.
+        if robot is None or not robot.files or robot.file_roots is not None:
+            return None
+        folder = package_around(robot.files[0])
+        return folder if folder is not None and has_launch_files(folder) else None
+
+    @property
+    def _live(self) -> Source | None:
+        data = self._sources.data
+        return None if data is None else data.source.live
+
+    def _look(self) -> None:
+        """Make the graph, and tell it when it is another one."""
+        if not self._viewers:
+            return
+        from sambot_viz.graph.node_graph import compared
+        from sambot_viz.graph.placed_graph import place_graph
+
+        found = [one for one in (self._expected(), self._running()) if one is not None]
+        graph = compared(*found) if len(found) == 2 else next(iter(found), None)
+        if graph != self._graph:
+            self._graph = graph
+            self._placed = None if graph is None else place_graph(graph)
+            self.changed.touch()
+
+    def _look_later(self) -> None:
+        """Look again after a while, as long as somebody sees what a robot says."""
+        if not self._is_looking and self._viewers and self._live is not None:
+            self._is_looking = True
+            self._worker.post_later(PAUSE, self._look_again)
+
+    def _look_again(self) -> None:
+        self._is_looking = False
+        if self._viewers and self._nodes is not None:
+            self._nodes[1].ask()
+        self._look()
+        self._look_later()
+
+    def _expected(self) -> NodeGraph | None:
+        package, problems = self._package, self._problems.shown.value
+        if package is None:
+            return None
+        from sambot_viz.graph.expected import expected_graph
+        from sambot_viz.graph.launches import started_launches
+
+        read = (package, self._robot.model and id(self._robot.model), problems.listed)
+        if read != self._read:
+            self._read = read
+            self._launches = started_launches(
+                package, package_path=self._package_path, workspace=self._workspace
+            )
+        called = (one for one in self._launches if one.is_called(self.launch))
+        launch = next(called, next(iter(self._launches), None))
+        return launch and expected_graph(launch.system, problems.listed)
+
+    def _running(self) -> NodeGraph | None:
+        live = self._live
+        if live is None:
+            return None
+        from sambot_viz.graph.running import RunningNodes
+
+        if self._nodes is None or self._nodes[0] is not live:
+            changed = partial(self._worker.post, self._look, latest_of=self)
+            self._nodes = live, RunningNodes(live, changed)
+            self._nodes[1].ask()
+        return self._nodes[1].graph()

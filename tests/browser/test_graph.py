@@ -1,0 +1,48 @@
+"""The Graph panel: nodes and topics, and what a click and the keys lead to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from launch_package import launch_package
+from user import User
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def user(open_viewer: Callable[..., ViewerPage], tmp_path: Path) -> Iterator[User]:
+    with Visualizer(launch_package(tmp_path), port=0, look="rviz") as viz:
+        page = open_viewer(viz.url)
+        page.page.allow("clipboardReadWrite", "clipboardSanitizedWrite")
+        made = page.user
+        made.click_on(made.find("tab", "Graph"))
+        yield made
+
+
+def test_a_node_says_where_it_is_started_and_that_is_copied(user: User) -> None:
+    user.click("button", "node /talker")
+    user.reads("package demo_nodes_cpp")
+    user.click("button", "Copy file and line")
+    user.until(lambda: user.clipboard.endswith("whole.launch.py:8"))
+
+
+def test_arrow_keys_go_from_node_to_node(user: User) -> None:
+    user.click("button", "node /listener")
+    user.keys("ArrowDown")
+    user.until(lambda: user.find("button", "node /talker").state("focused"))
+    user.keys("ArrowUp")
+    user.until(lambda: user.find("button", "node /listener").state("focused"))
+
+
+def test_the_graph_is_shown_large_and_closed(user: User) -> None:
+    user.click("button", "Enlarge")
+    user.until(lambda: user.there("dialog", "Nodes and topics"))
+    user.click("button", "Larger", ("dialog", "Nodes and topics"))
+    user.keys("Escape")
+    user.gone("dialog", "Nodes and topics")
