@@ -150,6 +150,7 @@ def test_logs_and_parameters_of_every_node_are_left_out_as_in_rqt_graph() -> Non
             GraphEdge("/a", "/rosout", "publishes"),
             GraphEdge("/a", "/parameter_events", "subscribes"),
             GraphEdge("/a", "/scan", "publishes"),
+            GraphEdge("/a", "/dock/_action/status", "publishes"),
             GraphEdge("/transform_listener_impl_5f", "/tf", "subscribes"),
         ],
     ).without_hidden()

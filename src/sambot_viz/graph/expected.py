@@ -111,7 +111,8 @@ def _notes(system: RunningSystem) -> Iterator[str]:
         if more > 0:
             yield f"and at {more} other places"
     by_name: dict[str, int] = {}
-    for node in system.started:
+    # Gazebo, which is no node, may be started in several steps.
+    for node in (one for one in system.started if one.endpoints):
         by_name[node.path] = by_name.get(node.path, 0) + 1
     for name, count in by_name.items():
         if count > 1:

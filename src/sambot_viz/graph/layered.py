@@ -204,15 +204,16 @@ class _Columns:
             offsets.append(y + self._vertices[v].height / 2)
             y += self._vertices[v].height + _ROW_GAP
         lane = self._vertices[layer[0]].lane if layer else 0
-        wanted: list[float] = []
-        for v in layer:
+        free: list[float] = []
+        for v, offset in zip(layer, offsets, strict=True):
             near = [
                 heights[n]
                 for n in (*self._before[v], *self._after[v])
                 if self._vertices[n].lane == lane
             ]
-            wanted.append(fmean(near) if near else heights[v])
-        free = [w - o for w, o in zip(wanted, offsets, strict=True)]
+            # What has no neighbour stays at the one above it.
+            alone = free[-1] if free else heights[v] - offset
+            free.append(fmean(near) - offset if near else alone)
         for v, base, offset in zip(layer, _rising(free), offsets, strict=True):
             heights[v] = base + offset
 

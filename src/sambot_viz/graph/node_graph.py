@@ -113,7 +113,7 @@ class NodeGraph:
     def without_hidden(self) -> NodeGraph:
         """Leave out what every program has, as rqt_graph does: logs and parameters."""
         nodes = {n: node for n, node in self.nodes.items() if not _is_hidden_node(n)}
-        topics = {t: one for t, one in self.topics.items() if t not in _HIDDEN_TOPICS}
+        topics = {t: one for t, one in self.topics.items() if not _is_hidden_topic(t)}
         edges = [e for e in self.edges if e.node in nodes and e.topic in topics]
         return replace(self, nodes=nodes, topics=topics, edges=tuple(edges))
 
@@ -178,6 +178,11 @@ def node_graph(
 
 def _types_of(expected: GraphTopic, running: GraphTopic | None) -> tuple[str, ...]:
     return expected.types if running is None else running.types or expected.types
+
+
+def _is_hidden_topic(name: str) -> bool:
+    # As `ros2 topic list` hides them: those of actions are among these.
+    return name in _HIDDEN_TOPICS or "/_" in name
 
 
 def _is_hidden_node(name: str) -> bool:

@@ -22,12 +22,12 @@ from sambot_viz.text import columns, html_text
 # page without changing it.
 _STYLE = """\
 .ros-graph { --paper: #fff; --ink: #1c2733; --faint: #5b6875; --node: #eef4fb;
-  --node-line: #2878c5; --topic: #fff8e6; --topic-line: #a87b13; --arrow: #6a7683;
+  --node-line: #2878c5; --topic: #f3f3ee; --topic-line: #83837a; --arrow: #6a7683;
   --space: #f5f6f8; --space-line: #b4bcc5; --bad: #c62828; --bad-fill: #fdecea;
   --warn: #b06000; --warn-fill: #fff3e0; --new: #7b1fa2 }
 @media (prefers-color-scheme: dark) { .ros-graph { --paper: #16191d; --ink: #e4e9ee;
-  --faint: #a3aeb9; --node: #1d3147; --node-line: #63a8e8; --topic: #352c14;
-  --topic-line: #d0a747; --arrow: #8e99a5; --space: #1f2328; --space-line: #4d5660;
+  --faint: #a3aeb9; --node: #1d3147; --node-line: #63a8e8; --topic: #2a2c2f;
+  --topic-line: #8d949c; --arrow: #8e99a5; --space: #1f2328; --space-line: #4d5660;
   --bad: #ff7b72; --bad-fill: #43201f; --warn: #f0a848; --warn-fill: #3d2c12;
   --new: #cf93e8 } }
 .ros-graph { background: var(--paper); font: 13px "DejaVu Sans", Verdana, sans-serif }
@@ -37,12 +37,12 @@ _STYLE = """\
 .ros-graph .node .shape { fill: var(--node); stroke: var(--node-line) }
 .ros-graph .topic .shape { fill: var(--topic); stroke: var(--topic-line); rx: 3px }
 .ros-graph .shape { stroke-width: 1.4px }
+.ros-graph .unwritten .shape { stroke: var(--warn); stroke-width: 2.2px }
 .ros-graph .error .shape { fill: var(--bad-fill); stroke: var(--bad) }
 .ros-graph .warning .shape { fill: var(--warn-fill); stroke: var(--warn) }
 .ros-graph .error .shape, .ros-graph .warning .shape { stroke-width: 2.2px }
 .ros-graph .error text.problem { fill: var(--bad); font-weight: bold }
 .ros-graph .warning text.problem { fill: var(--warn); font-weight: bold }
-.ros-graph .unwritten .shape { stroke: var(--bad); stroke-width: 2.2px }
 .ros-graph .uncertain .shape { stroke-dasharray: 2 3 }
 .ros-graph .expected .shape, .ros-graph path.expected { stroke-dasharray: 7 4 }
 .ros-graph .expected .shape { fill: var(--paper); stroke: var(--bad) }
@@ -55,8 +55,8 @@ _STYLE = """\
 .ros-graph .legend { fill: var(--faint); text-anchor: start; font-size: 11px }
 .ros-graph a { text-decoration: none }"""
 _LEGEND = (
-    "ellipse: node; box: topic; arrows from who publishes to who reads; "
-    "red: something is wrong; dotted: not certain"
+    "ellipse: node; box: topic; arrows from who publishes to who reads; red or orange: "
+    "a finding of check; orange border: read, but not published; dotted: not certain"
 )
 _COMPARED = (
     "ellipse: node; box: topic; arrows from who publishes to who reads; "
