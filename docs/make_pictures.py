@@ -73,9 +73,20 @@ def tutorial(walk: Walk) -> None:
             (PICTURES / f"first_robot_{name}").write_bytes(picture)
 
 
+def graph(walk: Walk) -> None:
+    """Draw the nodes and topics of the tutorial's package, as it is at the end."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_files(walk.files, Path(folder))
+        command = [sys.executable, "-m", "sambot_viz", "graph", ".", "--format", "svg"]
+        drawn = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE)
+    (PICTURES / "first_robot_graph.svg").write_bytes(drawn.stdout)
+
+
 def main() -> None:
     """Make all pictures."""
-    tutorial(Walk(PAGE.read_text("utf-8")))
+    walk = Walk(PAGE.read_text("utf-8"))
+    tutorial(walk)
+    graph(walk)
     model = ROOT / "assets" / "sam_bot.urdf.xacro"
     take(
         ["--model", str(model)],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -101,7 +102,9 @@ def test_what_was_expected_and_does_not_run_is_marked() -> None:
             GraphEdge("/map_server", "/map", "publishes", "running"),
         ],
     )
-    both = compared(small_graph(), running)
+    expected = small_graph()
+    nodes = {**expected.nodes, "/front/scanner": GraphNode("/front/scanner")}
+    both = compared(replace(expected, nodes=nodes), running)
     states = {name: part.look[1] for name, part in parts(both).items()}
     assert states == {
         "/ekf": "both",
@@ -120,6 +123,24 @@ def test_what_was_expected_and_does_not_run_is_marked() -> None:
     types = {topic["name"]: topic["types"] for topic in said["topics"]}
     assert types["/map"] == ["nav_msgs/msg/OccupancyGrid"]
     assert "style=dashed" in graph_dot(both)
+
+
+@pytest.mark.parametrize(
+    ("node", "topic"),
+    [
+        (GraphNode("/amcl", is_certain=False), "/scan"),
+        (GraphNode("/create", executable="create"), "/robot_description"),
+        (GraphNode("/gazebo", executable="gzserver"), None),
+    ],
+)
+def test_what_need_not_run_is_not_missed(node: GraphNode, topic: str | None) -> None:
+    edges = [GraphEdge(node.name, topic, "subscribes")] if topic else []
+    running = node_graph((), (), [GraphEdge("/a", "/b", "publishes", "running")])
+    both = compared(node_graph([node], (), edges), running)
+    assert ([*both.nodes], [*both.topics]) == (["/a"], ["/b"])
+    assert both.notes == (f"may run, and does not: {node.name}",)
+    there = compared(node_graph([node], (), edges), node_graph([node], (), edges))
+    assert there.nodes[node.name].presence == "both"
 
 
 def test_json_has_what_is_known() -> None:

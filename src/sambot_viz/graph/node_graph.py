@@ -14,6 +14,8 @@ Direction = Literal["publishes", "subscribes"]
 _HIDDEN_TOPICS = ("/rosout", "/rosout_agg", "/parameter_events", "/statistics")
 _HIDDEN_NODES = ("_", "transform_listener_impl_", "launch_ros_")
 """Begins of the last part of names that every program of ROS has beside its own."""
+_NO_NODES = ("create", "spawn", "gz", "gazebo")
+"""Begins of executables that put something somewhere and end, or are Gazebo itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,34 +121,52 @@ class NodeGraph:
 
 
 def compared(expected: NodeGraph, running: NodeGraph) -> NodeGraph:
-    """Join what launch files would start with what runs, by the names of both."""
-    nodes = {
-        **{n: replace(one, presence="running") for n, one in running.nodes.items()},
-        **{
-            n: replace(one, presence="both" if n in running.nodes else "expected")
-            for n, one in expected.nodes.items()
-        },
-    }
-    topics = {
-        **{t: replace(one, presence="running") for t, one in running.topics.items()},
-        **{
-            t: replace(
-                one,
-                presence="both" if t in running.topics else "expected",
-                types=_types_of(one, running.topics.get(t)),
-            )
-            for t, one in expected.topics.items()
-        },
-    }
+    """Join what launch files would start with what runs, by the names of both.
+
+    What does not run is left out where it need not: its start is not certain, or it is
+    no node that goes on.
+    """
+    absent, expected = _without_absent(expected, running)
+    nodes = {n: replace(one, presence="running") for n, one in running.nodes.items()}
+    for name, node in expected.nodes.items():
+        nodes[name] = replace(node, presence=_presence(name in running.nodes))
+    topics = {t: replace(one, presence="running") for t, one in running.topics.items()}
+    for name, topic in expected.topics.items():
+        runs = running.topics.get(name)
+        types = topic.types if runs is None else runs.types or topic.types
+        presence = _presence(runs is not None)
+        topics[name] = replace(topic, presence=presence, types=types)
     there = {edge.key for edge in running.edges}
     edges = {edge.key: replace(edge, presence="running") for edge in running.edges}
     for edge in expected.edges:
-        both = edge.key in there
-        edges[edge.key] = replace(edge, presence="both" if both else "expected")
-    notes = (*expected.notes, *running.notes)
+        edges[edge.key] = replace(edge, presence=_presence(edge.key in there))
+    notes = [*expected.notes, *running.notes]
+    if absent:
+        notes.append(f"may run, and does not: {', '.join(absent)}")
     return NodeGraph(
-        nodes, topics, tuple(edges.values()), True, running.is_whole, notes
+        nodes, topics, tuple(edges.values()), True, running.is_whole, tuple(notes)
     )
+
+
+def _without_absent(
+    expected: NodeGraph, running: NodeGraph
+) -> tuple[list[str], NodeGraph]:
+    """Return the nodes that do not run and need not, and the graph without them."""
+    absent = [
+        name
+        for name, node in expected.nodes.items()
+        if name not in running.nodes
+        and (not node.is_certain or node.executable.startswith(_NO_NODES))
+    ]
+    nodes = {n: one for n, one in expected.nodes.items() if n not in absent}
+    edges = tuple(edge for edge in expected.edges if edge.node in nodes)
+    used = {edge.topic for edge in edges}
+    topics = {t: one for t, one in expected.topics.items() if t in used}
+    return absent, replace(expected, nodes=nodes, topics=topics, edges=edges)
+
+
+def _presence(runs: bool) -> Presence:
+    return "both" if runs else "expected"
 
 
 def node_graph(
@@ -174,10 +194,6 @@ def node_graph(
         is_whole=is_whole,
         notes=tuple(notes),
     )
-
-
-def _types_of(expected: GraphTopic, running: GraphTopic | None) -> tuple[str, ...]:
-    return expected.types if running is None else running.types or expected.types
 
 
 def _is_hidden_topic(name: str) -> bool:

@@ -120,6 +120,8 @@ class _PlacesOfGraph:
             and ("topic", edge.topic) in self._numbers
         )
         self._edges = list(islice(ends, limits.GRAPH_EDGES.value))
+        # What runs is drawn over what does not, where both are on one way.
+        self._edges.sort(key=lambda edge: edge.presence != "expected")
         self._lines = [tuple(lines_of(one)) for one in self._drawn]
         self._lanes = _lanes(self._drawn)
         self._left_out = (
