@@ -222,6 +222,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/trouble.py": "socket ssl",
     "sources/websocket/live_source.py": "asyncio concurrent threading",
     "sources/websocket/websocket_source.py": "asyncio",
+    "sources/zenoh/session.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process

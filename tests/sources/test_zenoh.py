@@ -18,7 +18,7 @@ from patience import until
 from rosbags.typesys import Stores, get_typestore
 from zenoh_peer import ANY_HASH, STAMP_NS, ZenohPeer, type_hash_of
 
-from sambot_viz.errors import UsageError
+from sambot_viz.errors import DecodeError, UsageError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources import registry
 from sambot_viz.sources.qos import Qos
@@ -215,6 +215,18 @@ def test_it_is_published_with_the_definition_that_receivers_have(
     eventually(sent)
 
 
+def test_a_robot_with_another_definition_of_a_type_gets_none_of_it(
+    robot: ZenohPeer, opened: Open
+) -> None:
+    source = opened(robot.uri)
+    eventually(lambda: source.status.is_connected)
+    outgoing = source.advertise("/words", STRING)
+    eventually(lambda: outgoing.receivers == Receivers(()))
+    robot.listen_as("/words", "/listener", type_hash=ANY_HASH)
+    eventually(lambda: "another definition of std_msgs" in outgoing.refused)
+    eventually(lambda: robot.advertised() == [])
+
+
 def test_a_type_without_a_known_definition_is_not_published(
     robot: ZenohPeer, opened: Open
 ) -> None:
@@ -239,6 +251,25 @@ def test_a_message_that_is_too_large_costs_only_itself(
     robot.publish("/chatter", "small")
     inbox.wait_for("small")
     eventually(lambda: "a message is left out" in source.topics()["/chatter"].left_out)
+
+
+def test_what_makes_no_sense_costs_only_itself(
+    robot: ZenohPeer, opened: Open, inbox: Inbox
+) -> None:
+    for rest in ("0", "0/z/0/1/MP/%/%/n/%a/nonsense/H/::", "0/z/0/1/MP/%/%/n/%a"):
+        robot.declare(f"@ros2_lv/{rest}")
+    robot.advertise("/chatter")
+    source = opened(robot.uri)
+    source.subscribe("/chatter", inbox)
+    eventually(lambda: robot.subscribed() == ["/chatter"])
+    robot.log("/chatter", b"\xff")
+    robot.publish("/chatter", "sense")
+    eventually(lambda: inbox.strings()[-1:] == ["sense"])
+    assert set(source.topics()) == {"/chatter"}
+    types = MessageTypes()
+    first = inbox.messages[0]
+    with pytest.raises(DecodeError):
+        types.decoder(first.channel.schema, "cdr").decode(first.payload)
 
 
 def test_a_server_of_another_kind_is_named(opened: Open) -> None:

@@ -200,6 +200,10 @@ class ZenohPeer(LivePeer):
         """The services that were called and what with, in their order."""
         return list(zip(self._calls, self.requests, strict=False))
 
+    def declare(self, key: str) -> None:
+        """Declare a token, whatever it says."""
+        self._serving.append(self._session.liveliness().declare_token(key))
+
     def offer(self, topic: str, kind: str, definition: str = "") -> None:
         """Begin to publish a topic of any type."""
         self.advertise(topic, False, kind, ANY_HASH if definition else "")
@@ -290,7 +294,7 @@ class ZenohPeer(LivePeer):
         return [
             (one[5], one[9].replace("%", "/"), _plain(one[10]))
             for one in tokens
-            if one[2] != self._own and len(one) > 10
+            if len(one) > 10 and one[2] != self._own and "::" in one[10]
         ]
 
     def _take(self, sample: Any) -> None:

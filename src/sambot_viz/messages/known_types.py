@@ -26,7 +26,6 @@ _DISTROS = (
     *("ros2_humble", "ros2_lyrical", "ros2_kilted", "ros2_jazzy", "ros2_iron"),
     *("ros2_galactic", "ros2_foxy", "ros2_eloquent", "ros2_dashing"),
 )
-_NEWEST_FIRST = ("ros2_lyrical", "ros2_kilted", "ros2_jazzy", "ros2_iron")
 _ROS1 = ("ros1_noetic",)
 _TRANSFORMS = "tf2_msgs/msg/TFMessage"
 _ROS1_TRANSFORMS = (_TRANSFORMS, "tf/msg/tfMessage")
@@ -148,8 +147,11 @@ def standard_definition(name: str, type_hash: str = "") -> str:
 
 
 def standard_hash(name: str) -> str:
-    """Return the hash of the newest definition of a type; "" where ROS has none."""
-    for distro in _NEWEST_FIRST:
+    """Return the hash of a type as ROS has it by itself; "" where it has none.
+
+    Of its definitions it is that with which messages are written.
+    """
+    for distro in _DISTROS:
         store = _store(distro)
         if name in store.fielddefs:
             return store.hash_rihs01(name)

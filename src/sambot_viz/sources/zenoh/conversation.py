@@ -1,14 +1,11 @@
 """What is said with the nodes of a robot over one session of zenoh.
 
-Tokens say what there is. A topic is subscribed to with its type and any definition of
-it; the key of a message says which, so that two nodes may differ.
+Tokens say what there is, and which definition of a type each node has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass
 from itertools import count
 
 from sambot_viz import limits
@@ -17,19 +14,17 @@ from sambot_viz.messages import standard_hash
 from sambot_viz.sources.action_names import send_service, status_topic
 from sambot_viz.sources.hidden_action import HiddenAction
 from sambot_viz.sources.message import (
-    Recorded,
     SourceTopic,
-    TopicChannel,
     is_latched_name,
 )
-from sambot_viz.sources.ros_graph import Endpoint, Kind, RosGraph
+from sambot_viz.sources.ros_graph import NO_HASH, Endpoint, Kind, RosGraph
 from sambot_viz.sources.source import (
     Capability,
     Encoding,
     OutgoingAction,
     Source,
 )
-from sambot_viz.sources.type_descriptions import TypeDescriptions, service_of
+from sambot_viz.sources.type_descriptions import TypeDescriptions
 from sambot_viz.sources.websocket.conversation import Conversation, Ends
 from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.service_calls import LONGEST_ANSWER, ServiceCalls
@@ -39,34 +34,10 @@ from sambot_viz.sources.zenoh.session import (
     ZenohPublisher,
     ZenohSession,
 )
+from sambot_viz.sources.zenoh.subscriptions import ZenohSubscriptions
 from sambot_viz.text import text
 
-NODE = "/sambot_viz"
-"""What this program is called among the nodes."""
-_TICKS_FOR_CACHES = 2
-"""What is kept has come by then, or its publisher has a cache of the older kind."""
 _TICKS_FOR_NODES = 4
-
-
-@dataclass(slots=True)
-class _ZenohSubscription:
-    """A subscription at the router.
-
-    Attributes:
-        key: of its messages.
-        type_name: of its messages.
-        is_latched: what is kept was asked for.
-        declared: what takes it back: the subscription and its token.
-        channels: by the hash of the definition.
-        ticks: how long nothing has come of what is kept; None when that is over.
-    """
-
-    key: str
-    type_name: str
-    is_latched: bool
-    declared: tuple[ZenohDeclaration, ...] = ()
-    channels: dict[str, TopicChannel] = field(default_factory=dict[str, TopicChannel])
-    ticks: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +45,7 @@ class _Published:
     """A topic that is published: what says so, and what sends."""
 
     outgoing: OutgoingTopic
+    type_hash: str
     publisher: ZenohPublisher
     token: ZenohDeclaration
 
@@ -100,9 +72,10 @@ class ZenohConversation(Conversation):
         self._elsewhere: dict[int, set[str]] = {}
         # Tokens that are gone: all are, just before a lost connection is noticed.
         self._gone: set[str] = set()
+        self._subscriptions = ZenohSubscriptions(
+            self, session, self._graph, self._types
+        )
         self._ids = count(1)
-        self._wanted: frozenset[str] = frozenset()
-        self._subscriptions: dict[str, _ZenohSubscription] = {}
         self._published: dict[int, _Published] = {}
         self._ticks = 0
 
@@ -110,7 +83,7 @@ class ZenohConversation(Conversation):
         """Say which node this is, and ask for all others."""
         # It is there as long as it is held.
         self._node = self._session.declare_token(
-            names.node_token(self._domain, self._session.name, NODE)
+            names.node_token(self._domain, self._session.name, names.NODE)
         )
         self._session.watch(names.TOKENS, self._token)
         self.is_ready = True
@@ -135,19 +108,9 @@ class ZenohConversation(Conversation):
 
     def advertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the nodes of a topic that is published."""
-        type_hash = self._hash_for(outgoing)
-        outgoing.receivers = self._graph.receivers(outgoing.topic)
-        if not type_hash:
-            outgoing.refused = f"the definition of {outgoing.type_name} is not known"
-            return
         outgoing.number = next(self._ids)
-        endpoint = Endpoint(
-            Kind.PUBLISHER, NODE, outgoing.topic, outgoing.type_name, type_hash
-        )
-        key = names.key_of(self._domain, outgoing.topic, outgoing.type_name, type_hash)
-        self._published[outgoing.number] = _Published(
-            outgoing, self._session.publisher(key), self._declare(endpoint)
-        )
+        outgoing.receivers = self._graph.receivers(outgoing.topic)
+        self._begin(outgoing)
 
     def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
         """Send a message."""
@@ -156,9 +119,7 @@ class ZenohConversation(Conversation):
 
     def unadvertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the nodes that a topic is published no longer."""
-        if (published := self._published.pop(outgoing.number, None)) is not None:
-            published.token.undeclare()
-            published.publisher.undeclare()
+        self._withdraw(outgoing.number)
 
     def action(self, name: str, type_name: str, source: Source) -> OutgoingAction:
         """Return an action, by its hidden services and topics."""
@@ -169,11 +130,7 @@ class ZenohConversation(Conversation):
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
-        for topic in self._wanted - wanted:
-            self._unsubscribe(topic)
-        self._wanted = wanted
-        for topic in wanted:
-            self._subscribe(topic)
+        self._subscriptions.update(wanted)
         self.ends.assets.refuse_all(
             "zenoh hands out no files",
             "give the folder of the package with --package-path",
@@ -186,13 +143,7 @@ class ZenohConversation(Conversation):
         for key in self._gone:
             self._remove(key)
         self._gone.clear()
-        for topic, subscription in self._subscriptions.items():
-            if subscription.ticks is not None:
-                subscription.ticks += 1
-                if subscription.ticks > _TICKS_FOR_CACHES:
-                    subscription.ticks = None
-                    take = partial(self._take, topic, subscription)
-                    self._session.ask_kept(subscription.key, take)
+        self._subscriptions.tick()
 
     def silence(self) -> str:
         """Return nothing: a session is ready when there is one."""
@@ -275,131 +226,59 @@ class ZenohConversation(Conversation):
 
     def _note(self, endpoint: Endpoint) -> None:
         """Take note that an endpoint has come or gone."""
-        topic = endpoint.name
-        for published in self._published.values():
-            if published.outgoing.topic == topic:
-                published.outgoing.receivers = self._graph.receivers(topic)
+        for number, published in tuple(self._published.items()):
+            outgoing = published.outgoing
+            if outgoing.topic != endpoint.name:
+                continue
+            outgoing.receivers = self._graph.receivers(outgoing.topic)
+            if published.type_hash != self._hash_for(outgoing):
+                self._withdraw(number)
+                self._begin(outgoing)
         if endpoint.kind is Kind.PUBLISHER:
+            # `update` follows when somebody has been told of them.
             self.topics_changed = True
-            self._subscribe(topic)
-        elif endpoint.name == service_of(endpoint.node):
-            for topic in self._subscriptions:
-                self._ask_definition(self._graph.of(Kind.PUBLISHER, topic))
+        elif endpoint.kind is Kind.SERVICE:
+            self._subscriptions.follow(endpoint)
+
+    def _begin(self, outgoing: OutgoingTopic) -> None:
+        """Publish a topic with the definition that its receivers have."""
+        type_name, type_hash = outgoing.type_name, self._hash_for(outgoing)
+        if not type_hash:
+            outgoing.refused = (
+                f"the robot has another definition of {type_name}"
+                if standard_hash(type_name)
+                else f"the definition of {type_name} is not known"
+            )
+            return
+        endpoint = Endpoint(
+            Kind.PUBLISHER, names.NODE, outgoing.topic, type_name, type_hash
+        )
+        key = names.key_of(self._domain, outgoing.topic, type_name, type_hash)
+        self._published[outgoing.number] = _Published(
+            outgoing,
+            type_hash,
+            self._session.publisher(key),
+            self._session.declare(self._domain, endpoint),
+        )
+
+    def _withdraw(self, number: int) -> None:
+        if (published := self._published.pop(number, None)) is not None:
+            published.token.undeclare()
+            published.publisher.undeclare()
 
     def _hash_for(self, outgoing: OutgoingTopic) -> str:
-        """Return which definition is published: that which the nodes have."""
-        topic = outgoing.topic
+        """Return which definition is published; "" where receivers have another."""
+        topic, type_name = outgoing.topic, outgoing.type_name
         there = (
             *self._graph.of(Kind.SUBSCRIBER, topic),
             *self._graph.of(Kind.PUBLISHER, topic),
         )
-        hashes = [one.type_hash for one in there if one.type_name == outgoing.type_name]
-        known = standard_hash(outgoing.type_name)
-        return known if known in hashes or not hashes else hashes[0]
-
-    def _subscribe(self, topic: str) -> None:
-        """Subscribe to a wanted topic, and again when its publishers ask for that."""
-        publishers = self._graph.of(Kind.PUBLISHER, topic)
-        if topic not in self._wanted or not publishers:
-            return
-        type_name = publishers[0].type_name
-        offered = self._graph.offered(topic)
-        is_latched = offered is not None and offered.is_any_transient_local
-        known = self._subscriptions.get(topic)
-        if known is not None:
-            if known.type_name == type_name and known.is_latched >= is_latched:
-                return
-            self._unsubscribe(topic)
-        self._ask_definition(publishers)
-        key = names.key_of(self._domain, topic, type_name)
-        made = self._subscriptions[topic] = _ZenohSubscription(
-            key, type_name, is_latched, ticks=0 if is_latched else None
-        )
-        endpoint = Endpoint(
-            Kind.SUBSCRIBER,
-            NODE,
-            topic,
-            type_name,
-            publishers[0].type_hash,
-            offered,
-        )
-        subscriber = self._session.subscribe(
-            key,
-            is_latched,
-            partial(self._take, topic, made),
-            lambda size: self.leave_out(topic.encode(), size, True),
-        )
-        # Some programs publish only when somebody has subscribed.
-        made.declared = subscriber, self._declare(endpoint)
-
-    def _ask_definition(self, publishers: Sequence[Endpoint]) -> None:
-        """Ask the first node of a topic what its messages are, if that is not known."""
-        if not publishers:
-            return
-        publisher = publishers[0]
-        type_name, type_hash = publisher.type_name, publisher.type_hash
-        is_known = self._types.schema(type_name, type_hash).text
-        if is_known or not self._graph.of(Kind.SERVICE, service_of(publisher.node)):
-            return
-
-        def told() -> None:
-            self.topics_changed = True
-            for topic, one in tuple(self._subscriptions.items()):
-                if one.type_name == type_name:
-                    # What has come was not read; what is kept comes again.
-                    self._unsubscribe(topic)
-                    self._subscribe(topic)
-
-        self._types.ask(publisher.node, type_name, type_hash, told)
-
-    def _unsubscribe(self, topic: str) -> None:
-        if (subscription := self._subscriptions.pop(topic, None)) is not None:
-            for declared in subscription.declared:
-                declared.undeclare()
-
-    def _declare(self, endpoint: Endpoint) -> ZenohDeclaration:
-        number = next(self._ids)
-        return self._session.declare_token(
-            names.endpoint_token(self._domain, self._session.name, number, endpoint)
-        )
-
-    def _take(
-        self,
-        topic: str,
-        subscription: _ZenohSubscription,
-        key: str,
-        payload: bytes,
-        attached: bytes,
-    ) -> None:
-        """Take a message; in a thread of zenoh, which the loop is not to hold up."""
-        if self._subscriptions.get(topic) is not subscription:
-            return
-        subscription.ticks = None
-        type_hash = key.rpartition("/")[2]
-        channel = subscription.channels.get(type_hash)
-        if channel is None and len(subscription.channels) >= limits.CHANNELS.value:
-            self.unreadable += 1
-            return
-        if channel is None:
-            channel = subscription.channels[type_hash] = self._channel(
-                topic, subscription, type_hash
-            )
-        stamp = names.stamp_of(attached)
-        if stamp is not None and not subscription.is_latched:
-            self.ends.clock.note_message(stamp)
-        now = self.ends.clock.now_ns()
-        self.ends.put(Recorded(topic, channel, now, stamp, payload))
-
-    def _channel(
-        self, topic: str, subscription: _ZenohSubscription, type_hash: str
-    ) -> TopicChannel:
-        return TopicChannel(
-            topic,
-            self._types.schema(subscription.type_name, type_hash),
-            "cdr",
-            qos=self._graph.offered(topic),
-            is_latched=is_latched_name(topic),
-        )
+        hashes = [one.type_hash for one in there if one.type_name == type_name]
+        known = standard_hash(type_name)
+        if not hashes or known in hashes:
+            return known
+        # What ROS does not have was written as --msg-path says it.
+        return NO_HASH if NO_HASH in hashes else "" if known else hashes[0]
 
     def _service(self, service: str) -> Endpoint:
         found = self._graph.of(Kind.SERVICE, service)

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from sambot_viz.sources.qos import Qos
 from sambot_viz.sources.ros_graph import Endpoint, Kind, demangled, mangled
 
+NODE = "/sambot_viz"
+"""What this program is called among the nodes."""
 TOKENS = "@ros2_lv/**"
 _NODE = "NN"
 _KINDS = {"MP": Kind.PUBLISHER, "MS": Kind.SUBSCRIBER, "SS": Kind.SERVICE}

@@ -1,24 +1,32 @@
 """A session of zenoh: the one place that knows its Python package.
 
-zenoh calls back in threads of its own. Messages are taken there, as they may come a
-thousand times in a second; all else is handed to the loop.
+zenoh calls back in threads of its own, and all is handed to the loop. Messages wait a
+moment for others: to wake the loop for each of a thousand in a second costs more than
+they do.
 """
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import time
+from collections import deque
 from collections.abc import Callable
+from functools import partial
+from itertools import count
 from typing import Any, Protocol
 
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
+from sambot_viz.sources.ros_graph import Endpoint
 from sambot_viz.sources.websocket.address import Address
-from sambot_viz.sources.zenoh.names import attachment
+from sambot_viz.sources.zenoh.names import attachment, endpoint_token
 
 LONGEST_OPENING = 10.0
 """A router that has not answered by then is given up [s]."""
+_TOGETHER = 0.004
+"""Messages that come within this time are handed on together [s]."""
 _CERTIFICATES = "SSL_CERT_FILE"
 
 Post = Callable[[Callable[[], object]], object]
@@ -52,6 +60,9 @@ class ZenohSession:
 
         self._session = session
         self._post = post
+        self._waiting: deque[Callable[[], object]] = deque()
+        self._is_planned = False
+        self._numbers = count(1)
         self.name = str(session.zid())
         found = [*session.info.routers_zid(), *session.info.peers_zid()]
         self.router = str(found[0]) if found else ""
@@ -87,6 +98,11 @@ class ZenohSession:
         """Say that something is there."""
         return self._session.liveliness().declare_token(key)
 
+    def declare(self, domain: int, endpoint: Endpoint) -> ZenohDeclaration:
+        """Say that an endpoint is there."""
+        number = next(self._numbers)
+        return self.declare_token(endpoint_token(domain, self.name, number, endpoint))
+
     def subscribe(
         self, key: str, is_latched: bool, take: OnSample, on_large: Callable[[int], Any]
     ) -> ZenohDeclaration:
@@ -95,7 +111,7 @@ class ZenohSession:
         Args:
             key: may have wildcards.
             is_latched: get what its publishers keep, too.
-            take: gets the messages, in a thread of zenoh.
+            take: gets the messages.
             on_large: gets the size of those that are too large [bytes].
         """
 
@@ -104,7 +120,7 @@ class ZenohSession:
             if size > limits.MESSAGE.value:
                 self._post(lambda: on_large(size))
                 return
-            take(*_content(sample))
+            self._together(partial(take, *_content(sample)))
 
         if not is_latched:
             return self._session.declare_subscriber(key, _at_once(came))
@@ -124,7 +140,7 @@ class ZenohSession:
 
         def answered(reply: Any) -> None:
             if reply.ok is not None and len(reply.ok.payload) <= limits.MESSAGE.value:
-                take(*_content(reply.ok))
+                self._together(partial(take, *_content(reply.ok)))
 
         self._session.get(
             f"*/{key}",
@@ -157,7 +173,8 @@ class ZenohSession:
             said = reply.ok if reply.ok is not None else reply.err
             content = bytes(said.payload)
             is_answer = reply.ok is not None
-            why = "" if is_answer else content.decode("utf-8", "replace")
+            words = content.decode("utf-8", "replace") or "it failed"
+            why = "" if is_answer else words
             self._post(lambda: answered(content if is_answer else b"", why))
 
         self._session.get(
@@ -169,6 +186,22 @@ class ZenohSession:
             payload=request,
             attachment=attachment(number, time.time_ns(), os.urandom(16)),
         )
+
+    def _together(self, action: Callable[[], object]) -> None:
+        """Have something done soon, with what else comes until then."""
+        self._waiting.append(action)
+        if not self._is_planned:
+            self._is_planned = True
+            self._post(self._plan)
+
+    def _plan(self) -> None:
+        asyncio.get_running_loop().call_later(_TOGETHER, self._do_waiting)
+
+    def _do_waiting(self) -> None:
+        # First: what is added from now on is planned again.
+        self._is_planned = False
+        while self._waiting:
+            self._waiting.popleft()()
 
     def publisher(self, key: str) -> ZenohPublisher:
         """Begin to publish on a key."""
