@@ -344,3 +344,19 @@ def test_the_package_is_not_imported_before_there_is_a_connection() -> None:
         "assert 'zenoh' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_a_connection_that_ends_with_a_topic_untold_is_made_again(
+    robot: ZenohPeer, opened: Open, inbox: Inbox
+) -> None:
+    robot.advertise("/chatter")
+    source = opened(robot.uri)
+    eventually(lambda: "/chatter" in source.topics())
+    robot.stop()
+    # Its subscription cannot be told to the session that has just been lost.
+    source.subscribe("/chatter", inbox)
+    eventually(lambda: not source.status.is_connected)
+    robot.start()
+    eventually(lambda: robot.subscribed() == ["/chatter"])
+    robot.publish("/chatter", "again")
+    inbox.wait_for("again")

@@ -108,13 +108,16 @@ class ZenohConversation(Conversation):
 
     def advertise(self, outgoing: OutgoingTopic) -> None:
         """Tell the nodes of a topic that is published."""
+        if self._session.is_closed:
+            return
         outgoing.number = next(self._ids)
         outgoing.receivers = self._graph.receivers(outgoing.topic)
         self._begin(outgoing)
 
     def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
         """Send a message."""
-        if (published := self._published.get(outgoing.number)) is not None:
+        published = self._published.get(outgoing.number)
+        if published is not None and not self._session.is_closed:
             published.publisher.put(message)
 
     def unadvertise(self, outgoing: OutgoingTopic) -> None:
@@ -130,7 +133,9 @@ class ZenohConversation(Conversation):
 
     def update(self, wanted: frozenset[str]) -> None:
         """Subscribe to the wanted topics that exist, and to no others."""
-        self._subscriptions.update(wanted)
+        # Topics are told once more when the session has been closed already.
+        if not self._session.is_closed:
+            self._subscriptions.update(wanted)
         self.ends.assets.refuse_all(
             "zenoh hands out no files",
             "give the folder of the package with --package-path",
@@ -287,6 +292,8 @@ class ZenohConversation(Conversation):
         return found[0]
 
     def _call(self, number: int, service: str, request: bytes) -> None:
+        if self._session.is_closed:
+            raise SourceError("the connection was lost")
         found = self._service(service)
 
         def answered(content: bytes, why: str) -> None:

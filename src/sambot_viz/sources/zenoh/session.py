@@ -78,6 +78,11 @@ class ZenohSession:
         """End it."""
         self._session.close()
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether it was ended: nothing more can be asked of it."""
+        return self._session.is_closed()
+
     def watch(self, key: str, told: Callable[[str, bool], object]) -> None:
         """Tell of liveliness tokens, those that are there first.
 
