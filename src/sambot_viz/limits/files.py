@@ -196,6 +196,12 @@ LAUNCH_VALUE = LimitRow(
     "characters",
     "less is checked",
 )
+LAUNCH_STEPS = LimitRow(
+    "steps that the launch files of a check are followed",
+    20_000,
+    "",
+    "less is checked",
+)
 CHECKED_MESH = LimitRow(
     "a mesh file that is checked with a model",
     60_000_000,

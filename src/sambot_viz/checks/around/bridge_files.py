@@ -8,9 +8,9 @@ from typing import Any
 import yaml
 
 from sambot_viz.checks.around.bridge_types import counterpart
-from sambot_viz.checks.around.bridges import DIRECTIONS
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import pairs, place_of
+from sambot_viz.checks.around.running.bridge_entries import DIRECTIONS
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.unreadable import parameter_files
 from sambot_viz.edits import write

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from sambot_viz.checks.around.bridges import BridgeEntry, entries
-from sambot_viz.checks.around.gazebo_topics import GazeboTopic, bare, sent, taken
+from sambot_viz.checks.around.bridges import entries
+from sambot_viz.checks.around.gazebo_topics import GazeboTopic, sent, taken
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.read_topics import (
     kinds_read,
     published_topics,
     used_topics,
 )
+from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.bridges import entries
-from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import attributes, near_system
 from sambot_viz.errors import Problem

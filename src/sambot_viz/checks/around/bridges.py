@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
-from sambot_viz.checks.around.files.gazebo import Fact, sensors
+from sambot_viz.checks.around.files.gazebo import sensors
 from sambot_viz.checks.around.gazebo_topics import (
     GazeboTopic,
-    bare,
     doubled_topics,
     sent,
     taken,
@@ -17,86 +15,31 @@ from sambot_viz.checks.around.gazebo_topics import (
 )
 from sambot_viz.checks.around.navigation import filters
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.bridge_entries import (
+    DIRECTIONS,
+    BridgeEntry,
+    bare,
+    entries_in,
+    entries_of_file,
+)
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
-DIRECTIONS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
 _TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
-_ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
 _OF_IMAGES = "image_bridge"
 """Carries only images, and finds their types itself."""
 _BRIDGES = ("parameter_bridge", _OF_IMAGES)
-_SCOPED = ("world/", "model/")
-
-
-@dataclass(frozen=True, slots=True)
-class BridgeEntry:
-    """One topic that a bridge carries.
-
-    Attributes:
-        ros: its name in ROS.
-        gz: its name in Gazebo.
-        ros_type: its type in ROS.
-        gz_type: its type in Gazebo, with the name of the package gz.msgs.
-        direction: GZ_TO_ROS, ROS_TO_GZ or BIDIRECTIONAL.
-    """
-
-    ros: Fact
-    gz: Fact
-    ros_type: Fact
-    gz_type: Fact
-    direction: Fact
-
-    @property
-    def kind(self) -> str:
-        """The type in Gazebo, without its package."""
-        return self.gz_type.value.rpartition(".")[2]
-
-    @property
-    def reaches_ros(self) -> bool:
-        """True when it brings messages to ROS."""
-        return self.direction.value != _TO_GZ
-
-    @property
-    def scoped(self) -> bool:
-        """True for a name that Gazebo makes itself."""
-        return bare(self.gz.value).startswith(_SCOPED)
 
 
 def entries(around: Surroundings) -> list[BridgeEntry]:
     """Return all topics that bridges carry, as files and arguments name them."""
-    found = [e for file in around.yaml_files for e in _listed(file.entries())]
+    found = [e for file in around.yaml_files for e in entries_of_file(file)]
     for launch in around.launches:
         for node in launch.nodes:
-            names = dict(node.remappings)
-            for topic, ros_type, arrow, gz_type in launch.bridged(node):
-                ros = next((names[n] for n in names if bare(n) == bare(topic)), topic)
-                found.append(
-                    BridgeEntry(
-                        *(
-                            Fact(text, node.place)
-                            for text in (ros, topic, ros_type, gz_type, _ARROWS[arrow])
-                        )
-                    )
-                )
+            found += entries_in(node.arguments, node.remappings, node.place)
     return found
-
-
-def _listed(mappings: Iterator[dict[str, Fact]]) -> Iterator[BridgeEntry]:
-    for given in mappings:
-        both = given.get("topic_name")
-        ros = given.get("ros_topic_name", both)
-        gz = given.get("gz_topic_name", given.get("ign_topic_name", both))
-        ros, gz = ros or gz, gz or ros
-        ros_type = given.get("ros_type_name")
-        gz_type = given.get("gz_type_name", given.get("ign_type_name"))
-        if ros is None or gz is None or ros_type is None or gz_type is None:
-            continue
-        yield BridgeEntry(
-            ros, gz, ros_type, gz_type, given.get("direction", Fact(_BOTH, ros.place))
-        )
 
 
 def bridge_directions(around: Surroundings) -> Iterator[Problem]:

@@ -13,7 +13,6 @@ from sambot_viz.checks.around.files.gazebo import (
     facts,
     sensors,
 )
-from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.navigation import (
     StateFilter,
     bare_frame,
@@ -21,6 +20,7 @@ from sambot_viz.checks.around.navigation import (
     is_open,
 )
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, sensors
+from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Place, nearest
 from sambot_viz.robot.xml.element import Element
@@ -56,11 +57,6 @@ class GazeboTopic:
     kind: str
     what: str
     wanted: bool = True
-
-
-def bare(topic: str) -> str:
-    """Return a topic as a whole name without the first slash."""
-    return topic.strip().strip("/")
 
 
 def sent(around: Surroundings) -> list[GazeboTopic]:

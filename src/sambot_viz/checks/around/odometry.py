@@ -8,10 +8,10 @@ from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.frame_names import drive_tf
-from sambot_viz.checks.around.gazebo_topics import bare
 from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Problem

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.bridges import BridgeEntry, entries
+from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Fact, facts, sensors
-from sambot_viz.checks.around.gazebo_topics import (
-    bare,
-    doubled_topics,
-    topics_of_sensor,
-)
+from sambot_viz.checks.around.gazebo_topics import doubled_topics, topics_of_sensor
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.element import Element

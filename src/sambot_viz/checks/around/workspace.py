@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.checks.around.files.cmake import CMakeFile
@@ -24,6 +25,9 @@ from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.packages.resolve import FileResolver, inside_package
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.launching.actions import Action
 
 _SKIPPED = frozenset(
     {"build", "install", "log", "meshes", "node_modules", "test", "tests"}
@@ -129,6 +133,22 @@ class Package:
             read = read_launch(text, path, self.shown(path)) if text else None
             if read is not None:
                 yield read
+
+    @cached_property
+    def _actions(self) -> dict[str, tuple[Action, ...] | None]:
+        return {}
+
+    def actions(self, path: str) -> tuple[Action, ...] | None:
+        """Return what a launch file does; None for one that is not readable."""
+        if path not in self._actions:
+            # The import is late: many packages have no launch files.
+            from sambot_viz.checks.around.launching.read import read_actions
+
+            read = {f.path: f.tree for f in self.launches}.get(path)
+            file = next((f for f in self.yaml_files if f.path == path), None)
+            text, shown = self.text(path) or "", self.shown(path)
+            self._actions[path] = read_actions(text, path, shown, read or file)
+        return self._actions[path]
 
     @cached_property
     def launch_paths(self) -> dict[str, tuple[str, ...]]:

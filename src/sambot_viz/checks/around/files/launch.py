@@ -49,7 +49,6 @@ _LISTS = frozenset({"arguments", "cmd", "parameters", "remappings"})
 """Arguments that are lists of several texts, and not the parts of one."""
 _OPTION = re.compile(r"--?[a-z][\w-]*(=\S*)?|\d+", re.IGNORECASE)
 """An option of a program, or the number that one has."""
-_BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,11 +270,6 @@ class LaunchFile:
             if text.startswith(SHARE) and ".." not in text:
                 found.setdefault((text, node.lineno), Fact(text, self.place(node)))
         return sorted(found.values(), key=lambda fact: fact.place.line)
-
-    def bridged(self, node: LaunchNode) -> list[tuple[str, str, str, str]]:
-        """Return what a bridge's arguments say: topic, ROS type, [ ] or @, type."""
-        found = (_BRIDGED.fullmatch(text) for text in node.arguments)
-        return [(m[1], m[2], m[3], m[4]) for m in found if m is not None]
 
 
 def _without_options(text: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from sambot_viz.checks.around.files.launch import LaunchNode
+from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.system import (
     Endpoint,
     GivenParameter,
@@ -16,7 +16,6 @@ from sambot_viz.checks.around.running.system import (
     UnknownStart,
 )
 from sambot_viz.checks.around.workspace import Workspace
-from sambot_viz.errors import Place
 from sambot_viz.robot.packages.package_index import package_around
 
 __all__ = [
@@ -56,28 +55,12 @@ def running_system(
         trusted=trusted,
     )
     package = found.at(package_around(start) or start)
-    launches = package.launches if package is not None else ()
-    if not is_folder and package is not None:
-        launches = tuple(
-            one for one in launches if (package.folder / one.path).samefile(path)
-        )
-    return RunningSystem(
-        tuple(launch.shown for launch in launches),
-        tuple(_node(node) for launch in launches for node in launch.nodes),
-        tuple(UnknownStart("a launch file", Place(one.shown, 1)) for one in launches),
-    )
-
-
-def _node(node: LaunchNode) -> RunningNode:
-    return RunningNode(
-        node.package,
-        node.executable,
-        node.name or "",
-        "/",
-        "yes",
-        (),
-        False,
-        node.remappings,
-        node.arguments,
-        node.place,
-    )
+    if package is None:
+        return RunningSystem()
+    files = [
+        (package, each)
+        for each in package.launch_paths
+        if is_folder or (package.folder / each).samefile(path)
+    ]
+    others = (each for each in found.given if each is not package)
+    return system_of(files, [package, *others], found.named, displays=True)

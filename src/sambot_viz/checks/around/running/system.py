@@ -63,11 +63,18 @@ class GivenParameter:
         values: the text of the value, or of each item of a list; None where it is
             not known.
         place: its line.
+        given_at: where the launch file names the file that it is in; None for one
+            that the launch file has itself.
+        is_robot: the value is the text of a robot.
+        robot: the command or the file that this text comes from, as far as is known.
     """
 
     name: str
     values: tuple[str, ...] | None
     place: Place
+    given_at: Place | None = None
+    is_robot: bool = False
+    robot: str = ""
 
     @property
     def value(self) -> str | None:

@@ -1,0 +1,128 @@
+"""Puts together what the launch files of packages start."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.running.bridge_entries import entries_of_file
+from sambot_viz.checks.around.running.endpoints import with_endpoints
+from sambot_viz.checks.around.running.evaluation import LaunchEvaluation
+from sambot_viz.checks.around.running.known import KnownNode, known_nodes
+from sambot_viz.checks.around.running.parameter_files import parameters_for
+from sambot_viz.checks.around.running.system import (
+    GivenParameter,
+    RunningNode,
+    RunningSystem,
+    UnknownStart,
+)
+from sambot_viz.checks.around.workspace import Package
+from sambot_viz.errors import Place
+
+Find = Callable[[str], Package | None]
+
+
+def system_of(
+    files: Sequence[tuple[Package, str]],
+    packages: Sequence[Package],
+    find: Find,
+    *,
+    displays: bool = False,
+) -> RunningSystem:
+    """Return what runs when launch files are started.
+
+    Those that others of them include are not started a second time. Nodes that have
+    parameters in the packages, and that no launch file starts, may be started by hand.
+
+    Args:
+        files: the launch files, each with its package.
+        packages: those whose parameters count.
+        find: returns a package that is here by its name.
+        displays: read the configs of RViz for the topics of its displays.
+    """
+    followed: dict[tuple[Package, str], LaunchEvaluation] = {}
+    for package, path in files:
+        followed[package, path] = LaunchEvaluation(find)
+        followed[package, path].run(package, path)
+    included = {file for one in followed.values() for file in one.included}
+    # Files that include each other are all started.
+    roots = [file for file in followed if file not in included] or list(followed)
+    nodes: list[RunningNode] = []
+    unknown: list[UnknownStart] = []
+    for root in roots:
+        nodes += followed[root].nodes
+        unknown += followed[root].unknown
+    nodes += _controllers(nodes, packages)
+    nodes += _by_hand(nodes, packages)
+    return RunningSystem(
+        tuple(package.shown(path) for package, path in roots),
+        tuple(with_endpoints(node, find, displays=displays) for node in nodes),
+        tuple(dict.fromkeys(unknown)),
+    )
+
+
+def _controllers(
+    nodes: Iterable[RunningNode], packages: Sequence[Package]
+) -> Iterator[RunningNode]:
+    """Give the controllers that spawners start."""
+    files = [file for package in packages for file in package.yaml_files]
+    types = {p.name: p.fact.value for file in files for p in file.parameters}
+    for node in nodes:
+        known = known_nodes().nodes.get((node.package, node.executable))
+        for name in node.arguments if known and known.does("spawns") else ():
+            kind = types.get(f"{name}.type")
+            if name is not None and kind is not None:
+                given = [p for f in files for p in parameters_for(f, name, None)]
+                yield replace(
+                    node,
+                    package=kind.partition("/")[0],
+                    executable=kind,
+                    name=name,
+                    parameters=tuple(given),
+                    arguments=(),
+                )
+
+
+def _by_hand(
+    nodes: Sequence[RunningNode], packages: Sequence[Package]
+) -> Iterator[RunningNode]:
+    """Give nodes and bridges that have parameters, and that no launch file starts."""
+    started = {node.name for node in nodes}
+    named = {each.value for node in nodes for each in node.parameters}
+    for package in packages:
+        for file in package.yaml_files:
+            for key, place in file.keys.items():
+                above, _, name = key.strip("/").rpartition("/")
+                known = known_nodes().names.get(name)
+                if known is not None and name not in started:
+                    space = "/" if "*" in above else f"/{above}"
+                    given = tuple(parameters_for(file, name, space))
+                    yield _alone(known, name, space, given, place)
+            path = f"{SHARE}{package.name}/{file.path}"
+            if path not in named and any(entries_of_file(file)):
+                place = Place(file.shown, 1)
+                config = GivenParameter("config_file", (path,), place)
+                known = known_nodes().names["ros_gz_bridge"]
+                yield _alone(known, known.name, "/", (config,), place)
+
+
+def _alone(
+    known: KnownNode,
+    name: str,
+    namespace: str,
+    given: tuple[GivenParameter, ...],
+    place: Place,
+) -> RunningNode:
+    return RunningNode(
+        known.package,
+        known.programs[0],
+        name,
+        namespace,
+        "unknown",
+        given,
+        True,
+        (),
+        (),
+        place,
+    )

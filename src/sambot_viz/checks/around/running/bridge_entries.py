@@ -1,0 +1,109 @@
+"""The topics that a bridge between Gazebo and ROS carries."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.running.system import Endpoint
+from sambot_viz.errors import Place
+
+DIRECTIONS = ("GZ_TO_ROS", "ROS_TO_GZ", "BIDIRECTIONAL")
+_TO_ROS, _TO_GZ, _BOTH = DIRECTIONS
+_ARROWS = {"[": _TO_ROS, "]": _TO_GZ, "@": _BOTH}
+_BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
+_SCOPED = ("world/", "model/")
+
+
+@dataclass(frozen=True, slots=True)
+class BridgeEntry:
+    """One topic that a bridge carries.
+
+    Attributes:
+        ros: its name in ROS.
+        gz: its name in Gazebo.
+        ros_type: its type in ROS.
+        gz_type: its type in Gazebo, with the name of the package gz.msgs.
+        direction: GZ_TO_ROS, ROS_TO_GZ or BIDIRECTIONAL.
+    """
+
+    ros: Fact
+    gz: Fact
+    ros_type: Fact
+    gz_type: Fact
+    direction: Fact
+
+    @property
+    def kind(self) -> str:
+        """The type in Gazebo, without its package."""
+        return self.gz_type.value.rpartition(".")[2]
+
+    @property
+    def reaches_ros(self) -> bool:
+        """True when it brings messages to ROS."""
+        return self.direction.value != _TO_GZ
+
+    @property
+    def scoped(self) -> bool:
+        """True for a name that Gazebo makes itself."""
+        return bare(self.gz.value).startswith(_SCOPED)
+
+    def endpoints(self, topic: str) -> Iterator[Endpoint]:
+        """Give what the bridge publishes and subscribes to for it.
+
+        Args:
+            topic: its whole name in ROS.
+        """
+        gz = f"/{bare(self.gz.value)}"
+        for publishes, way in ((True, _TO_GZ), (False, _TO_ROS)):
+            if self.direction.value != way:
+                kind, place, written = self.ros_type, self.ros.place, self.ros.value
+                yield Endpoint(topic, kind.value, publishes, place, written)
+                kind, place, written = self.gz_type, self.gz.place, self.gz.value
+                yield Endpoint(
+                    gz, kind.value, not publishes, place, written, in_gazebo=True
+                )
+
+
+def bare(topic: str) -> str:
+    """Return a topic as a whole name without the first slash."""
+    return topic.strip().strip("/")
+
+
+def entries_of_file(file: YamlFile) -> Iterator[BridgeEntry]:
+    """Give the entries in a file of a bridge."""
+    for given in file.entries():
+        both = given.get("topic_name")
+        ros = given.get("ros_topic_name", both)
+        gz = given.get("gz_topic_name", given.get("ign_topic_name", both))
+        ros, gz = ros or gz, gz or ros
+        ros_type = given.get("ros_type_name")
+        gz_type = given.get("gz_type_name", given.get("ign_type_name"))
+        if ros is None or gz is None or ros_type is None or gz_type is None:
+            continue
+        yield BridgeEntry(
+            ros, gz, ros_type, gz_type, given.get("direction", Fact(_BOTH, ros.place))
+        )
+
+
+def entries_in(
+    arguments: Iterable[str | None], remappings: Iterable[tuple[str, str]], place: Place
+) -> Iterator[BridgeEntry]:
+    """Give the entries in the arguments of a bridge.
+
+    Args:
+        arguments: its arguments.
+        remappings: topic → topic.
+        place: of the node.
+    """
+    names = list(remappings)
+    for argument in arguments:
+        found = _BRIDGED.fullmatch(argument or "")
+        if found is not None:
+            topic, ros_type, arrow, gz_type = found.groups()
+            renamed = (new for old, new in names if bare(old) == bare(topic))
+            texts = (next(renamed, topic), topic, ros_type, gz_type, _ARROWS[arrow])
+            yield BridgeEntry(*(Fact(text, place) for text in texts))

@@ -1,0 +1,216 @@
+"""Which topics and transforms a node has, from what is known of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import yaml
+
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.files.parameters import flag, pairs, place_of, read_yaml
+from sambot_viz.checks.around.running.bridge_entries import (
+    entries_in,
+    entries_of_file,
+)
+from sambot_viz.checks.around.running.known import KnownNode, NodeRow, known_nodes
+from sambot_viz.checks.around.running.system import (
+    Endpoint,
+    GivenParameter,
+    PublishedTransform,
+    RunningNode,
+)
+from sambot_viz.checks.around.workspace import Package
+
+_WILD = {"#": r"(\d+)", "*": r"([\w.]+)"}
+_TOPICS = ("Topic", "Description Topic", "Depth Map Topic", "Image Topic")
+
+
+class _Said(NamedTuple):
+    """A text that a parameter says, or the table."""
+
+    text: str
+    parameter: GivenParameter | None
+    star: str
+
+
+def whole_name(node: RunningNode, name: str) -> str:
+    """Return the topic that a name in a node becomes, with namespace and remappings.
+
+    Without a slash at its start where the namespace is not known.
+    """
+    whole = _expanded(node, name)
+    for old, new in node.remappings:
+        if _expanded(node, old) == whole:
+            return _expanded(node, new)
+    return whole
+
+
+def _expanded(node: RunningNode, name: str) -> str:
+    if name.startswith("/"):
+        return name
+    if name.startswith("~"):
+        return f"{node.path}/{name[1:].strip('/')}"
+    return f"{node.namespace.rstrip('/')}/{name}" if node.namespace else name
+
+
+def with_endpoints(
+    node: RunningNode, find: Callable[[str], Package | None], *, displays: bool
+) -> RunningNode:
+    """Return a node with its topics and transforms, as far as they are known.
+
+    Args:
+        node: the node.
+        find: returns a package that is here by its name.
+        displays: read the config of RViz for the topics of its displays.
+    """
+    known = known_nodes().nodes.get((node.package, node.executable))
+    if known is None:
+        return node
+    endpoints = list(_of_rows(node, known))
+    if known.does("bridge"):
+        endpoints += _of_bridge(node, find)
+    if known.does("displays") and displays:
+        endpoints += _of_displays(node, find)
+    return replace(
+        node,
+        endpoints=tuple(dict.fromkeys(endpoints)),
+        transforms=tuple(_transforms(node, known)),
+        endpoints_known=True,
+    )
+
+
+def _of_rows(node: RunningNode, known: KnownNode) -> Iterator[Endpoint]:
+    for row in known.rows:
+        if row.verb not in ("publishes", "subscribes") or _is_off(node, row):
+            continue
+        for said in _said(node, row.words[0]):
+            kind = next(iter(_said(node, row.words[1].replace("*", said.star))), None)
+            yield Endpoint(
+                whole_name(node, said.text),
+                kind.text if kind is not None else "",
+                row.verb == "publishes",
+                said.parameter.place if said.parameter else node.place,
+                said.text,
+                said.parameter.name if said.parameter else "",
+            )
+
+
+def _is_off(node: RunningNode, row: NodeRow) -> bool:
+    name, value = row.unless
+    given = node.parameter(name) if name else None
+    return given is not None and flag(given.value or "") is flag(value)
+
+
+def _said(node: RunningNode, words: str) -> Iterator[_Said]:
+    """Give the texts that a word of the table stands for."""
+    before, mark, rest = words.partition("$")
+    if not mark:
+        yield _Said(words, None, "")
+        return
+    name, _, default = rest.partition("=")
+    wild = next((sign for sign in _WILD if sign in name), None)
+    if wild is not None:
+        pattern = re.compile(re.escape(name).replace(re.escape(wild), _WILD[wild]))
+        for parameter in node.parameters:
+            found = pattern.fullmatch(parameter.name)
+            if found is not None and parameter.value:
+                yield _Said(before + parameter.value, parameter, found[1])
+        return
+    given = node.parameter(name)
+    if given is not None:
+        if given.value:
+            yield _Said(before + given.value, given, "")
+    elif default:
+        yield from (
+            _Said(before + s.text, s.parameter, "") for s in _said(node, default)
+        )
+
+
+def _transforms(node: RunningNode, known: KnownNode) -> Iterator[PublishedTransform]:
+    for row in known.rows:
+        if row.verb == "transform" and not _is_off(node, row):
+            for parent, child in zip(
+                *(_said(node, w) for w in row.words), strict=False
+            ):
+                said = child.parameter or parent.parameter
+                place = said.place if said else node.place
+                frames = [each.text.strip().lstrip("/") for each in (parent, child)]
+                yield PublishedTransform(frames[0], frames[1], place)
+    if known.name == "static_transform_publisher":
+        yield from _static(node)
+
+
+def _static(node: RunningNode) -> Iterator[PublishedTransform]:
+    """Give the transform in the arguments of a static_transform_publisher."""
+    words = [word or "" for word in node.arguments]
+    words = words[: words.index("--ros-args")] if "--ros-args" in words else words
+    named = dict(pairwise(words))
+    ends = named.get("--frame-id"), named.get("--child-frame-id")
+    if None in ends and len(words) in (8, 9) and not words[-1].startswith("-"):
+        ends = words[-2], words[-1]
+    parent, child = ends
+    if parent and child:
+        yield PublishedTransform(parent.lstrip("/"), child.lstrip("/"), node.place)
+
+
+def _of_bridge(
+    node: RunningNode, find: Callable[[str], Package | None]
+) -> Iterator[Endpoint]:
+    for entry in entries_in(node.arguments, (), node.place):
+        yield from entry.endpoints(whole_name(node, entry.ros.value))
+    given = node.parameter("config_file")
+    path = given.value if given is not None else None
+    name, _, below = (path or "").removeprefix(SHARE).partition("/")
+    package = find(name)
+    for file in package.yaml_files if package is not None else ():
+        for entry in entries_of_file(file) if file.path == below else ():
+            yield from entry.endpoints(whole_name(node, entry.ros.value))
+
+
+def _of_displays(
+    node: RunningNode, find: Callable[[str], Package | None]
+) -> Iterator[Endpoint]:
+    """Give the topics of the displays and tools in a config of RViz."""
+    named = dict(pairwise(node.arguments))
+    path = named.get("-d") or named.get("--display-config") or ""
+    name, _, below = path.removeprefix(SHARE).partition("/")
+    package = find(name) if path.startswith(SHARE) else None
+    text = package.text(below) if package is not None else None
+    file = read_yaml(text, below, package.shown(below)) if text and package else None
+    waiting: list[yaml.Node] = [] if file is None else [file.root]
+    while waiting and file is not None:
+        inner = waiting.pop()
+        if isinstance(inner, yaml.SequenceNode):
+            waiting += reversed(inner.value)
+            continue
+        values = {key.value: value for key, value in pairs(inner)}
+        # What is inside of a group comes in the order of the file.
+        waiting += reversed([*values.values()])
+        yield from _of_display(node, values, file.shown)
+
+
+def _of_display(
+    node: RunningNode, values: dict[str, yaml.Node], file: str
+) -> Iterator[Endpoint]:
+    said = {k: v.value for k, v in values.items() if isinstance(v, yaml.ScalarNode)}
+    displays, tools = known_nodes().displays, known_nodes().tools
+    kind = said.get("Class", "")
+    message = displays.get(kind) or tools.get(kind)
+    if message is None or flag(said.get("Enabled", "true")) is False:
+        return
+    for name in _TOPICS:
+        value = values.get(name)
+        inner = {key.value: each for key, each in pairs(value)} if value else {}
+        topic = inner.get("Value", value)
+        if isinstance(topic, yaml.ScalarNode) and topic.value:
+            yield Endpoint(
+                whole_name(node, topic.value),
+                message,
+                kind in tools,
+                place_of(topic, file),
+                topic.value,
+            )

@@ -1,0 +1,40 @@
+"""What a launch file includes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.launching.actions import (
+    Action,
+    FromFile,
+    LaunchArgument,
+    StartNode,
+)
+from sambot_viz.checks.around.running.known import KnownLaunch
+from sambot_viz.checks.around.workspace import Package
+from sambot_viz.errors import Place
+
+
+def launch_file_of(package: Package, below: str) -> str | None:
+    """Return the launch file that a path means; it may be installed elsewhere."""
+    if below in package.paths:
+        return below
+    last = below.rpartition("/")[2]
+    alike = [path for path in package.paths if path.rpartition("/")[2] == last]
+    return alike[0] if len(alike) == 1 else None
+
+
+def actions_of_known(known: KnownLaunch, place: Place) -> Iterator[Action]:
+    """Give the nodes that a launch file of a well-known package starts."""
+    file = FromFile(LaunchArgument(known.parameters), place)
+    for package, program in known.nodes:
+        yield StartNode(
+            place,
+            "true",
+            package,
+            program,
+            "",
+            LaunchArgument("namespace", ""),
+            (file,) if known.parameters else (),
+            complete=False,
+        )

@@ -1,0 +1,133 @@
+"""The nodes that are known, from the table nodes.txt."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+_TABLE = Path(__file__).parents[2] / "vocabularies" / "nodes.txt"
+
+
+@dataclass(frozen=True, slots=True)
+class NodeRow:
+    """A line about a known node.
+
+    Attributes:
+        verb: "publishes", "subscribes", "transform", "part", or a word with its own
+            code.
+        words: what it says, such as a topic and its type.
+        unless: the parameter and the value with which it does not hold; else empty.
+    """
+
+    verb: str
+    words: tuple[str, ...]
+    unless: tuple[str, str] = ("", "")
+
+
+@dataclass(frozen=True, slots=True)
+class KnownNode:
+    """A node of a well-known package.
+
+    Attributes:
+        package: its package.
+        programs: its executables, and the class of the same component.
+        name: what it is called when it is given no name.
+        rows: what it publishes, subscribes to and has inside.
+    """
+
+    package: str
+    programs: tuple[str, ...]
+    name: str
+    rows: tuple[NodeRow, ...]
+
+    def does(self, verb: str) -> bool:
+        """Tell whether it has a row with this verb."""
+        return any(row.verb == verb for row in self.rows)
+
+
+@dataclass(frozen=True, slots=True)
+class KnownLaunch:
+    """A launch file of a well-known package.
+
+    Attributes:
+        parameters: the launch argument that names the file with the parameters.
+        nodes: the package and the program of each node.
+    """
+
+    parameters: str
+    nodes: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class KnownNodes:
+    """The table.
+
+    Attributes:
+        nodes: package and program → the node.
+        names: the name a node has by itself → the node.
+        launches: package and file → what the launch file starts.
+        displays: class of a display of RViz → the type that it subscribes to.
+        tools: class of a tool of RViz → the type that it publishes.
+        packages: the packages of the nodes.
+    """
+
+    nodes: Mapping[tuple[str, str], KnownNode]
+    names: Mapping[str, KnownNode]
+    launches: Mapping[tuple[str, str], KnownLaunch]
+    displays: Mapping[str, str]
+    tools: Mapping[str, str]
+    packages: frozenset[str]
+
+
+@cache
+def known_nodes() -> KnownNodes:
+    """Return the table of known nodes."""
+    nodes: list[KnownNode] = []
+    rows: list[NodeRow] = []
+    launches: dict[tuple[str, str], KnownLaunch] = {}
+    displays: dict[str, str] = {}
+    tools: dict[str, str] = {}
+    for line in reversed(_TABLE.read_text("utf-8").splitlines()):
+        words = line.split()
+        match words:
+            case ["node", package, programs, *rest]:
+                given = tuple(programs.split(","))
+                name = rest[0] if rest else given[0]
+                nodes.append(KnownNode(package, given, name, tuple(rows[::-1])))
+                rows.clear()
+            case ["launch", package, file, parameters, *started]:
+                both = tuple(_halves(each) for each in started)
+                argument = parameters.strip("-")
+                launches[package, file] = KnownLaunch(argument, both)
+            case ["display", kind, message]:
+                displays[kind] = message
+            case ["tool", kind, message]:
+                tools[kind] = message
+            case [verb, *rest] if line[0] == " ":
+                rows.append(_row(verb, rest))
+            case _:
+                pass
+    nodes.reverse()
+    return KnownNodes(
+        {(node.package, program): node for node in nodes for program in node.programs},
+        {node.name: node for node in reversed(nodes)},
+        launches,
+        displays,
+        tools,
+        frozenset(node.package for node in nodes) | {p for p, _ in launches},
+    )
+
+
+def _halves(text: str) -> tuple[str, str]:
+    package, _, program = text.partition("/")
+    return package, program
+
+
+def _row(verb: str, words: list[str]) -> NodeRow:
+    if "unless" not in words:
+        return NodeRow(verb, tuple(words))
+    at = words.index("unless")
+    name, _, value = words[at + 1].partition("=")
+    return NodeRow(verb, tuple(words[:at]), (name, value))

@@ -1,0 +1,48 @@
+"""The parameters that a node gets from files and arguments."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.running.system import GivenParameter
+
+_OPTIONS = {"-r": "remap", "--remap": "remap", "-p": "value", "--params-file": "file"}
+
+
+def parameters_for(
+    file: YamlFile, name: str, namespace: str | None
+) -> Iterator[GivenParameter]:
+    """Give the parameters of a file that a node reads.
+
+    Args:
+        file: the file.
+        name: of the node.
+        namespace: None for one that is not known, which any in the file fits.
+    """
+    path = None if namespace is None else f"{namespace.rstrip('/')}/{name}"
+    for key in file.nodes:
+        if _fits(key, name, path):
+            for parameter in file.of(key).values():
+                yield GivenParameter(parameter.name, parameter.values, parameter.place)
+
+
+def _fits(key: str, name: str, path: str | None) -> bool:
+    whole = "/" + key.strip("/")
+    if path is None:
+        return whole.rpartition("/")[2] in (name, "*", "**")
+    pattern = re.escape(whole).replace(r"/\*\*", "(/[^/]+)*").replace(r"\*", "[^/]+")
+    return re.fullmatch(pattern, path) is not None
+
+
+def options_in(words: Iterable[str | None]) -> dict[str, list[tuple[str, str]]]:
+    """Read the options after --ros-args: remappings, parameters and their files."""
+    found: dict[str, list[tuple[str, str]]] = {"remap": [], "value": [], "file": []}
+    for option, word in pairwise(words):
+        kind = _OPTIONS.get(option or "")
+        if kind is not None and word is not None:
+            old, _, new = word.partition(":=")
+            found[kind].append((old, new))
+    return found
