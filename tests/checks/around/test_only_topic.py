@@ -108,3 +108,23 @@ def test_another_node_may_publish_it(copied: Copied, action: str) -> None:
         text.replace("    ExecuteProcess,", "    ExecuteProcess,\n    OpaqueFunction,")
     )
     assert check(package / MODEL) == []
+
+
+@pytest.mark.parametrize(
+    "launch",
+    [
+        '<launch><node pkg="robot_localization" exec="ekf_node"/></launch>',
+        '<launch><arg name="use" default="1"/><group if="$(var use)">'
+        '<node pkg="robot_localization" exec="ekf_node"/></group></launch>',
+    ],
+)
+def test_a_filter_that_a_launch_file_in_xml_starts_reads_its_topics(
+    copied: Copied, launch: str
+) -> None:
+    package = copied("gz")
+    (package / LAUNCH).unlink()
+    (package / "launch" / "display.launch.xml").write_text(launch, "utf-8")
+    config = package / EKF
+    text = config.read_text("utf-8")
+    config.write_text(text.replace("imu0: demo/imu", "imu0: demo/im"), "utf-8")
+    assert "topic-unknown" in {problem.code for problem in check(package / MODEL)}

@@ -11,7 +11,6 @@ import yaml
 from sambot_viz.checks.around.files.launch import NODES, LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE, keyword, values_for
 from sambot_viz.checks.around.files.parameters import flag
-from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.launch_calls import meant_word
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.misspelt import is_misspelt
@@ -264,7 +263,7 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
     published = {topic: place for topic, place in _descriptions(around) if topic}
     if len(published) < len(dict(_descriptions(around))) or not published:
         return
-    certain = starts_only_known(around)
+    certain = around.simulates_only_known
     for launch in around.launches:
         for fact in spawned_with(launch, "topic"):
             topic, place = fact.value, fact.place

@@ -20,7 +20,7 @@ class StateFilter:
     Attributes:
         node: its name.
         given: its parameters, by name.
-        started: a launch file of the package always starts it.
+        started: a launch file of the packages starts it.
         file: the file with its parameters.
     """
 
@@ -78,11 +78,10 @@ class StateFilter:
 
 def filters(around: Surroundings) -> list[StateFilter]:
     """Return the filters of robot_localization that have parameters in the package."""
-    nodes = [node for launch in around.launches for node in launch.nodes]
     named = {
-        node.name or "ekf_filter_node"
-        for node in nodes
-        if node.executable in ("ekf_node", "ukf_node")
+        node.name
+        for node in around.running.nodes
+        if node.package == "robot_localization" and node.starts == "yes"
     }
     found: list[StateFilter] = []
     for file in around.yaml_files:

@@ -8,7 +8,6 @@ from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.frame_names import drive_tf
-from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
@@ -24,7 +23,7 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
         return
     (one,) = started
     user = _user(around, one.odom_frame)
-    if user is None or _others_publish(around) or not starts_only_known(around):
+    if user is None or _others_publish(around) or not around.simulates_only_known:
         return
     found = _reason(one)
     if found is None:

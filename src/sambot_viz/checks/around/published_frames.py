@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.frame_names import DRIVE_ODOMS
-from sambot_viz.checks.around.known_nodes import PACKAGES, is_known
 from sambot_viz.checks.around.navigation import bare_frame, filters
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -20,7 +19,6 @@ _MAPS = re.compile(
 _OF_MAPS = frozenset({"map", "odom"})
 """Frames that localization publishes, and needs."""
 _LAUNCHED = (".launch", ".launch.xml", ".launch.yaml", ".launch.yml")
-_PACKAGE = re.compile(r"pkg\s*[=:]\s*[\"']?([\w$()-]+)")
 _HELD_BY = re.compile(r"<virtual_joint\b[^>]*\bparent_frame\s*=\s*[\"']([^\"']+)")
 _PUBLISHERS = (*DRIVE_ODOMS, "odom_frame")
 
@@ -37,7 +35,7 @@ def may_be_published(around: Surroundings, frame: str) -> bool:
     if any(is_one_slip(name, link) for link in around.links):
         return False
     prefixed = name.rpartition("/")[2] in around.links
-    return (prefixed and around.namespaced) or not _starts_only_known(around)
+    return (prefixed and around.namespaced) or not around.running.is_known
 
 
 def _named(around: Surroundings) -> Iterator[str]:
@@ -75,10 +73,3 @@ def _launch_texts(around: Surroundings) -> Iterator[str]:
     for package in around.packages:
         for path in package.ending(*_LAUNCHED):
             yield package.text(path) or ""
-
-
-def _starts_only_known(around: Surroundings) -> bool:
-    named = {
-        package for text in _launch_texts(around) for package in _PACKAGE.findall(text)
-    }
-    return named <= PACKAGES and all(is_known(one, around) for one in around.launches)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
-from sambot_viz.checks.around.known_nodes import starts_only_known
 from sambot_viz.checks.around.navigation import filters, is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
@@ -93,7 +92,7 @@ def _unknown(parameter: Parameter, kind: str, source: Published) -> Problem:
 
 def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
     """The one topic of a type, when nobody else can publish another."""
-    alone = len(known) == 1 and starts_only_known(around)
+    alone = len(known) == 1 and around.simulates_only_known
     return next(iter(known)) if alone else None
 
 

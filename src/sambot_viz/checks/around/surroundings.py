@@ -13,6 +13,8 @@ from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.files.setup_py import SetupFile
+from sambot_viz.checks.around.running.assemble import system_of
+from sambot_viz.checks.around.running.system import RunningSystem
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
@@ -62,6 +64,19 @@ class Surroundings:
     def launches(self) -> tuple[LaunchFile, ...]:
         """The Python launch files."""
         return tuple(file for each in self.packages for file in each.launches)
+
+    @cached_property
+    def running(self) -> RunningSystem:
+        """What runs when the launch files are started."""
+        packages = {package.name: package for package in self.packages}
+        files = [(each, path) for each in self.packages for path in each.launch_paths]
+        return system_of(files, self.packages, packages.get)
+
+    @property
+    def simulates_only_known(self) -> bool:
+        """True when Gazebo is started, and nothing whose topics are not known."""
+        simulated = any(launch.may_start for launch in self.launches)
+        return simulated and self.running.is_known
 
     def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
         """Give the Python launch files with their texts."""

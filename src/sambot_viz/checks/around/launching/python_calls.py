@@ -125,10 +125,10 @@ def _values(table: Table, above: str) -> list[WrittenValue]:
     for key, value, place in table.pairs:
         name = Joined((above, key)) if above else key
         if isinstance(value, Table):
-            below = f"{above}{key}." if isinstance(key, str) else ""
-            found += (
-                _values(value, below) if below else [WrittenValue(None, None, place)]
-            )
+            if isinstance(key, str):
+                found += _values(value, f"{above}{key}.")
+            else:
+                found.append(WrittenValue(None, None, place))
         elif isinstance(value, Listing) and value.complete:
             texts = tuple(as_text(item) for item, _ in value.items)
             found.append(WrittenValue(name, texts, place))

@@ -64,6 +64,12 @@ class PythonReader:
         if isinstance(entry, ast.FunctionDef):
             place = self.place(entry)
             found = self.result_of(entry, names)
+        else:
+            # What is wrong with such a file is a finding; what it names is still meant.
+            bare = [s.value for s in self._tree.body if isinstance(s, ast.Expr)]
+            items = [(self.value(call, names), self.place(call)) for call in bare]
+            acting = [item for item in items if isinstance(item[0], Action)]
+            found = Listing(tuple(acting)) if acting else None
         return as_actions(found, place)
 
     def result_of(self, function: ast.FunctionDef, names: Names) -> PythonValue:

@@ -69,7 +69,9 @@ def with_endpoints(
     """
     known = known_nodes().nodes.get((node.package, node.executable))
     if known is None:
-        return node
+        # The other programs of these packages have no topics of a robot.
+        ours = node.package in known_nodes().packages
+        return replace(node, endpoints_known=ours)
     endpoints = list(_of_rows(node, known))
     if known.does("bridge"):
         endpoints += _of_bridge(node, find)

@@ -168,6 +168,13 @@ class RunningSystem:
         """The nodes that start, or may."""
         return tuple(node for node in self.nodes if node.starts != "no")
 
+    @property
+    def is_known(self) -> bool:
+        """True when it is whole, and the topics of all its nodes are known."""
+        return self.is_whole and all(
+            node.endpoints_known for node in self.nodes if node.starts != "no"
+        )
+
     def endpoints(self, topic: str) -> Iterator[tuple[RunningNode, Endpoint]]:
         """Give who publishes and who subscribes to a topic, by its whole name."""
         for node in self.started:
