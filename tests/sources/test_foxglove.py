@@ -149,7 +149,7 @@ def test_the_time_of_the_server_is_the_clock(robot: Peer, opened: Open) -> None:
     until(lambda: source.clock_ns() == 3, WAIT, "a clock may go back")
 
 
-def test_the_graph_says_who_publishes(robot: Peer, opened: Open) -> None:
+def test_the_graph_says_who_publishes_and_who_reads(robot: Peer, opened: Open) -> None:
     peer = robot()
     peer.advertise("/a")
     peer.advertise("/b")
@@ -158,6 +158,7 @@ def test_the_graph_says_who_publishes(robot: Peer, opened: Open) -> None:
     assert source.topics()["/a"].publishers is None
     graph = ConnectionGraph()
     graph.set_published_topic("/a", ["/talker", "/other"])
+    graph.set_subscribed_topic("/b", ["/listener"])
     assert peer.server is not None
 
     def told() -> bool:
@@ -168,6 +169,8 @@ def test_the_graph_says_who_publishes(robot: Peer, opened: Open) -> None:
     until(told, WAIT)
     assert set(source.topics()["/a"].publishers or ()) == {"/talker", "/other"}
     assert source.topics()["/b"].publishers == ()
+    assert source.topics()["/a"].subscribers == ()
+    assert source.topics()["/b"].subscribers == ("/listener",)
 
 
 def test_warnings_of_the_server_are_said_until_it_takes_them_back(

@@ -12,7 +12,6 @@ from bisect import bisect_left, insort
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from statistics import fmean
 
 Point = tuple[float, float]
 _ROW_GAP = 14.0
@@ -123,26 +122,27 @@ class _Columns:
 
     def sort(self) -> None:
         """Sort the columns so that few arcs cross."""
+        place = [0] * len(self._vertices)
         for layer in self._layers:
             layer.sort(key=lambda v: self._vertices[v].lane)
+            _note_places(layer, place)
         best, fewest = [list(layer) for layer in self._layers], self._crossings()
         for sweep in range(_SWEEPS):
             is_down = sweep % 2 == 0
             near = self._before if is_down else self._after
             for layer in self._layers if is_down else reversed(self._layers):
-                self._sort_layer(layer, near)
+                self._sort_layer(layer, near, place)
             count = self._crossings()
             if count < fewest:
                 best, fewest = [list(layer) for layer in self._layers], count
         self._layers = best
 
-    def _sort_layer(self, layer: list[int], near: Sequence[Sequence[int]]) -> None:
-        place = {v: i for one in self._layers for i, v in enumerate(one)}
-        mean = {
-            v: fmean(place[n] for n in near[v]) if near[v] else float(place[v])
-            for v in layer
-        }
+    def _sort_layer(
+        self, layer: list[int], near: Sequence[Sequence[int]], place: list[int]
+    ) -> None:
+        mean = {v: _mean([place[n] for n in near[v]], place[v]) for v in layer}
         layer.sort(key=lambda v: (self._vertices[v].lane, mean[v]))
+        _note_places(layer, place)
 
     def _crossings(self) -> int:
         count = 0
@@ -213,7 +213,7 @@ class _Columns:
             ]
             # What has no neighbour stays at the one above it.
             alone = free[-1] if free else heights[v] - offset
-            free.append(fmean(near) - offset if near else alone)
+            free.append(_mean(near, alone + offset) - offset)
         for v, base, offset in zip(layer, _rising(free), offsets, strict=True):
             heights[v] = base + offset
 
@@ -233,6 +233,15 @@ class _Columns:
         path.append((spans[self._column[last]][0], heights[last]))
         path.append((centres[last][0] - self._vertices[last].width / 2, heights[last]))
         return path[::-1] if turned else path
+
+
+def _note_places(layer: Sequence[int], place: list[int]) -> None:
+    for i, v in enumerate(layer):
+        place[v] = i
+
+
+def _mean(values: Sequence[float], otherwise: float) -> float:
+    return sum(values) / len(values) if values else otherwise
 
 
 def _open_rings(count: int, arcs: Sequence[Arc]) -> list[int]:

@@ -210,13 +210,13 @@ MARKER_JUMP = LimitRow(
 )
 GRAPH_PARTS = LimitRow(
     "nodes and topics of a graph that is drawn",
-    600,
+    400,
     "",
     "the first ones are drawn, by their names; a line below the graph says so",
 )
 GRAPH_EDGES = LimitRow(
     "arrows of a graph that is drawn",
-    1500,
+    1000,
     "",
     "the first ones are drawn; a line below the graph says so",
 )
