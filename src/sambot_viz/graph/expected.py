@@ -43,7 +43,11 @@ def expected_graph(
         kinds.setdefault(end.topic, {}).update({end.kind: None} if end.kind else {})
     known = all(node.endpoints_known for node in system.started)
     return node_graph(
-        [_node(node, others) for node in system.started],
+        # Of those with one name that is drawn which surely starts.
+        [
+            _node(node, others)
+            for node in sorted(system.started, key=lambda one: one.starts == "yes")
+        ],
         [
             GraphTopic(name, types=tuple(types), problem=of_topics.get(name))
             for name, types in kinds.items()
@@ -111,9 +115,10 @@ def _notes(system: RunningSystem) -> Iterator[str]:
         if more > 0:
             yield f"and at {more} other places"
     by_name: dict[str, int] = {}
-    # Gazebo, which is no node, may be started in several steps.
-    for node in (one for one in system.started if one.endpoints):
-        by_name[node.path] = by_name.get(node.path, 0) + 1
+    for node in system.started:
+        # Gazebo, which is no node, may be started in several steps.
+        if node.starts == "yes" and node.endpoints:
+            by_name[node.path] = by_name.get(node.path, 0) + 1
     for name, count in by_name.items():
         if count > 1:
             yield f"{name} is started {count} times, and drawn once"
