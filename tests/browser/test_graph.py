@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from launch_package import launch_package
+from rosbridge_peer import RosbridgePeer
 from user import User
 from viewer_page import ViewerPage
 
@@ -46,3 +47,23 @@ def test_the_graph_is_shown_large_and_closed(user: User) -> None:
     user.click("button", "Larger", ("dialog", "Nodes and topics"))
     user.keys("Escape")
     user.gone("dialog", "Nodes and topics")
+
+
+def test_a_topic_of_a_robot_leads_to_its_row_from_the_large_graph_too(
+    open_viewer: Callable[..., ViewerPage], tmp_path: Path
+) -> None:
+    peer = RosbridgePeer()
+    peer.advertise("/chatter")
+    package = launch_package(tmp_path)
+    try:
+        with Visualizer(package, port=0, look="rviz", source=peer.uri) as viz:
+            user = open_viewer(viz.url).user
+            user.click_on(user.find("tab", "Graph"))
+            user.find("button", "topic /chatter")
+            user.click("button", "Enlarge")
+            large = ("dialog", "Nodes and topics")
+            user.click("button", "topic /chatter", large)
+            user.gone(*large)
+            user.until(lambda: user.row("Topics", "/chatter").state("focused"))
+    finally:
+        peer.stop()
