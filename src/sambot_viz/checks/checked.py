@@ -101,10 +101,13 @@ def _load(
         # The import is late: most models need no arguments.
         from sambot_viz.checks.around.xacro_arguments import xacro_arguments
 
-        found = xacro_arguments(target.model, target.packages)
-        if not found:
-            raise
-        return load(xacro_args={**found, **given})
+        first = error
+        for found in xacro_arguments(target.model, target.packages):
+            try:
+                return load(xacro_args={**found, **given})
+            except RobotError as other:
+                first = other if first is error else first
+        raise first from None
 
 
 def problems_around(
@@ -207,7 +210,10 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
 def _of_config(package: Package, around: Surroundings | None = None) -> list[Problem]:
     from sambot_viz.checks.around.published_frames import may_be_published
     from sambot_viz.checks.around.workspace import shown
-    from sambot_viz.checks.config_against_robot import check_config
+    from sambot_viz.checks.config_against_robot import (
+        check_config,
+        moveit_draws_robot,
+    )
     from sambot_viz.rviz import Declarations, RvizConfig
 
     path = config_in(package.folder)
@@ -222,8 +228,12 @@ def _of_config(package: Package, around: Surroundings | None = None) -> list[Pro
     if around is None:
         return found
     frame = str(config.global_options.get("Fixed Frame"))
+    excuses = {
+        "setup-fixed-frame": lambda: may_be_published(around, frame),
+        "setup-no-robot-model": lambda: moveit_draws_robot(config),
+    }
     return found + [
         problem
         for problem in check_config(around.robot, config)
-        if problem.code != "setup-fixed-frame" or not may_be_published(around, frame)
+        if problem.code not in excuses or not excuses[problem.code]()
     ]

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _DESCRIPTION = "robot_description"
 _ROBOT_MODEL = "rviz_default_plugins/RobotModel"
+_OF_MOVEIT = "moveit_rviz_plugin/"
 _LIKENESS = 0.87
 
 
@@ -53,6 +54,12 @@ def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
     elif models and all(_shows_nothing(display) for display in models):
         problems.append(_without_shapes(models[0], config.file))
     return sorted(problems, key=lambda p: p.line or 0)
+
+
+def moveit_draws_robot(config: RvizConfig) -> bool:
+    """Tell whether RViz draws the robot with a display of MoveIt."""
+    displays = _all(config.displays)
+    return any(d.enabled and d.class_id.startswith(_OF_MOVEIT) for d in displays)
 
 
 def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:

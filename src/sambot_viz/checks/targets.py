@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.rule import listed
-from sambot_viz.errors import Problem, UsageError
+from sambot_viz.errors import Problem
 from sambot_viz.robot.packages.package_index import PackageIndex, package_around
 from sambot_viz.robot.packages.package_model import (
     MODEL_ENDINGS,
     ModelWalk,
     choose_model,
+    is_for_tests,
     is_model,
     is_scenery,
     model_ending,
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from sambot_viz.checks.around.workspace import Package, Workspace
 
 _GIVE = "the robot's model and --workspace"
+_MOST_MODELS = 12
+"""The models of a package are all checked, when it has no more, and no main one."""
 _LAUNCHES = (
     "launch.py",
     ".launch",
@@ -165,14 +168,14 @@ class _TargetSearch:
         notes: dict[Package, Problem] = {}
         for package in packages:
             found = list(self._of_package(package))
+            if not found and len(packages) == 1:
+                found = list(self._each_of(package))
             for target in found:
                 file = target.model.resolve()
                 targets[file] = _joined(targets.get(file), target)
             if found:
                 continue
             models = self._models_of(package)
-            if models and len(packages) == 1:
-                raise UsageError(bundled.no_model_chosen(folder, models, ModelWalk()))
             if models or len(packages) == 1:
                 notes[package] = _without_model(package, models)
         if not targets and not notes:
@@ -199,6 +202,17 @@ class _TargetSearch:
             first = (*own, package, *start.through)
             together = self._together(file, tuple(dict.fromkeys(first)))
             yield CheckedModel(Path(shown(start.file)), start.launch, together)
+
+    def _each_of(self, package: Package) -> Iterator[CheckedModel]:
+        """Yield all models of a package, when they are few and none may be a part."""
+        models = self._models_of(package)
+        whole = all(model_ending(m.name) != ".xacro" for m in models)
+        tests = any(is_for_tests(m.relative_to(package.folder)) for m in models)
+        few = len(models) <= _MOST_MODELS
+        for model in models if few and whole and not tests else ():
+            together = self._together(model.resolve(), (package,))
+            shown = Path(self._workspace.shown(model))
+            yield CheckedModel(shown, "", together, is_main=False)
 
     def _models_of(self, package: Package) -> list[Path]:
         if package not in self._own:

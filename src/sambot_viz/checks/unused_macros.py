@@ -36,12 +36,23 @@ def unused_macros(subject: Subject) -> Iterator[Problem]:
 
 
 def links_without_mass(subject: Subject) -> list[Link]:
-    """Return the links below the root with a collision shape and no <inertial>."""
+    """Return the links below the root with a collision shape and no mass.
+
+    Gazebo makes one body of links that are fixed to each other.
+    """
     robot = subject.robot
+    body = {name: name for name in robot.links}
+    fixed = {j.child: j.parent for j in robot.joints.values() if j.type == "fixed"}
+    for name in body:
+        seen = {name}
+        while (body[name] in fixed) and fixed[body[name]] not in seen:
+            body[name] = fixed[body[name]]
+            seen.add(body[name])
+    heavy = {body[link.name] for link in robot.links.values() if link.inertial}
     return [
         link
         for link in robot.links.values()
-        if link.collisions and link.inertial is None and link.name != robot.root
+        if link.collisions and body[link.name] not in heavy and link.name != robot.root
     ]
 
 

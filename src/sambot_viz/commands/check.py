@@ -71,7 +71,7 @@ def _print(path: Path, found: Checked, how: str) -> None:
     elif how == "sarif":
         from sambot_viz.commands.sarif import sarif_log
 
-        model = found.models[0].model if found.models else path
+        model = found.models[0].model if len(found.models) == 1 else path
         write_json(sarif_log(found.problems, model))
     else:
         _write(path, found)
@@ -136,8 +136,10 @@ def _write(path: Path, found: Checked) -> None:
     for one in found.models:
         if one.opened_by:
             write_out(f"model: {one.model}, which {one.opened_by} opens")
+        elif len(found.models) > 1:
+            write_out(f"model: {one.model}")
     if found.problems:
         write_problems(found.problems, write_out, most=None)
     else:
-        model = found.models[0].model if found.models else path
+        model = found.models[0].model if len(found.models) == 1 else path
         write_out(f"{model}: no problems found")

@@ -546,3 +546,17 @@ def test_the_folder_of_a_robot_inside_a_world_is_answered_with_what_to_delete(
     edit(model, '<world name="w">', "")
     edit(model, "</world>", "")
     assert found(model) == []
+
+
+def test_a_shape_without_mass_is_one_body_with_what_it_is_fixed_to(
+    tmp_path: Path,
+) -> None:
+    shape = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
+    joint = '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/>'
+    links = f'<link name="f"/><link name="a">{INERTIAL}</link><link name="b">{shape}'
+    model = tmp_path / "r.urdf"
+    for kind, codes in (("fixed", []), ("continuous", ["inertia-missing"])):
+        joints = (("i", "fixed", "f", "a"), ("j", kind, "a", "b"))
+        tree = "</joint>".join(joint.format(*each) for each in joints)
+        model.write_text(f'<robot name="r">{links}</link>{tree}</joint></robot>')
+        assert [problem.code for problem in check(model)] == codes

@@ -113,6 +113,16 @@ def test_files_of_the_package_may_name_a_frame(
     assert not said(bare, "dock")
 
 
+def test_moveit_draws_the_robot_without_a_robot_model(bare: Path) -> None:
+    config = bare / RVIZ
+    text = config.read_text()
+    other = text.replace("rviz_default_plugins/RobotModel", "other_plugin/Robot")
+    config.write_text(other)
+    assert [p.code for p in check(bare)] == ["setup-no-robot-model"]
+    config.write_text(other.replace("other_plugin/Robot", "moveit_rviz_plugin/Motion"))
+    assert check(bare) == []
+
+
 def test_the_package_of_the_config_counts_too(bare: Path, tmp_path: Path) -> None:
     bringup = tmp_path / "cart_bringup"
     (bringup / "config").mkdir(parents=True)

@@ -6,7 +6,7 @@ import ast
 import json
 import os
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -341,10 +341,34 @@ def test_a_folder_that_has_nothing_to_check_is_refused(
     assert "no model in the folder" in capsys.readouterr().err
     (problem,) = check(tmp_path)
     assert problem.code == "model-is-folder"
-    for name in ("a", "b"):
-        _package(tmp_path / "two", **{f"urdf__{name}_urdf": ROBOT.format(name)})
-    assert main(["check", str(tmp_path / "two")]) == 2
-    assert "several models" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("names", ["abcdefghijklm", ("a.xacro", "b")])
+def test_of_models_that_are_many_or_parts_none_is_checked(
+    names: Sequence[str], tmp_path: Path
+) -> None:
+    package = _package(tmp_path / "many")
+    for name in (*names, "c"):
+        file = name if "." in name else f"{name}.urdf"
+        _write(package, f"urdf/{file}", ROBOT.format("a"))
+    (note,) = check(package)
+    assert note.code == "package-without-model"
+    assert note.message.startswith("several models are in the package (urdf/a")
+
+
+def test_a_few_models_of_a_package_are_each_checked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = _package(tmp_path / "two", urdf__a_urdf=ROBOT.format("a"))
+    _write(package, "urdf/b.urdf", ROBOT.format("b").replace("</", "<lnik/></"))
+    _write(package, "config/amcl.yaml", AMCL.format("a"))
+    assert main(["check", str(package)]) == 0
+    assert f"model: {package / 'urdf' / 'a.urdf'}\n" in capsys.readouterr().out
+    assert main(["check", str(package), "--format", "json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert [Path(each["model"]).name for each in said["models"]] == ["a.urdf", "b.urdf"]
+    assert {Path(p["file"]).name for p in said["problems"]} == {"b.urdf"}
+    assert check(package)[0].file == str(package / "urdf" / "b.urdf")
 
 
 def test_a_file_and_its_package_find_the_same(src: Path) -> None:
@@ -433,4 +457,16 @@ def test_a_model_gets_the_arguments_that_launch_files_give(
     _write(package, "urdf/a.urdf.xacro", model)
     assert {p.severity for p in check(package)} == {"error"}
     _write(package, "launch/a.launch.py", launch)
+    assert [p for p in check(package) if p.code.startswith("xacro")] == []
+
+
+def test_an_argument_whose_value_only_the_launch_file_knows_is_none_that_is_missing(
+    tmp_path: Path,
+) -> None:
+    command = COMMAND.replace('"a", " size', 'find_name(), " size')
+    package = _package(tmp_path / "a_description", launch__a_launch_py="")
+    model = XACRO.format('name="a"><link name="l$(arg name)"/>')
+    _write(package, "urdf/a.urdf.xacro", model)
+    assert "xacro-argument-missing" in {p.code for p in check(package)}
+    _write(package, "launch/a.launch.py", command)
     assert [p for p in check(package) if p.code.startswith("xacro")] == []

@@ -15,21 +15,32 @@ from sambot_viz.checks.launch_files import call_name
 _UNKNOWN = "\0"
 
 
-def xacro_arguments(model: Path, packages: Sequence[Package]) -> dict[str, str]:
-    """Return the arguments that launch files give to a model; the first value counts.
+def xacro_arguments(
+    model: Path, packages: Sequence[Package]
+) -> Iterator[dict[str, str]]:
+    """Give the arguments that launch files give to a model; the first value counts.
 
     Launch arguments stand for their default values, or for the first of their choices.
+    A second answer has 0, a number and a text, for values that are known only when a
+    launch file runs.
     """
     found: dict[str, str] = {}
+    unknown: dict[str, str] = {}
     launches = [file for package in packages for file in package.launches]
     defaults = {k: v for file in launches for k, v in file.values.defaults()}
     opening = (f for f in launches if any(model.name in text for text in f.strings))
     for launch in opening:
         for name, value in _given(launch):
-            path = _path(value, packages)
+            path = None if _UNKNOWN in value else _path(value, packages)
             if path is not None:
                 found.setdefault(name, path)
-    return {**defaults, **found}
+            else:
+                unknown.setdefault(name, "0")
+    known = {**defaults, **found}
+    if known:
+        yield known
+    if unknown.keys() - known.keys():
+        yield {**unknown, **known}
 
 
 def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
@@ -43,7 +54,7 @@ def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
             given = launch.values.resolved(keyword(call, "mappings"))
             for key, value in _items(given):
                 name, text = launch.values.text(key), _text(launch, value, choices)
-                if name and _UNKNOWN not in text:
+                if name:
                     yield name, text
 
 
@@ -55,7 +66,7 @@ def _arguments(command: str) -> Iterator[tuple[str, str]]:
         return
     for word in words:
         name, mark, value = word.partition(":=")
-        if mark and _UNKNOWN not in word:
+        if mark and _UNKNOWN not in name:
             yield name, value
 
 

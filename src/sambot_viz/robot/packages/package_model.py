@@ -121,7 +121,7 @@ def models_in(folder: Path, walk: ModelWalk) -> list[Path]:
         walk: searches it, and says afterwards what it has left out.
     """
     paths = list(walk.files(folder))
-    products = [p for p in paths if not _is_for_tests(p.relative_to(folder))]
+    products = [p for p in paths if not is_for_tests(p.relative_to(folder))]
     found = (
         _complete_models(products)
         or _complete_models(paths)
@@ -146,7 +146,8 @@ def _is_model_in_world(path: Path) -> bool:
     return not is_world and bool(_WORLD.search(text) and _LINK.search(text))
 
 
-def _is_for_tests(path: Path) -> bool:
+def is_for_tests(path: Path) -> bool:
+    """Tell whether a path leads through a folder of tests."""
     return not _TESTS.isdisjoint(part.lower() for part in path.parts)
 
 
