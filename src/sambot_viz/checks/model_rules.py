@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
+from sambot_viz.checks.exchanged_lengths import exchanged_lengths
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.flat_wheels import flat_wheels
 from sambot_viz.checks.launch_text import launch_text_as_yaml
@@ -55,6 +56,7 @@ RULES: tuple[Rule, ...] = (
     wheels_off_the_ground,
     wheels_across_their_axles,
     flat_wheels,
+    exchanged_lengths,
     wheels_in_one_place,
     falls_over,
     names_that_differ_in_case,

@@ -90,3 +90,26 @@ def test_a_footprint_waits_until_the_wheels_no_longer_lie_flat(model: Path) -> N
     problems = edited(model, upright, "")
 
     assert [problem.code for problem in problems] == ["wheel-across-axle"]
+
+
+def test_the_width_of_the_body_is_not_the_separation_of_the_wheels(
+    model: Path,
+) -> None:
+    sizes = "<wheel_separation>{}</wheel_separation>"
+    assert edited(model, sizes.format("0.4"), sizes.format("0.34")) == []
+    assert edited(model, ORIGIN, ORIGIN.replace("0.18", "0.165")) == []
+
+    (problem,) = edited(model, sizes.format("0.34"), sizes.format("0.31"))
+
+    assert problem.code == "drive-wheel-separation"
+    assert problem.hint == "write 0.33"
+
+
+def test_wheels_within_the_body_are_moved_to_where_the_drive_has_them(
+    model: Path,
+) -> None:
+    (problem,) = edited(model, ORIGIN, ORIGIN.replace("0.18", "0.13"))
+
+    assert problem.code == "drive-wheel-separation"
+    assert "0.26 m apart, inside of the body, which is 0.31 m wide" in problem.message
+    assert problem.hint == "write 0.2 and its negative for y in their <origin>"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.bridges import entries
@@ -25,6 +26,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.model import Robot
 
 _BASES: dict[str, tuple[str, ...]] = {
     "robot_base_frame": ("",),
@@ -68,8 +70,8 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             or (around.said_elsewhere(name) and name not in named)
         ):
             continue
-        near = meant or nearest(name, links) or around.robot.root
-        near = near if near in links else around.robot.root
+        near = _turned(name, meant, around.robot) or meant or nearest(name, links)
+        near = near if near and near in links else around.robot.root
         yield Problem.at(
             fact.place,
             "warning",
@@ -80,6 +82,15 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             if near == nearest(name, links, _MISSPELT)
             else f"write {near}",
         )
+
+
+def _turned(name: str, link: str, robot: Robot) -> str | None:
+    """Return the link with the axes of a camera image at a link, for such a name."""
+    for joint in robot.joints.values() if "optical" in name else ():
+        quarters = [a for a in joint.origin.rpy if abs(abs(a) - math.pi / 2) < 0.01]
+        if joint.parent == link and len(quarters) == 2:
+            return joint.child
+    return None
 
 
 def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:

@@ -25,7 +25,7 @@ _OF_FORMAT_1 = {"run_depend": "exec_depend"}
 _LIKENESS = 0.75
 _VERSION = re.compile(r"\d+\.\d+\.\d+")
 _STARTED = re.compile(r"v?(\d+)(?:\.(\d+))?")
-_MOST_LIKE = 0.8
+_NAME_LIKENESS = 0.8
 
 
 def unknown_elements(around: Surroundings) -> Iterator[Problem]:
@@ -118,7 +118,7 @@ def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
     known = KNOWN | {name for (name,) in vocabulary("ros1_packages").values()}
     for call in calls:
         name = call.words[0].text
-        near = nearest(name, sorted(needed & known - found), _MOST_LIKE)
+        near = nearest(name, sorted(needed & known - found), _NAME_LIKENESS)
         if near is None or name in needed or not _is_one_slip(name, near):
             continue
         required = "REQUIRED" in (word.text for word in call.words)

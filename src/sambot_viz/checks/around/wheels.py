@@ -13,10 +13,11 @@ from sambot_viz.edits import write
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.parts import Cylinder, Joint, Sphere
+from sambot_viz.robot.parts import Box, Cylinder, Joint, Sphere
 
 _SEPARATION_OFF = 0.15
 _SEPARATION_OFF_MESH = 0.25
+_OF_BODY = 0.05
 _RADIUS_OFF = 0.1
 _SKIDDING = 4
 _SAME_PLACE = 0.001
@@ -97,11 +98,17 @@ def _separation(
             continue
         width = wheel.length if isinstance(wheel, Cylinder) else 0.0
         share = _SEPARATION_OFF if wheel else _SEPARATION_OFF_MESH
-        if abs(fact.number - apart) <= max(1.01 * width, share * apart):
+        off = abs(fact.number - apart)
+        body = _body_width(robot, left)
+        of_body = off > _OF_BODY * apart and abs(body - fact.number) < 1e-6
+        if off <= max(1.01 * width, share * apart) and not of_body:
             continue
         wheels = sum(joint.endless for joint in robot.joints.values())
         if fact.number > apart and (len(pairs) > 1 or wheels >= _SKIDDING):
             # Wheels that skid turn as if they were farther apart.
+            continue
+        if apart < body <= fact.number:
+            yield _inside(robot, left, right, apart, fact)
             continue
         yield Problem.at(
             fact.place,
@@ -112,6 +119,31 @@ def _separation(
             f"{number(apart)} m apart: odometry turns by wrong angles",
             write(fact.place, fact.value, number(apart)),
         )
+
+
+def _body_width(robot: Robot, wheel: Joint) -> float:
+    """Return the width of the only box of the body; 0 for other bodies [m]."""
+    link = robot.links[wheel.parent]
+    shapes = link.collisions or link.visuals
+    box = shapes[0].geometry if len(shapes) == 1 else None
+    return box.size[1] if isinstance(box, Box) else 0.0
+
+
+def _inside(
+    robot: Robot, left: Joint, right: Joint, apart: float, said: Fact
+) -> Problem:
+    """Report wheels in the body, which the drive has beside it."""
+    place = left.origin.place or left.place
+    return Problem.at(
+        place,
+        "warning",
+        "drive-wheel-separation",
+        f"the wheels of {left.name} and {right.name} are {number(apart)} m apart, "
+        f"inside of the body, which is {number(_body_width(robot, left))} m wide, but "
+        f"the wheel separation ({where(said.place, place)}) is {said.value} m",
+        f"write {number((said.number or 0.0) / 2)} and its negative for y in their "
+        "<origin>",
+    )
 
 
 def _apart(robot: Robot, left: Joint, right: Joint) -> float | None:

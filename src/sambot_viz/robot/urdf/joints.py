@@ -65,7 +65,7 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         findings.reject(
             "joint-without-type",
             f"joint {name} has no type; {_REFUSED}",
-            f'add type="continuous" or another of {", ".join(JOINT_TYPES)}',
+            f'add type="{_usual(element)}" or another of {", ".join(JOINT_TYPES)}',
             element,
         )
         return None
@@ -78,6 +78,8 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         hint: str | Fix = write_attribute(element.place, "type", text, plain)
     else:
         near = _MEANT.get(plain) or nearest(text, JOINT_TYPES)
+        if near == "revolute" and element.find("limit") is None:
+            near = "continuous"
         why = did_you_mean(near or text, JOINT_TYPES)
         hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
         if near is not None:
@@ -90,6 +92,13 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         "type",
     )
     return None
+
+
+def _usual(element: Element) -> JointType:
+    """Return the type of a joint that has these elements."""
+    if element.find("axis") is None:
+        return "fixed"
+    return "continuous" if element.find("limit") is None else "revolute"
 
 
 def _end(element: Element, tag: str, name: str, findings: ModelFindings) -> str | None:
