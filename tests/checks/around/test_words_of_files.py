@@ -44,6 +44,11 @@ def package(copied: Callable[[str], Path]) -> Path:
     manifest = folder / "package.xml"
     kind = "_python</build_type>"
     manifest.write_text(manifest.read_text().replace("_cmake</build_type>", kind))
+    launch = folder / LAUNCH
+    given = 'parameters=[{"robot_description": description}],'
+    old = 'parameters=[\n            {"robot_description": description},'
+    head, _, rest = launch.read_text().partition(old)
+    launch.write_text(f"{head}{given}{rest.partition('],')[2]}")
     files = {
         SETUP: SETUP_TEXT,
         "resource/cart_description": "",
@@ -114,6 +119,35 @@ def package(copied: Callable[[str], Path]) -> Path:
             '"/config/ekf.yaml"',
             "launch-file-missing",
             "os.path.join drops what is before /config/ekf.yaml",
+        ),
+        (
+            LAUNCH,
+            'executable="ekf_node",',
+            'executable="ekf_node"  # the filter',
+            "python-syntax",
+            "a comma is missing at the end of this line",
+        ),
+        (
+            LAUNCH,
+            'parameters=[{"robot_description": description}],',
+            'parameters=["robot_description": description],',
+            "python-syntax",
+            "a : is in square brackets",
+        ),
+        (LAUNCH, "import os\n", "", "launch-code", "os is used here"),
+        (
+            "config/ekf.yaml",
+            "frequency: 30.0",
+            "frequency 30.0",
+            "parameters-yaml",
+            "no colon after frequency",
+        ),
+        (
+            "package.xml",
+            "BSD-3-Clause</license>",
+            "BSD-3-Clause<license>",
+            "package-xml",
+            "<license> is opened twice",
         ),
         (
             MODEL,

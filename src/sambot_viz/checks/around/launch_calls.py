@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE, keyword
+from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
@@ -116,19 +117,13 @@ def _no_pairs(given: ast.expr | None, launch: LaunchFile) -> Iterator[Problem]:
 
 
 def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Problem:
-    begin, end = launch.place(value), _end(value, launch)
     return Problem.at(
-        begin,
+        launch.place(value),
         "error",
         "launch-code",
         f"{cause}: ros2 launch stops with it",
-        write_between(begin, end, right, f"write {right}"),
+        rewritten(value, launch.shown, right),
     )
-
-
-def _end(value: ast.expr, launch: LaunchFile) -> Place:
-    line, column = value.end_lineno or value.lineno, value.end_col_offset or 0
-    return Place(launch.shown, line, column + 1)
 
 
 def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
@@ -177,9 +172,9 @@ def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
                     "launch-file-missing",
                     f"os.path.join drops what is before {said}, because that begins "
                     f"with a slash: the path is {said} of the computer",
-                    write_between(
-                        place,
-                        _end(part, launch),
+                    rewritten(
+                        part,
+                        launch.shown,
                         f"'{bare}'",
                         f"write '{bare}' without the slash",
                     ),

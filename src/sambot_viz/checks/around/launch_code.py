@@ -10,8 +10,8 @@ from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.setup_py import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
-from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.edits import write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _ENTRY = "generate_launch_description"
 _DESCRIPTION = "LaunchDescription"
@@ -110,14 +110,19 @@ def _returns(function: ast.FunctionDef) -> bool:
 def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
     """The place is the description that is built and lost, or the function."""
     place = Place(launch.shown, function.lineno, function.col_offset + 1)
-    hint = f"end it with return {_DESCRIPTION}([…])"
+    hint: str | Fix = f"end it with return {_DESCRIPTION}([…])"
     for node in function.body:
         value = node.value if isinstance(node, (ast.Expr, ast.Assign)) else None
         if not isinstance(value, ast.Call) or call_name(value.func) != _DESCRIPTION:
             continue
         if isinstance(node, ast.Expr):
             place = launch.place(value)
-            hint = f"write return {_DESCRIPTION}("
+            hint = write(
+                place,
+                _DESCRIPTION,
+                f"return {_DESCRIPTION}",
+                hint=f"write return {_DESCRIPTION}(",
+            )
         elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             hint = f"add return {node.targets[0].id} at its end"
     return Problem.at(
@@ -143,7 +148,7 @@ def unknown_names(around: Surroundings) -> Iterator[Problem]:
                 code,
                 f"{name} is used here, but it is neither imported nor defined: {stops} "
                 "stops with it",
-                _advice(name, bound, code),
+                _advice(name, bound, code, file, node),
             )
 
 
@@ -197,18 +202,32 @@ def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
     return found
 
 
-def _advice(name: str, bound: set[str], code: str) -> str:
+def _advice(
+    name: str, bound: set[str], code: str, file: LaunchFile | SetupFile, node: ast.Name
+) -> Fix:
     own = bound - PREDEFINED
-    if code != _CODE and name in _IN_SETUP:
-        return f"add from {_IN_SETUP[name]} import {name} at the top of the file"
-    if name in _IMPORTS:
-        return f"add from {_IMPORTS[name]} import {name} at the top of the file"
+    modules = _IN_SETUP if code != _CODE and name in _IN_SETUP else _IMPORTS
+    if name in modules:
+        return _imported(f"from {modules[name]} import {name}", file)
     if name in _MODULES:
-        return f"add import {name} at the top of the file"
+        return _imported(f"import {name}", file)
     near = nearest(name, sorted(own), 0.7) or nearest(name, _IMPORTS, 0.85)
+    if near in own:
+        return write(file.place(node), name, near)
     if near is not None:
-        return f"write {near}"
-    return "import it at the top of the file, or define it above this line"
+        return Fix(f"write {near}")
+    return Fix("import it at the top of the file, or define it above this line")
+
+
+def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:
+    """Return the fix that adds an import before the others."""
+    hint = f"add {line} at the top of the file"
+    for step in file.tree.body:
+        future = isinstance(step, ast.ImportFrom) and step.module == "__future__"
+        if isinstance(step, (ast.Import, ast.ImportFrom)) and not future:
+            begin = Place(file.shown, step.lineno, 1)
+            return write_between(begin, begin, f"{line}\n", hint)
+    return Fix(hint)
 
 
 def bound_names(tree: ast.Module) -> set[str]:

@@ -13,7 +13,7 @@ from sambot_viz.checks.around.files.launch_values import SHARE, keyword
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.launch_code import bound_names
 from sambot_viz.checks.around.launch_paths import OWN_NAMES
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.launch_files import call_name
@@ -64,13 +64,19 @@ def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
                 continue
             if isinstance(value, ast.Constant) and not isinstance(value.value, str):
                 continue
+            pairs = _pairs(given, wrong.argument)
             yield Problem.at(
                 launch.place(given),
                 "error",
                 "launch-no-list",
                 f"{wrong.argument} of a node is a list, but this is {wrong.what}: "
                 f"{wrong.follows}",
-                f"write {wrong.argument}=[{_pairs(given, wrong.argument)}]",
+                rewritten(
+                    given,
+                    launch.shown,
+                    f"[{pairs}]",
+                    f"write {wrong.argument}=[{pairs}]",
+                ),
             )
 
 
@@ -112,7 +118,7 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
                 "launch-description",
                 f"{_PUBLISHER} reads the parameter {_DESCRIPTION}, but this is "
                 f"{near}: it stops without a model",
-                f"write '{_DESCRIPTION}'",
+                rewritten(keys[near][0], launch.shown, f"'{_DESCRIPTION}'"),
             )
         elif known and _gets_nothing_else(launch, call):
             yield Problem.at(

@@ -9,7 +9,7 @@ from sambot_viz import limits
 from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.yaml_repair import Fault
 from sambot_viz.checks.around.misspelt import is_misspelt
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, nearest
@@ -62,7 +62,7 @@ def unreadable_manifest(around: Surroundings) -> Iterator[Problem]:
             "error",
             "package-xml",
             f"{fault.cause}: colcon does not find the package",
-            fault.hint,
+            line_fix(fault, Place(shown, fault.line), text),
         )
     elif root is not None and root.tag == "package":
         yield from _misnamed(root, around)
@@ -102,7 +102,7 @@ def _fault(text: str, around: Surroundings) -> Fault | None:
     for n, line in enumerate(lines):
         for better, cause, hint in _repairs(line):
             if _is_xml("\n".join([*lines[:n], better, *lines[n + 1 :]])):
-                return Fault(n + 1, f"this file is no XML: {cause}", hint)
+                return Fault(n + 1, f"this file is no XML: {cause}", hint, better)
     try:
         parse_xml(text, _FILE)
     except XmlFault as fault:

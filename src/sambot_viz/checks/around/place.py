@@ -1,10 +1,13 @@
-"""How a message names the second of two places that contradict each other."""
+"""Places in files: how a message names a second one, and fixes at one."""
 
 from __future__ import annotations
 
+import ast
 from pathlib import PurePath
 
-from sambot_viz.errors import Place
+from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place
 
 
 def where(other: Place | None, here: Place | str | None) -> str:
@@ -19,3 +22,35 @@ def where(other: Place | None, here: Place | str | None) -> str:
     file = here.file if isinstance(here, Place) else here
     name = "" if other.file == file else f"{PurePath(other.file).name} "
     return f"{name}line {other.line}"
+
+
+def line_fix(fault: Fault, place: Place, text: str) -> Fix:
+    """Return the fix that writes the better line of a fault; its comment stays.
+
+    Args:
+        fault: what is wrong in the file.
+        place: its line.
+        text: of the file.
+    """
+    if fault.better is None:
+        return Fix(fault.hint)
+    line = text.splitlines()[place.line - 1]
+    comment = line[len(line.partition("#")[0].rstrip()) :]
+    kept = "" if fault.better.endswith(comment) else comment
+    end = Place(place.file, place.line, len(line) + 1)
+    return write_between(place, end, fault.better + kept, fault.hint)
+
+
+def rewritten(node: ast.expr, file: str, right: str, hint: str = "") -> Fix:
+    """Return the fix that writes a text for an expression of Python.
+
+    Args:
+        node: the expression.
+        file: it is in.
+        right: what to write.
+        hint: the hint, where it is not "write" and that text.
+    """
+    begin = Place(file, node.lineno, node.col_offset + 1)
+    line, column = node.end_lineno or node.lineno, node.end_col_offset or 0
+    end = Place(file, line, column + 1)
+    return write_between(begin, end, right, hint or f"write {right}")

@@ -13,6 +13,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
 _INDEX = "share/ament_index/resource_index/packages"
@@ -90,13 +91,18 @@ def missing_entry_points(around: Surroundings) -> Iterator[Problem]:
         if fault is not None and fault[1] not in advised:
             cause, hint = fault
             advised.add(hint)
+            said = f"{program.module}:{program.function}"
+            start = f"write {program.name} = "
+            place = setup.place(program.node)
+            right = hint.removeprefix(start)
+            fix = write(place, said, right, hint=hint) if right != hint else hint
             yield Problem.at(
-                setup.place(program.node),
+                place,
                 "error",
                 "entry-point-missing",
-                f"the program {program.name} is {program.module}:{program.function}, "
-                f"but {cause}: ros2 run stops with it",
-                hint,
+                f"the program {program.name} is {said}, but {cause}: ros2 run stops "
+                "with it",
+                fix,
             )
 
 

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.python_values import Items
 from sambot_viz.checks.around.files.setup_py import SetupFile
+from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write, write_between
+from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _LIKENESS = 0.75
@@ -78,10 +79,7 @@ def _listed(node: ast.expr, text: str, setup: SetupFile) -> Fix:
             return Fix(f"write glob('{text}'), and from glob import glob at the top")
     else:
         right = f"[{ast.unparse(node)}]"
-    begin = setup.place(node)
-    line, column = node.end_lineno or node.lineno, node.end_col_offset or 0
-    end = Place(begin.file, line, column + 1)
-    return write_between(begin, end, right, f"write {right}")
+    return rewritten(node, setup.shown, right)
 
 
 def entry_points_without_colon(around: Surroundings) -> Iterator[Problem]:

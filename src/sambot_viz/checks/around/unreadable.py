@@ -10,7 +10,7 @@ import yaml
 from sambot_viz.checks.around.files.parameters import YamlFile, pairs
 from sambot_viz.checks.around.files.python_repair import fault_in_python
 from sambot_viz.checks.around.files.yaml_repair import fault_in
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
@@ -42,7 +42,7 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
                 "parameters-yaml",
                 f"this file is no YAML: {fault.cause}; the node that it is for{named} "
                 "does not start",
-                fault.hint,
+                line_fix(fault, place, text),
             )
 
 
@@ -119,12 +119,13 @@ def unreadable_python(around: Surroundings) -> Iterator[Problem]:
         for path in paths if package.setup is not None else (*paths, "setup.py"):
             text = package.text(path)
             fault = fault_in_python(text) if text else None
-            if fault is not None:
+            if text is not None and fault is not None:
+                place = Place(package.shown(path), fault.line)
                 stops = "colcon build" if path == "setup.py" else "ros2 launch"
                 yield Problem.at(
-                    Place(package.shown(path), fault.line),
+                    place,
                     "error",
                     "python-syntax",
                     f"this file is no Python: {fault.cause}; {stops} stops with it",
-                    fault.hint,
+                    line_fix(fault, place, text),
                 )

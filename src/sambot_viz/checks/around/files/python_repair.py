@@ -39,13 +39,15 @@ def fault_in_python(text: str) -> Fault | None:
         return None
     comma = _comma(lines, at, last)
     if comma is not None:
-        return Fault(comma, _COMMA, "add a comma there")
+        code = lines[comma - 1].partition("#")[0].rstrip()
+        return Fault(comma, _COMMA, "add a comma there", f"{code},")
     opened = _opened(lines, at) if "unexpected indent" in error.msg else None
     if opened is not None:
         return opened
     table = _table(lines, at)
     if table is not None:
-        return Fault(at, "a : is in square brackets", f"write {table}")
+        hint = f"write {table[table.index('[') :].strip()}"
+        return Fault(at, "a : is in square brackets", hint, table)
     if not _CERTAIN.search(error.msg):
         return None
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
@@ -91,7 +93,7 @@ def _opened(lines: list[str], at: int) -> Fault | None:
 
 
 def _table(lines: list[str], at: int) -> str | None:
-    """Write braces into a list with a name and a colon; None when they mend nothing."""
+    """Return a line with braces in its list; None when they mend nothing."""
     line = lines[at - 1]
     listed = _LISTED.search(line)
     if listed is None:
@@ -102,7 +104,7 @@ def _table(lines: list[str], at: int) -> str | None:
     again = _error("\n".join([*lines[: at - 1], better, *lines[at:]]))
     if end < start or (again is not None and (again.lineno or 0) <= at):
         return None
-    return f"[{{{inner}}}]"
+    return better
 
 
 def _hint(message: str) -> str:

@@ -28,11 +28,13 @@ class Fault(NamedTuple):
         line: its line, from 1.
         cause: what is wrong there.
         hint: what to write.
+        better: the line as it should be, where one line is all that changes.
     """
 
     line: int
     cause: str
     hint: str
+    better: str | None = None
 
 
 def fault_in(text: str) -> Fault | None:
@@ -50,7 +52,8 @@ def fault_in(text: str) -> Fault | None:
             "\n".join([*lines[:line], *better, *lines[line + len(better) :]])
         )
         if again is None or _line(again) > max(at, line):
-            return Fault(line + 1, cause, hint)
+            only = better[0] if len(better) == 1 else None
+            return Fault(line + 1, cause, hint, only)
     return Fault(at + 1, f"{error.problem}", "correct this line or the one above it")
 
 
