@@ -95,12 +95,13 @@ NO_LIMITS = {
     """,
     "search: where advice and files are looked for": """
         checks/around/files/python_repair.py _MOST_LINES
+        checks/targets.py _MOST_MODELS
         commands/fix.py _MOST_ROUNDS
         displays/robot_model/description_file.py MOST_LEVELS MOST_PARTS
         meshes/named_files.py _MAX_UP
         robot/packages/package_index.py _MAX_UP
-        robot/xacro/diagnose/text_for_number.py _DEEPEST
         robot/xacro/diagnose/failing_values.py _DEEPEST
+        robot/xacro/diagnose/text_for_number.py _DEEPEST
         sources/recorder.py _MOST_NAMES
     """,
     "meaning: a number of ROS, of a check, of a type or of what moves": """
