@@ -11,8 +11,11 @@ from problem_samples import Sample, all_samples
 from sambot_viz.checks import check
 from sambot_viz.problems import group_problems
 
-REVEALED = {"xacro-prefix-missing": {"root-not-unique"}}
-"""What is seen only when the macro is called."""
+REVEALED = {
+    "xacro-prefix-missing": {"root-not-unique"},
+    "python-syntax": {"launch-code"},
+}
+"""What is seen only when the macro is called, or the file can be read."""
 
 
 def with_edits() -> list[Sample]:

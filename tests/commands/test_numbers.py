@@ -31,7 +31,7 @@ FORMS = {
 OTHERS = {
     "MODEL", "PATH", "DIR", "FILE", "FILE.png", "FILE.html", "FILE.rviz", "URI",
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
-    "JOINT", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
+    "A", "B", "JOINT", "NAME", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
     "FROM:=TO", "FORMAT",
 }  # fmt: skip

@@ -28,7 +28,7 @@ class Kind(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Endpoint:
+class RosEndpoint:
     """A publisher, a subscriber or a service of a node.
 
     Attributes:
@@ -52,10 +52,10 @@ class RosGraph:
     """The endpoints of a robot by the key with which they come and go."""
 
     def __init__(self) -> None:
-        self._endpoints: dict[str, Endpoint] = {}
-        self._named: dict[tuple[Kind, str], dict[str, Endpoint]] = {}
+        self._endpoints: dict[str, RosEndpoint] = {}
+        self._named: dict[tuple[Kind, str], dict[str, RosEndpoint]] = {}
 
-    def add(self, key: str, endpoint: Endpoint) -> bool:
+    def add(self, key: str, endpoint: RosEndpoint) -> bool:
         """Add an endpoint; return whether there was room for it."""
         named = endpoint.kind, endpoint.name
         if named not in self._named and self.is_full:
@@ -85,7 +85,7 @@ class RosGraph:
         """Yield the topics that are published."""
         return (name for kind, name in self._named if kind is Kind.PUBLISHER)
 
-    def of(self, kind: Kind, name: str) -> tuple[Endpoint, ...]:
+    def of(self, kind: Kind, name: str) -> tuple[RosEndpoint, ...]:
         """Return the endpoints of a kind with a name, the first one first."""
         return tuple(self._named.get((kind, name), {}).values())
 

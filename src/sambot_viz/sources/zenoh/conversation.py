@@ -17,7 +17,7 @@ from sambot_viz.sources.message import (
     SourceTopic,
     is_latched_name,
 )
-from sambot_viz.sources.ros_graph import NO_HASH, Endpoint, Kind, RosGraph
+from sambot_viz.sources.ros_graph import NO_HASH, Kind, RosEndpoint, RosGraph
 from sambot_viz.sources.source import (
     Capability,
     Encoding,
@@ -229,7 +229,7 @@ class ZenohConversation(Conversation):
         if token.endpoint is not None:
             self._note(token.endpoint)
 
-    def _note(self, endpoint: Endpoint) -> None:
+    def _note(self, endpoint: RosEndpoint) -> None:
         """Take note that an endpoint has come or gone."""
         for number, published in tuple(self._published.items()):
             outgoing = published.outgoing
@@ -255,7 +255,7 @@ class ZenohConversation(Conversation):
                 else f"the definition of {type_name} is not known"
             )
             return
-        endpoint = Endpoint(
+        endpoint = RosEndpoint(
             Kind.PUBLISHER, names.NODE, outgoing.topic, type_name, type_hash
         )
         key = names.key_of(self._domain, outgoing.topic, type_name, type_hash)
@@ -285,7 +285,7 @@ class ZenohConversation(Conversation):
         # What ROS does not have was written as --msg-path says it.
         return NO_HASH if NO_HASH in hashes else "" if known else hashes[0]
 
-    def _service(self, service: str) -> Endpoint:
+    def _service(self, service: str) -> RosEndpoint:
         found = self._graph.of(Kind.SERVICE, service)
         if not found:
             raise SourceError(f"the robot has no service {text(service, 120)}")

@@ -12,7 +12,7 @@ import struct
 from dataclasses import dataclass
 
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import Endpoint, Kind, demangled, mangled
+from sambot_viz.sources.ros_graph import Kind, RosEndpoint, demangled, mangled
 
 NODE = "/sambot_viz"
 """What this program is called among the nodes."""
@@ -41,7 +41,7 @@ class LivenessToken:
     domain: int
     session: str
     node: str
-    endpoint: Endpoint | None
+    endpoint: RosEndpoint | None
 
 
 def parse_token(key: str) -> LivenessToken | None:
@@ -59,7 +59,7 @@ def parse_token(key: str) -> LivenessToken | None:
     type_name = demangled(wire_name)
     if not type_name:
         return None
-    endpoint = Endpoint(
+    endpoint = RosEndpoint(
         _KINDS[kind],
         node,
         topic.replace("%", "/"),
@@ -75,7 +75,9 @@ def node_token(domain: int, session: str, node: str) -> str:
     return f"@ros2_lv/{domain}/{session}/0/0/{_NODE}/%/%/{node.lstrip('/')}"
 
 
-def endpoint_token(domain: int, session: str, number: int, endpoint: Endpoint) -> str:
+def endpoint_token(
+    domain: int, session: str, number: int, endpoint: RosEndpoint
+) -> str:
     """Return the token of an endpoint with the usual QoS."""
     letters, topic = _LETTERS[endpoint.kind], endpoint.name.replace("/", "%")
     qos = endpoint.qos or Qos()

@@ -19,7 +19,7 @@ from typing import Any, Protocol
 
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
-from sambot_viz.sources.ros_graph import Endpoint
+from sambot_viz.sources.ros_graph import RosEndpoint
 from sambot_viz.sources.websocket.address import Address
 from sambot_viz.sources.zenoh.names import attachment, endpoint_token
 
@@ -103,7 +103,7 @@ class ZenohSession:
         """Say that something is there."""
         return self._session.liveliness().declare_token(key)
 
-    def declare(self, domain: int, endpoint: Endpoint) -> ZenohDeclaration:
+    def declare(self, domain: int, endpoint: RosEndpoint) -> ZenohDeclaration:
         """Say that an endpoint is there."""
         number = next(self._numbers)
         return self.declare_token(endpoint_token(domain, self.name, number, endpoint))

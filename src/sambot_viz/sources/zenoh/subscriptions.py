@@ -12,7 +12,7 @@ from functools import partial
 
 from sambot_viz import limits
 from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
-from sambot_viz.sources.ros_graph import Endpoint, Kind, RosGraph
+from sambot_viz.sources.ros_graph import Kind, RosEndpoint, RosGraph
 from sambot_viz.sources.type_descriptions import TypeDescriptions, service_of
 from sambot_viz.sources.websocket.conversation import Conversation
 from sambot_viz.sources.zenoh import names
@@ -73,7 +73,7 @@ class ZenohSubscriptions:
         for topic in wanted:
             self._subscribe(topic)
 
-    def follow(self, service: Endpoint) -> None:
+    def follow(self, service: RosEndpoint) -> None:
         """Ask for definitions when a service that has them has come."""
         if service.name == service_of(service.node):
             for topic in self._there:
@@ -109,7 +109,7 @@ class ZenohSubscriptions:
         made = self._there[topic] = _ZenohSubscription(
             key, type_name, is_latched, ticks=0 if is_latched else None
         )
-        endpoint = Endpoint(
+        endpoint = RosEndpoint(
             Kind.SUBSCRIBER,
             names.NODE,
             topic,
@@ -126,7 +126,7 @@ class ZenohSubscriptions:
         # Some programs publish only when somebody has subscribed.
         made.declared = subscriber, self._session.declare(domain, endpoint)
 
-    def _ask_definition(self, publishers: Sequence[Endpoint]) -> None:
+    def _ask_definition(self, publishers: Sequence[RosEndpoint]) -> None:
         """Ask the first node of a topic what its messages are, if that is not known."""
         if not publishers:
             return
