@@ -128,3 +128,40 @@ def test_a_filter_that_a_launch_file_in_xml_starts_reads_its_topics(
     text = config.read_text("utf-8")
     config.write_text(text.replace("imu0: demo/imu", "imu0: demo/im"), "utf-8")
     assert "topic-unknown" in {problem.code for problem in check(package / MODEL)}
+
+
+@pytest.mark.parametrize(
+    ("added", "kind"),
+    [
+        ("pose0: demo/odom", "PoseWithCovarianceStamped"),
+        ("twist0: /demo/odom", "TwistWithCovarianceStamped"),
+    ],
+)
+def test_a_filter_reads_each_kind_of_input_as_its_type(
+    copied: Copied, added: str, kind: str
+) -> None:
+    package = copied("gz")
+    config = package / EKF
+    imu = "    imu0: demo/imu"
+    config.write_text(
+        config.read_text("utf-8").replace(imu, f"    {added}\n{imu}"), "utf-8"
+    )
+    (problem,) = (p for p in check(package / MODEL) if p.code == "topic-type")
+    assert f"as {kind} for {added.partition(':')[0]}, but the bridge" in problem.message
+    assert "as Odometry (bridge_config.yaml line 14)" in problem.message
+
+
+def test_a_bridge_that_is_not_started_publishes_nothing(copied: Copied) -> None:
+    package = copied("gz")
+    (package / LAUNCH).unlink()
+    bridge = "$(find-pkg-share cart_description)/config/bridge_config.yaml"
+    (package / "launch" / "display.launch.xml").write_text(
+        '<launch><node pkg="robot_localization" exec="ekf_node"/>'
+        '<node pkg="ros_gz_bridge" exec="parameter_bridge" if="false">'
+        f'<param name="config_file" value="{bridge}"/></node></launch>',
+        "utf-8",
+    )
+    config = package / EKF
+    text = config.read_text("utf-8")
+    config.write_text(text.replace("imu0: demo/imu", "imu0: demo/im"), "utf-8")
+    assert "topic-unknown" not in {problem.code for problem in check(package / MODEL)}

@@ -119,27 +119,26 @@ def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
     if around.namespaced or _has_wrong_types(around):
         return
     published = list(published_topics(around))
-    for parameter, kind in used_topics(around):
-        name = bare(parameter.fact.value)
-        sources = [p for p in published if bare(p.topic.value) == name]
+    for read in used_topics(around):
+        end, kind = read.end, read.end.message
+        sources = [p for p in published if bare(p.topic.value) == read.name]
         # The types of a costmap's sensors are compared with their data_type.
-        if not sources or parameter.name.endswith(".topic"):
+        if not sources or end.parameter.endswith(".topic"):
             continue
         if any(p.kind == kind for p in sources):
             continue
         fitting = [p for p in published if p.kind == kind]
         source = sources[0]
         yield Problem.at(
-            parameter.value_place,
+            end.place,
             "warning",
             "topic-type",
-            f"{parameter.node.rpartition('/')[2]} reads {parameter.fact.value} as "
-            f"{kind} for {parameter.name}, but {source.what} publishes it as "
-            f"{source.kind} ({where(source.topic.place, parameter.place)}): nothing "
-            "arrives",
+            f"{read.node.name} reads {end.written} as "
+            f"{kind} for {end.parameter}, but {source.what} publishes it as "
+            f"{source.kind} ({where(source.topic.place, end.place)}): nothing arrives",
             f"write {fitting[0].topic.value}"
             if len(fitting) == 1
-            else f"write the topic of an {kind}",
+            else f"write a topic of the type {kind}",
         )
 
 

@@ -7,33 +7,24 @@ from typing import NamedTuple
 
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin
-from sambot_viz.checks.around.files.parameters import Parameter
-from sambot_viz.checks.around.navigation import filters, is_open
+from sambot_viz.checks.around.navigation import is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
+from sambot_viz.checks.around.running.system import Endpoint, RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
-_ODOMETRY, _IMU, _SCAN, _CLOUD = "Odometry", "Imu", "LaserScan", "PointCloud2"
 _FILTERED = "odometry/filtered"
 _CLASSIC: dict[str, tuple[str, str]] = {
-    "libgazebo_ros_imu_sensor.so": (_IMU, "~/out"),
+    "libgazebo_ros_imu_sensor.so": ("Imu", "~/out"),
     "libgazebo_ros_ray_sensor.so": ("", "~/out"),
-    "libgazebo_ros_diff_drive.so": (_ODOMETRY, "odom"),
+    "libgazebo_ros_diff_drive.so": ("Odometry", "odom"),
 }
 """Plugin of Gazebo Classic → the type that it publishes, and its own topic.
 
 The type of a ray sensor is in its <output_type>.
 """
-
-_USED: tuple[tuple[str, str, str], ...] = (
-    ("bt_navigator", "odom_topic", _ODOMETRY),
-    ("controller_server", "odom_topic", _ODOMETRY),
-    ("velocity_smoother", "odom_topic", _ODOMETRY),
-    ("amcl", "scan_topic", _SCAN),
-    ("slam_toolbox", "scan_topic", _SCAN),
-)
 
 
 class Published(NamedTuple):
@@ -44,11 +35,21 @@ class Published(NamedTuple):
     what: str
 
 
-class _Used(NamedTuple):
-    """A topic that a node reads, and its type."""
+class ReadTopic(NamedTuple):
+    """A topic that a node subscribes to since a parameter names it."""
 
-    parameter: Parameter
-    kind: str
+    node: RunningNode
+    end: Endpoint
+
+    @property
+    def name(self) -> str:
+        """The topic, as in the parameter."""
+        return bare(self.end.written)
+
+    @property
+    def reader(self) -> str:
+        """The node, as a file with parameters names it."""
+        return self.node.path.strip("/")
 
 
 def unknown_topics(around: Surroundings) -> Iterator[Problem]:
@@ -56,37 +57,37 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
     published = list(published_topics(around))
     if around.namespaced:
         return
-    used = list(used_topics(around))
-    renamed = {u.kind: p for p, u in _renamed(around, used, published)}
+    used = used_topics(around)
+    renamed = {u.end.message: p for p, u in _renamed(around, used, published)}
     yield from renamed.values()
-    for parameter, kind in used:
-        name = bare(parameter.fact.value)
+    for one in used:
+        name, kind = one.name, one.end.message
         if any(bare(p.topic.value) == name for p in published):
             # It is there; whether its type is the right one is another question.
             continue
         known = {bare(p.topic.value): p for p in published if p.kind == kind}
-        if not known or name in known or is_open(name) or name == _FILTERED:
+        if not known or is_open(name) or name == _FILTERED:
             continue
-        others = [u for u in used if _same(u.parameter, parameter)]
-        if any(bare(u.parameter.fact.value) in known for u in others):
+        if any(other.name in known for other in used if _same(other, one)):
             # Another file fits this simulation; this one is for another robot.
             continue
         if around.said_elsewhere(name, as_topic=True) or _of_a_node(around, name):
             continue
         near = _meant(name, known) or _only(known, around)
         if near is not None and kind not in renamed:
-            yield _unknown(parameter, kind, known[near])
+            yield _unknown(one, known[near])
 
 
-def _unknown(parameter: Parameter, kind: str, source: Published) -> Problem:
+def _unknown(read: ReadTopic, source: Published) -> Problem:
+    end = read.end
     return Problem.at(
-        parameter.place,
+        end.place,
         "warning",
         "topic-unknown",
-        f"{parameter.node} reads {parameter.fact.value}, but {source.what} "
-        f"publishes this {kind} as {source.topic.value} "
-        f"({where(source.topic.place, parameter.place)})",
-        write(parameter.place, parameter.fact.value, source.topic.value),
+        f"{read.reader} reads {end.written}, but {source.what} "
+        f"publishes this {end.message} as {source.topic.value} "
+        f"({where(source.topic.place, end.place)})",
+        write(end.place, end.written, source.topic.value),
     )
 
 
@@ -97,38 +98,37 @@ def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
 
 
 def _renamed(
-    around: Surroundings, used: Sequence[_Used], published: Sequence[Published]
-) -> Iterator[tuple[Problem, _Used]]:
+    around: Surroundings, used: Sequence[ReadTopic], published: Sequence[Published]
+) -> Iterator[tuple[Problem, ReadTopic]]:
     """Entries of a bridge whose topic all read under its name in Gazebo."""
     names = {bare(p.topic.value) for p in published}
     for entry in entries(around):
         gz, ros = bare(entry.gz.value), entry.ros
         kind = entry.ros_type.value.rpartition("/")[2]
-        readers = [u for u in used if u.kind == kind]
-        agree = all(bare(u.parameter.fact.value) == gz for u in readers)
+        readers = [u for u in used if u.end.message == kind]
+        agree = all(u.name == gz for u in readers)
         if len(readers) < 2 or not agree or gz in names or gz == bare(ros.value):
             continue
         elsewhere = around.said_elsewhere(gz, as_topic=True, launched=True)
         if elsewhere or not entry.reaches_ros:
             continue
-        first = readers[0].parameter
+        first = readers[0]
         problem = Problem.at(
             ros.place,
             "warning",
             "topic-unknown",
-            f"the bridge publishes this {kind} as {ros.value}, but {first.node} "
-            f"({where(first.place, ros.place)}) and all others read "
-            f"{first.fact.value}",
+            f"the bridge publishes this {kind} as {ros.value}, but {first.reader} "
+            f"({where(first.end.place, ros.place)}) and all others read "
+            f"{first.end.written}",
             write(ros.place, ros.value, f"/{gz}"),
         )
-        yield problem, readers[0]
+        yield problem, first
 
 
 def kinds_read(around: Surroundings) -> dict[str, Fact]:
     """Return the topics that nodes read, each with its type and the line of it."""
     return {
-        bare(parameter.fact.value): Fact(kind, parameter.place)
-        for parameter, kind in used_topics(around)
+        one.name: Fact(one.end.message, one.end.place) for one in used_topics(around)
     }
 
 
@@ -141,9 +141,10 @@ def _of_a_node(around: Surroundings, topic: str) -> bool:
     return bool(owner) and (owner in nodes or around.said_elsewhere(owner))
 
 
-def _same(one: Parameter, other: Parameter) -> bool:
+def _same(one: ReadTopic, other: ReadTopic) -> bool:
     """The same setting of the same node in another file."""
-    return (one.node, one.name) == (other.node, other.name) and one is not other
+    same = one.reader == other.reader and one.end.parameter == other.end.parameter
+    return same and one is not other
 
 
 def _meant(name: str, known: dict[str, Published]) -> str | None:
@@ -153,34 +154,24 @@ def _meant(name: str, known: dict[str, Published]) -> str | None:
     return same[0] if same else nearest(name, known)
 
 
-def used_topics(around: Surroundings) -> Iterator[_Used]:
-    """Give the topics that nodes read, each with its type."""
-    for one in filters(around):
-        if one.started:
-            for kind, message in (("odom", _ODOMETRY), ("imu", _IMU)):
-                for parameter in one.inputs(kind):
-                    yield _Used(parameter, message)
-    kinds = {
-        (p.node, p.name.removesuffix(".data_type")): p.fact.value
-        for p in around.parameters
-        if p.name.endswith(".data_type")
+def used_topics(around: Surroundings) -> list[ReadTopic]:
+    """Return the topics that nodes read since parameters name them."""
+    named = {
+        (node.path, end.parameter, end.place): ReadTopic(node, end)
+        for node in around.running.started
+        for end in node.endpoints
+        if end.parameter and not end.publishes
     }
-    for parameter in around.parameters:
-        for node, name, kind in _USED:
-            if parameter.name == name and node in parameter.node.split("/"):
-                yield _Used(parameter, kind)
-        if parameter.name.endswith(".topic"):
-            source = (parameter.node, parameter.name.removesuffix(".topic"))
-            if kinds.get(source) in (_SCAN, _CLOUD):
-                yield _Used(parameter, kinds[source])
+    return list(named.values())
 
 
 def published_topics(around: Surroundings) -> Iterator[Published]:
     """Give the topics in ROS that bridges and plugins publish."""
-    for entry in entries(around):
-        if entry.reaches_ros:
-            kind = entry.ros_type.value.rpartition("/")[2]
-            yield Published(entry.ros, kind, "the bridge")
+    for node in around.running.started:
+        for end in node.endpoints if node.is_bridge else ():
+            if end.publishes and not end.in_gazebo:
+                topic = Fact(end.topic, end.place)
+                yield Published(topic, end.message, "the bridge")
     for plugin in around.plugins:
         yield from _of_classic(plugin)
 

@@ -33,7 +33,8 @@ def system_of(
     """Return what runs when launch files are started.
 
     Those that others of them include are not started a second time. Nodes that have
-    parameters in the packages, and that no launch file starts, may be started by hand.
+    parameters in the packages, and that no launch file starts or gives these, may be
+    started by hand.
 
     Args:
         files: the launch files, each with its package.
@@ -87,18 +88,24 @@ def _controllers(
 def _by_hand(
     nodes: Sequence[RunningNode], packages: Sequence[Package]
 ) -> Iterator[RunningNode]:
-    """Give nodes and bridges that have parameters, and that no launch file starts."""
-    started = {node.name for node in nodes}
+    """Give nodes and bridges with parameters that no launch file gives them."""
+    started = {node.name: node for node in nodes}
+    served = {n.name for n in nodes if any(each.given_at for each in n.parameters)}
     named = {each.value for node in nodes for each in node.parameters}
     for package in packages:
         for file in package.yaml_files:
             for key, place in file.keys.items():
                 above, _, name = key.strip("/").rpartition("/")
                 known = known_nodes().names.get(name)
-                if known is not None and name not in started:
-                    space = "/" if "*" in above else f"/{above}"
-                    given = tuple(parameters_for(file, name, space))
+                if known is None or name in served:
+                    continue
+                space = "/" if "*" in above else f"/{above}"
+                given = tuple(parameters_for(file, name, space))
+                node = started.get(name)
+                if node is None:
                     yield _alone(known, name, space, given, place)
+                elif node.starts != "no":
+                    yield replace(node, starts="unknown", parameters=given)
             path = f"{SHARE}{package.name}/{file.path}"
             if path not in named and any(entries_of_file(file)):
                 place = Place(file.shown, 1)

@@ -26,7 +26,9 @@ def parameters_for(
     for key in file.nodes:
         if _fits(key, name, path):
             for parameter in file.of(key).values():
-                yield GivenParameter(parameter.name, parameter.values, parameter.place)
+                yield GivenParameter(
+                    parameter.name, parameter.values, parameter.value_place
+                )
 
 
 def _fits(key: str, name: str, path: str | None) -> bool:

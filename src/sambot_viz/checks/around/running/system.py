@@ -5,6 +5,7 @@ A model of it, not the programs: launch files are read, never run.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -37,6 +38,11 @@ class Endpoint:
     written: str = ""
     parameter: str = ""
     in_gazebo: bool = False
+
+    @property
+    def message(self) -> str:
+        """The type without its package."""
+        return re.split(r"[/.]", self.kind)[-1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +130,11 @@ class RunningNode:
     def path(self) -> str:
         """The whole name, such as /robot/ekf_filter_node."""
         return f"{self.namespace.rstrip('/')}/{self.name or self.executable}"
+
+    @property
+    def is_bridge(self) -> bool:
+        """True when it carries topics between Gazebo and ROS."""
+        return len({end.in_gazebo for end in self.endpoints}) > 1
 
     def parameter(self, name: str) -> GivenParameter | None:
         """Return a parameter that it is given; None for others."""
