@@ -7,11 +7,7 @@ from collections.abc import Iterator, Sequence
 from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.gazebo_topics import GazeboTopic, sent, taken
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.read_topics import (
-    kinds_read,
-    published_topics,
-    used_topics,
-)
+from sambot_viz.checks.around.read_topics import published_topics, used_topics
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
@@ -188,12 +184,13 @@ def _mismatch(
     better, why = f"{_package(entry)}.{fitting[0]}", ""
     wrong, other = entry.gz_type, entry.ros_type
     ros_type = _ros_type(entry.kind, entry.ros_type.value)
-    reader = kinds_read(around).get(bare(entry.ros.value))
+    readers = (r.end for r in used_topics(around) if r.name == bare(entry.ros.value))
+    read = next(readers, None)
     sender = next((t for t in own if t.kind == entry.kind), None)
     if sender is not None:
         why = f"; {sender.what} sends {entry.kind}"
-    elif not own and reader is not None and ros_type.endswith(f"/{reader.value}"):
-        why = f"; {where(reader.place, entry.ros_type.place)} reads {reader.value}"
+    elif not own and read is not None and ros_type == read.kind:
+        why = f"; {where(read.place, entry.ros_type.place)} reads {read.message}"
     if why:
         better, wrong, other = ros_type, entry.ros_type, entry.gz_type
     return Problem.at(

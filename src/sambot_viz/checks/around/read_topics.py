@@ -125,13 +125,6 @@ def _renamed(
         yield problem, first
 
 
-def kinds_read(around: Surroundings) -> dict[str, Fact]:
-    """Return the topics that nodes read, each with its type and the line of it."""
-    return {
-        one.name: Fact(one.end.message, one.end.place) for one in used_topics(around)
-    }
-
-
 def _of_a_node(around: Surroundings, topic: str) -> bool:
     """True for a topic below the name of a node or controller of the package."""
     owner = topic.rpartition("/")[0]

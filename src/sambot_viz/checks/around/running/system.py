@@ -5,7 +5,6 @@ A model of it, not the programs: launch files are read, never run.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -42,7 +41,7 @@ class Endpoint:
     @property
     def message(self) -> str:
         """The type without its package."""
-        return re.split(r"[/.]", self.kind)[-1]
+        return self.kind.rpartition("/")[2]
 
 
 @dataclass(frozen=True, slots=True)
