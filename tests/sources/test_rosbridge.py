@@ -22,7 +22,6 @@ Open = Callable[[str], Source]
 def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosbridgePeer]:
     monkeypatch.setattr(rosapi, "POLL", 0.1)
     monkeypatch.setattr(rosapi, "POLL_ABSENT", 0.1)
-    monkeypatch.setattr(rosapi, "LONGEST_ANSWER", 0.5)
     peer = RosbridgePeer()
     yield peer
     peer.stop()
@@ -126,10 +125,15 @@ def test_definitions_come_in_pieces_where_the_full_text_is_not_to_be_had(
 
 @pytest.mark.parametrize("answers", [True, False])
 def test_without_rosapi_a_topic_is_asked_for_by_name(
-    robot: RosbridgePeer, opened: Open, inbox: Inbox, answers: bool
+    robot: RosbridgePeer,
+    opened: Open,
+    inbox: Inbox,
+    answers: bool,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     robot.services.clear()
     if not answers:
+        monkeypatch.setattr(rosapi, "LONGEST_ANSWER", 0.5)
         for name in ("topics_and_raw_types", "topics", "publishers"):
             robot.services[f"/rosapi/{name}"] = lambda _: None
     robot.advertise("/robot_description", latched=True)
