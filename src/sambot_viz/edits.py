@@ -230,6 +230,8 @@ class SourceFile:
 
     def edit(self, place: Place, extent: Extent, new: str) -> Edit:
         """Return the edit that writes a text into the file of a place."""
+        if "\r\n" in self.text:
+            new = new.replace("\r\n", "\n").replace("\n", "\r\n")
         return Edit(place.file, *extent, new, seen=hash(self.text))
 
     @cached_property

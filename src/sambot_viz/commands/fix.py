@@ -20,6 +20,7 @@ from sambot_viz.robot.packages.package_index import package_of
 
 _MOST_ROUNDS = 10
 """Edits may lead to findings with other edits, which are applied in other rounds."""
+_MODELS = (".urdf", ".xacro", ".sdf", ".gazebo")
 _QUESTION = "Apply? [y]es [n]o [a]ll [q]uit"
 _STYLES: dict[str, Style] = {"+": "added", "-": "removed", "@": "dim"}
 
@@ -80,9 +81,12 @@ class Fixing:
         """Show the edits that can be made together, and ask which are wanted."""
         chosen: list[ProblemGroup] = []
         taken: list[Edit] = []
-        for group in group_problems(problems):
+        groups = [g for g in group_problems(problems) if g.edits]
+        groups = [g for g in groups if _key(g) not in self._settled]
+        # What other files say may follow from the model, which is looked at first.
+        for group in list(filter(_is_of_model, groups)) or groups:
             key = _key(group)
-            if not group.edits or key in self._settled or _overlap(group.edits, taken):
+            if _overlap(group.edits, taken):
                 continue
             self._settled.add(key)
             write_out(*group_in_words(group))
@@ -159,6 +163,10 @@ def _key(group: ProblemGroup) -> object:
     """Return what stays the same when other edits have moved a text in its line."""
     edits = tuple((e.file, e.end - e.start, e.text) for e in group.edits)
     return group.first.code, group.first.file, group.first.line, group.hint, edits
+
+
+def _is_of_model(group: ProblemGroup) -> bool:
+    return all(edit.file.endswith(_MODELS) for edit in group.edits)
 
 
 def _overlap(edits: Sequence[Edit], others: Sequence[Edit]) -> bool:

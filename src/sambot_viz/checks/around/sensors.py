@@ -17,7 +17,7 @@ from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import number
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, together, write, write_attribute
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
@@ -27,6 +27,8 @@ _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
 _FRAMES = ("frame_id", "frame", "sensor_frame", "optical_frame_id", "link_frame")
 _LIKENESS = 0.75
 _FULL_TURN = 2 * math.pi + 0.01
+_NEAR, _FAR = 1.0, 5.0
+"""A sensor sees from so near on [m], or so many times as far; else one end is wrong."""
 _LIMITS = (("range", "min", "max"), ("clip", "near", "far"))
 
 
@@ -152,6 +154,13 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
             continue
         one, other = least[0].number, most[0].number
         if one is not None and other is not None and one > other:
+            fix = Fix(f"write less than {number(other)} for <{low}>")
+            if other <= _NEAR or one >= _FAR * other:
+                fix = together(
+                    f"exchange {number(one)} and {number(other)}",
+                    write(least[0].place, least[0].value, most[0].value),
+                    write(most[0].place, most[0].value, least[0].value),
+                )
             yield Problem.at(
                 least[0].place,
                 "warning",
@@ -159,11 +168,7 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
                 f"<{low}> of the sensor {_named(sensor)} is {number(one)} m, and "
                 f"<{high}> ({where(most[0].place, least[0].place)}) is less: nothing "
                 "is in its range",
-                together(
-                    f"exchange {number(one)} and {number(other)}",
-                    write(least[0].place, least[0].value, most[0].value),
-                    write(most[0].place, most[0].value, least[0].value),
-                ),
+                fix,
             )
 
 

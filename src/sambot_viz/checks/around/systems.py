@@ -53,11 +53,14 @@ def faulty_system(plugin: Element) -> Problem | None:
         what = f"Gazebo has no plugin {filename}: it does not load it"
         fix = write_attribute(plugin.place, "filename", filename, near)
     elif right is not None and name.rpartition("::")[2] != right.rpartition("::")[2]:
+        holds = _file_of(name, filename)
         what = (
             f"{filename} has no class {name or 'without a name'}: in Gazebo the name "
             "of a plugin is that of its class, and it does not load this one"
         )
         fix = write_attribute(plugin.place, "name", name, right)
+        if holds is not None:
+            fix = write_attribute(plugin.place, "filename", filename, holds)
     else:
         return None
     return Problem.at(plugin.place, "warning", "gazebo-plugin", what, fix)
@@ -70,6 +73,16 @@ def _class_of(filename: str) -> str | None:
     if file is None or not classes:
         return None
     return f"{_SPACE[file[1].partition('-')[0]]}::{classes[0]}"
+
+
+def _file_of(name: str, filename: str) -> str | None:
+    """Return the file that has a class of a plugin, called as another file is."""
+    file, last = _FILE.fullmatch(filename), name.rpartition("::")[2]
+    systems = vocabulary("gz_systems").items()
+    holds = next((system for system, classes in systems if last in classes), None)
+    if file is None or holds is None:
+        return None
+    return f"{filename[: file.start(2)]}{holds}{filename[file.end(2) :]}"
 
 
 def near_system(filename: str) -> str | None:

@@ -16,6 +16,7 @@ _YAML: Any = yaml
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
 _NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
+_VALUES = re.compile(r"""("[^"]*"|'[^']*')\s+(?=["'])""")
 _BEFORE = 3
 _TWICE = ("local_costmap:", "global_costmap:")
 """The node of a costmap has the name of its namespace."""
@@ -47,14 +48,20 @@ def fault_in(text: str) -> Fault | None:
     changes = (
         _candidates(lines, at, error) if len(text) <= limits.YAML_REPAIRED.value else ()
     )
+    nearly = None
     for line, better, cause, hint in changes:
         again = _error(
             "\n".join([*lines[:line], *better, *lines[line + len(better) :]])
         )
-        if again is None or _line(again) > max(at, line):
+        if again is None:
             only = better[0] if len(better) == 1 else None
             return Fault(line + 1, cause, hint, only)
-    return Fault(at + 1, f"{error.problem}", "correct this line or the one above it")
+        if nearly is None and _line(again) > max(at, line):
+            # Something else is wrong behind it, or this is not what was meant.
+            nearly = Fault(line + 1, cause, hint)
+    return nearly or Fault(
+        at + 1, f"{error.problem}", "correct this line or the one above it"
+    )
 
 
 def _error(text: str) -> yaml.MarkedYAMLError | None:
@@ -99,7 +106,7 @@ def _candidates(
     start = error.context_mark
     if start is not None and start.line < len(lines) and start.line not in near:
         near.append(start.line)
-    for change in (_colon, _quote, _bracket):
+    for change in (_colon, _quote, _comma, _bracket):
         for n in near:
             yield from change(lines, n)
     for n in near:
@@ -155,9 +162,30 @@ def _quote(lines: list[str], n: int) -> Iterator[_Candidate]:
             )
 
 
+def _comma(lines: list[str], n: int) -> Iterator[_Candidate]:
+    """Write a comma behind a value of a list in brackets."""
+    code = lines[n].partition(" #")[0].rstrip()
+    is_inside = _open(lines, n, "[]") > 0
+    between = _VALUES.sub(r"\1, ", code)
+    better = f"{code}," if is_inside and code[-1:] not in ("[", ",", "") else between
+    if better != code:
+        cause = "a comma is missing in this line"
+        hint = "write a comma behind each value of the list"
+        yield _Candidate(n, [better], cause, hint)
+
+
+def _open(lines: list[str], n: int, marks: str) -> int:
+    """Return how many brackets are open at the end of a line."""
+    text = "\n".join(line.partition(" #")[0] for line in lines[: n + 1])
+    return text.count(marks[0]) - text.count(marks[1])
+
+
 def _bracket(lines: list[str], n: int) -> Iterator[_Candidate]:
     code = lines[n].partition(" #")[0].rstrip()
-    for mark in "]}":
+    for marks in ("[]", "{}"):
+        if _open(lines, n, marks) < 1:
+            continue
+        mark = marks[1]
         yield _Candidate(
             n,
             [code.removesuffix(",") + mark],
