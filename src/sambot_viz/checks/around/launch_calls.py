@@ -182,18 +182,23 @@ def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
 
 
 def files_without_folder(around: Surroundings) -> Iterator[Problem]:
-    """Report files of the package that are looked for where ros2 launch is run."""
+    """Report files of the package that are looked for where ros2 launch is run.
+
+    Other files of the same launch file are looked for in the package.
+    """
     has: Mapping[str, str] = {
         posixpath.basename(path): path for path in around.files.ending(*_ENDINGS)
     }
     for launch in around.launches:
-        for call in launch.calls:
+        # One that names all of its files so is run in the folder of the package.
+        for call in launch.calls if launch.paths else ():
             for given in _paths(call, launch):
                 said = launch.values.text(given) or ""
                 path = has.get(posixpath.basename(said))
                 begins = said[:1] in ("/", "~", "$") or ":" in said
                 if path is None or begins or not path.endswith(said):
                     continue
+                there = "" if path == said else f" as {path}"
                 share = f"get_package_share_directory('{around.files.name}')"
                 place = launch.place(given)
                 yield Problem.at(
@@ -201,7 +206,7 @@ def files_without_folder(around: Surroundings) -> Iterator[Problem]:
                     "warning",
                     "launch-file-missing",
                     f"{said} is looked for in the folder where ros2 launch is run, "
-                    f"and the package has it as {path}",
+                    f"and the package has it{there}",
                     Fix(f"write os.path.join({share}, '{path}')"),
                 )
 

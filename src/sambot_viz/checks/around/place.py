@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import ast
 from pathlib import PurePath
+from typing import TYPE_CHECKING
 
-from sambot_viz.checks.around.files.yaml_repair import Fault
 from sambot_viz.edits import write_between
 from sambot_viz.errors import Fix, Place
+
+# A model that is in no package needs no YAML.
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.files.yaml_repair import Fault
 
 
 def where(other: Place | None, here: Place | str | None) -> str:
