@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks import check
+from sambot_viz.cli import main
 
 Copied = Callable[[str], Path]
 
@@ -76,6 +77,12 @@ SCAN = LIDAR + "<ray><range><min>0.12</min><max>3.5</max></range></ray>"
             "exchange 3.5 and 0.12",
         ),
         (
+            SCAN.replace("0.12", "12"),
+            "",
+            "<min> of the sensor lidar is 12 m",
+            "write less than 3.5 for <min>",
+        ),
+        (
             "<gz_frame_id>lidar_link<",
             "<gz_frame_id>imu_link<",
             "its frame here is imu_link, which carries imu (line ",
@@ -98,6 +105,15 @@ def test_what_gazebo_leaves_out_or_misreads(
     assert said in problem.message
     assert hint in problem.hint
     assert problem.line
+
+
+def test_a_class_that_another_file_has_gets_that_file(copied: Copied) -> None:
+    model = copied("gz") / "urdf" / "cart.urdf.xacro"
+    text = model.read_text()
+    wrong = DRIVE.replace("diff-drive", "joint-state-publisher")
+    model.write_text(text.replace(DRIVE, wrong))
+    assert main(["check", "--fix", "--yes", str(model)]) == 0
+    assert model.read_text() == text
 
 
 @pytest.mark.parametrize("text", [LIDAR + TURN, SCAN])

@@ -51,6 +51,15 @@ def edit(file: Path, old: str, new: str) -> None:
         (EKF, "    publish_tf", "\tpublish_tf", 5, "a tab", "write blanks"),
         (EKF, "    two_d_mode", "     two_d_mode", 4, "indentation", "write 4 blanks"),
         (EKF, "    two_d_mode", "   two_d_mode", 4, "indentation", "write 4 blanks"),
+        (EKF, "    imu0: ", "imu0: ", 18, "indentation", "write 4 blanks"),
+        (
+            NAV2,
+            "scan_topic: scan",
+            'scan_topic: scan\n    critics:\n      [\n       "A"\n       "B"\n      ]',
+            10,
+            "a comma is missing",
+            "write a comma",
+        ),
         (
             EKF,
             "false, false, false]",

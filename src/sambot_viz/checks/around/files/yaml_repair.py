@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -17,6 +18,7 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NO_COLON = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*) +([^\s:#][^:#]*)")
 _NO_BLANK = re.compile(r"(\s*(?:- +)?)([A-Za-z_][\w.]*):([^\s/].*)")
 _VALUES = re.compile(r"""("[^"]*"|'[^']*')\s+(?=["'])""")
+_KEY = re.compile(r"\s*[\w.]+:(\s|$)")
 _BEFORE = 3
 _TWICE = ("local_costmap:", "global_costmap:")
 """The node of a costmap has the name of its namespace."""
@@ -209,14 +211,20 @@ def _dash(lines: list[str], n: int) -> Iterator[_Candidate]:
 
 
 def _indentation(lines: list[str], near: list[int]) -> Iterator[_Candidate]:
+    """Write a line below a neighbour; first as most other keys are written."""
+    keys = Counter(_indent(line) for line in lines if _KEY.match(line))
+    found: list[tuple[int, _Candidate]] = []
     for n in near:
         before = [_indent(lines[k]) for k in range(n) if lines[k].strip()]
         after = [_indent(x) for x in lines[n + 1 :] if x.strip()]
         for indent in dict.fromkeys((*before[-1:], *after[:1])):
-            if indent != _indent(lines[n]):
-                yield _Candidate(
-                    n,
-                    [indent + lines[n].lstrip()],
-                    "the indentation of this line is that of no other line here",
-                    f"write {len(indent)} blanks before it",
-                )
+            if indent == _indent(lines[n]):
+                continue
+            candidate = _Candidate(
+                n,
+                [indent + lines[n].lstrip()],
+                "the indentation of this line is that of no other line here",
+                f"write {len(indent)} blanks before it",
+            )
+            found.append((keys[indent], candidate))
+    yield from (one for _, one in sorted(found, key=lambda pair: -pair[0]))
