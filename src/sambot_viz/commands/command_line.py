@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import Field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from sambot_viz.commands.ros_arguments import without_ros_arguments
 from sambot_viz.errors import UsageError, nearest
 from sambot_viz.files import is_recording
 from sambot_viz.flags import Flag, Group, declared, flag_of
 from sambot_viz.options import Options
-from sambot_viz.outlet import write_err
+from sambot_viz.outlet import write_err, write_lines
 from sambot_viz.text import line
 
 # Commands such as check must not wait for what only others need.
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from sambot_viz.joints import JointState
     from sambot_viz.robot.model import Robot
 
+T = TypeVar("T")
 _ARGUMENT = re.compile(r"\s*([A-Za-z_][\w.-]*)\s*:=(.*)", re.DOTALL)
 _YES, _NO = ("true", "1"), ("false", "0")
 _ABOUT_MODELS = (
@@ -244,6 +245,37 @@ def output_path(text: str, what: str, *endings: str) -> Path:
     if not path.parent.is_dir():
         raise UsageError(f"-o {text}: the folder '{path.parent}' does not exist")
     return path
+
+
+def drawing_format(path: Path, formats: Mapping[str, T]) -> T:
+    """Return what the ending of a drawing's file stands for.
+
+    Raises:
+        UsageError: the ending is none of them.
+    """
+    found = formats.get(path.suffix.lower())
+    if found is None:
+        raise UsageError(
+            f"-o {path}: the format comes from the ending, which must be one of "
+            f"{', '.join(formats)}; "
+            "for a PDF, write a .dot file and convert it with dot -Tpdf"
+        )
+    return found
+
+
+def write_drawing(path: Path | None, drawing: str) -> None:
+    """Write a drawing into a file; None writes it to standard output.
+
+    Raises:
+        UsageError: the file cannot be written.
+    """
+    if path is None:
+        write_lines(drawing)
+        return
+    try:
+        path.write_text(drawing, encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"cannot write '{path}': {error.strerror}") from error
 
 
 def warn(text: str) -> None:

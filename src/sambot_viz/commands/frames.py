@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from sambot_viz.commands.command_line import Parser, parse, posed_frames
-from sambot_viz.errors import UsageError
+from sambot_viz.commands.command_line import (
+    Parser,
+    drawing_format,
+    parse,
+    posed_frames,
+    write_drawing,
+)
 from sambot_viz.frames.export.drawing import tree_dot, tree_json_text
 from sambot_viz.frames.export.svg import tree_svg
 from sambot_viz.frames.frame_tree import FrameTree
 from sambot_viz.inputs import Inputs
-from sambot_viz.outlet import write_lines
 from sambot_viz.problems import write_problems
 from sambot_viz.robot.model import Robot
 
@@ -28,16 +32,13 @@ def run(words: list[str]) -> int:
     """Draw the frames of a model; returns 0."""
     given, options = parse(parser(), words)
     output = Path(given.output) if given.output else None
-    draw = tree_dot if output is None else _format(output)
+    draw = tree_dot if output is None else drawing_format(output, FORMATS)
     with Inputs(options, listen=given.listen) as inputs:
         robot = inputs.robot()
         found = [p for p in inputs.problems() if p.severity != "info"]
         write_problems(found, model=options.model)
         drawing = draw(posed_frames(robot, inputs), robot)
-    if output is None:
-        write_lines(drawing)
-    else:
-        _write(output, drawing)
+    write_drawing(output, drawing)
     return 0
 
 
@@ -57,21 +58,3 @@ def parser() -> Parser:
         help="file to write: .svg, .dot or .json (default: DOT on standard output)",
     )
     return made
-
-
-def _format(path: Path) -> Draw:
-    draw = FORMATS.get(path.suffix.lower())
-    if draw is None:
-        raise UsageError(
-            f"-o {path}: the format comes from the ending, which must be one of "
-            f"{', '.join(FORMATS)}; "
-            "for a PDF, write a .dot file and convert it with dot -Tpdf"
-        )
-    return draw
-
-
-def _write(path: Path, drawing: str) -> None:
-    try:
-        path.write_text(drawing, encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"cannot write '{path}': {error.strerror}") from error

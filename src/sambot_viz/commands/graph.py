@@ -10,7 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import missing
-from sambot_viz.commands.command_line import Parser, model_path, parse
+from sambot_viz.commands.command_line import (
+    Parser,
+    drawing_format,
+    model_path,
+    parse,
+    write_drawing,
+)
 from sambot_viz.errors import SourceError, UsageError, did_you_mean
 from sambot_viz.graph.drawing import graph_dot, graph_json_text
 from sambot_viz.graph.node_graph import NodeGraph, compared
@@ -18,7 +24,7 @@ from sambot_viz.graph.svg import graph_svg
 from sambot_viz.listened import CONNECTED_WITHIN
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.options import Options
-from sambot_viz.outlet import write_err, write_lines
+from sambot_viz.outlet import write_err
 from sambot_viz.text import text
 
 if TYPE_CHECKING:
@@ -35,7 +41,7 @@ def run(words: list[str]) -> int:
     """Draw the nodes of a package, of a robot, or of both; returns 0."""
     given, options = parse(parser(), words)
     output = None if given.output in (None, "-") else Path(given.output)
-    how = given.format or ("dot" if output is None else _format(output))
+    how = given.format or ("dot" if output is None else drawing_format(output, FORMATS))
     if options.model is None and not options.sources:
         raise UsageError(
             "name a package with launch files, or --source URI of a robot, or both"
@@ -51,10 +57,7 @@ def run(words: list[str]) -> int:
     for note in graph.notes:
         write_err(f"sambot-viz: note: {text(note)}")
     drawn = _draw(graph, how, output)
-    if output is None:
-        write_lines(drawn)
-    else:
-        _write(output, drawn)
+    write_drawing(output, drawn)
     return 0
 
 
@@ -91,28 +94,10 @@ def parser() -> Parser:
     return made
 
 
-def _format(path: Path) -> str:
-    how = FORMATS.get(path.suffix.lower())
-    if how is None:
-        raise UsageError(
-            f"-o {path}: the format comes from the ending, which must be one of "
-            f"{', '.join(FORMATS)}; "
-            "for a PDF, write a .dot file and convert it with dot -Tpdf"
-        )
-    return how
-
-
 def _draw(graph: NodeGraph, how: str, output: Path | None) -> str:
     if how == "svg":
         return graph_svg(graph, None if output is None else output.parent)
     return graph_dot(graph) if how == "dot" else graph_json_text(graph)
-
-
-def _write(path: Path, drawing: str) -> None:
-    try:
-        path.write_text(drawing, encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"cannot write '{path}': {error.strerror}") from error
 
 
 def _expected(options: Options, name: str | None) -> NodeGraph:
