@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from sambot_viz.checks.around.bridges import entries
-from sambot_viz.checks.around.gazebo_topics import GazeboTopic, sent, taken
+from sambot_viz.checks.around.gazebo_topics import GazeboTopic, model_topics
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.read_topics import published_topics, used_topics
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry, bare
@@ -40,7 +39,7 @@ def counterpart(written: str) -> str | None:
 
 def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
     """Report types that are almost one that a bridge knows."""
-    for entry in entries(around):
+    for entry in around.bridged:
         for fact, near in (
             (entry.ros_type, _near_ros_type(entry.ros_type.value)),
             (entry.gz_type, _near_gz_type(entry.gz_type.value)),
@@ -89,15 +88,14 @@ def _near_name(name: str, names: Sequence[str]) -> str | None:
 
 def bridge_types(around: Surroundings) -> Iterator[Problem]:
     """Report entries whose types do not fit each other, or what the model sends."""
-    topics = [*sent(around), *taken(around)]
-    every = entries(around)
-    carried = {bare(entry.gz.value) for entry in every}
-    left = {t.kind for t in topics if t.wanted and bare(t.name.value) not in carried}
-    for entry in every:
+    topics = model_topics(around)
+    carried = {bare(entry.gz.value) for entry in around.bridged}
+    left = {t.kind for t in topics if not t.end.is_seldom and t.name not in carried}
+    for entry in around.bridged:
         fitting = _PAIRS.get(entry.ros_type.value)
         if fitting is None or not _is_gz_type(entry.gz_type.value):
             continue
-        own = [t for t in topics if bare(t.name.value) == bare(entry.gz.value)]
+        own = [t for t in topics if t.name == bare(entry.gz.value)]
         if entry.kind not in fitting:
             yield _mismatch(entry, fitting, own, around)
         elif own and entry.kind not in {*left, *(t.kind for t in own)}:
@@ -214,7 +212,7 @@ def _misfit(entry: BridgeEntry, topic: GazeboTopic) -> Problem:
         "warning",
         "bridge-types",
         f"the bridge expects {entry.gz_type.value} on {entry.gz.value}, but "
-        f"{topic.what} uses it for {topic.kind} ({where(topic.name.place, place)}): "
+        f"{topic.what} uses it for {topic.kind} ({where(topic.end.place, place)}): "
         "nothing passes",
         together(
             f"write {better}, and {ros_type} in ROS",

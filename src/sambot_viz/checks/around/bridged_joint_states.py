@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -22,7 +21,7 @@ def unsent_joint_states(around: Surroundings) -> Iterator[Problem]:
     if any(near_system(plugin.filename) for plugin in around.plugins):
         # One of them may be meant to.
         return
-    carried = (e for e in entries(around) if e.kind == "Model")
+    carried = (e for e in around.bridged if e.kind == "Model")
     entry = next((e for e in carried if e.reaches_ros), None)
     if entry is None or entry.scoped:
         return

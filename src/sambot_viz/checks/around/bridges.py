@@ -8,8 +8,7 @@ from sambot_viz.checks.around.files.gazebo import sensors
 from sambot_viz.checks.around.gazebo_topics import (
     GazeboTopic,
     doubled_topics,
-    sent,
-    taken,
+    model_topics,
     topics_of_sensor,
     unnamed,
 )
@@ -19,8 +18,6 @@ from sambot_viz.checks.around.running.bridge_entries import (
     DIRECTIONS,
     BridgeEntry,
     bare,
-    entries_in,
-    entries_of_file,
 )
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
@@ -33,66 +30,64 @@ _OF_IMAGES = "image_bridge"
 _BRIDGES = ("parameter_bridge", _OF_IMAGES)
 
 
-def entries(around: Surroundings) -> list[BridgeEntry]:
-    """Return all topics that bridges carry, as files and arguments name them."""
-    found = [e for file in around.yaml_files for e in entries_of_file(file)]
-    for launch in around.launches:
-        for node in launch.nodes:
-            found += entries_in(node.arguments, node.remappings, node.place)
-    return found
-
-
 def bridge_directions(around: Surroundings) -> Iterator[Problem]:
     """Report entries that carry a topic of the model the wrong way."""
-    ways = [(t, _TO_ROS, "sends") for t in sent(around)]
-    ways += [(t, _TO_GZ, "takes") for t in taken(around)]
-    every = entries(around)
-    for topic, right, verb in ways:
-        for entry in every:
+    for topic in model_topics(around):
+        right = _TO_ROS if topic.end.publishes else _TO_GZ
+        for entry in around.bridged:
             said = entry.direction
-            same = bare(entry.gz.value) == bare(topic.name.value)
             wrong = said.value in (_TO_ROS, _TO_GZ) and said.value != right
-            if same and entry.kind == topic.kind and wrong:
+            if wrong and _fits(entry, topic):
                 yield Problem.at(
                     said.place,
                     "warning",
                     "bridge-direction",
                     f"the bridge carries {entry.gz.value} {said.value}, but "
-                    f"{topic.what} {verb} it ({where(topic.name.place, said.place)})",
+                    f"{topic.what} {topic.verb} it "
+                    f"({where(topic.end.place, said.place)})",
                     write(
                         said.place, said.value, right, hint=f"write direction: {right}"
                     ),
                 )
 
 
+def _fits(entry: BridgeEntry, topic: GazeboTopic) -> bool:
+    return entry.kind == topic.kind and bare(entry.gz.value) == topic.name
+
+
 def bridge_topics(around: Surroundings) -> Iterator[Problem]:
     """Report entries for a topic that the model calls otherwise."""
-    nodes = [node for launch in around.launches for node in launch.nodes]
-    if any(n.executable in _BRIDGES and not n.arguments_known for n in nodes):
+    nodes = [n for n in around.running.started if n.executable in _BRIDGES]
+    if any(None in node.arguments for node in nodes):
         return
     pictures = {
-        bare(text) for n in nodes if n.executable == _OF_IMAGES for text in n.arguments
+        bare(text or "")
+        for node in nodes
+        if node.executable == _OF_IMAGES
+        for text in node.arguments
     }
-    every = entries(around)
     # Which of two sensors with one topic is meant is said at the sensor.
     doubled = tuple(doubled_topics(around))
-    names = [(bare(topic.name.value), topic) for topic in sent(around)]
+    topics = model_topics(around)
     free = [
         topic
-        for name, topic in names
-        if name not in pictures and not name.startswith(doubled)
+        for topic in topics
+        if topic.name not in pictures and not topic.name.startswith(doubled)
     ]
-    own = _own_names(around)
-    yield from _misnamed(every, free, (_TO_ROS, _BOTH), "sends", own)
-    yield from _misnamed(every, taken(around), (_TO_GZ, _BOTH), "takes", own)
-    yield from _unnamed(every, around)
+    own = _own_names(around, topics)
+    for publishes, ways in ((True, (_TO_ROS, _BOTH)), (False, (_TO_GZ, _BOTH))):
+        alike = [topic for topic in free if topic.end.publishes is publishes]
+        yield from _misnamed(around.bridged, alike, ways, own)
+    yield from _unnamed(around, topics)
 
 
-def _own_names(around: Surroundings) -> dict[str, frozenset[str]]:
+def _own_names(
+    around: Surroundings, topics: Sequence[GazeboTopic]
+) -> dict[str, frozenset[str]]:
     """What the model may be called in Gazebo, for types whose topics it all names."""
     names = {around.robot.name, *(t for one in around.launches for t in one.strings)}
-    open_ = {one.kind for one in unnamed(around)}
-    named = {topic.kind for topic in (*sent(around), *taken(around))}
+    open_ = {topic.kind for topic in unnamed(around)}
+    named = {topic.kind for topic in topics}
     return dict.fromkeys(named - open_, frozenset(names))
 
 
@@ -103,32 +98,30 @@ def _is_own(entry: BridgeEntry, own: Mapping[str, frozenset[str]]) -> bool:
     return at < len(parts) and parts[at] in own.get(entry.kind, ())
 
 
-def _unnamed(every: Sequence[BridgeEntry], around: Surroundings) -> Iterator[Problem]:
+def _unnamed(around: Surroundings, topics: Sequence[GazeboTopic]) -> Iterator[Problem]:
     """Report topics without a name in the model that a bridge carries by one."""
-    known = {bare(t.name.value) for t in (*sent(around), *taken(around))}
-    found = unnamed(around)
-    for entry in every:
+    known = {topic.name for topic in topics}
+    kinds = {topic.kind for topic in topics}
+    for entry in around.bridged:
         name = bare(entry.gz.value)
-        alike = [one for one in found if one.kind == entry.kind]
+        alike = [topic for topic in unnamed(around) if topic.kind == entry.kind]
         # Of joint states there is a finding of their own.
         if entry.scoped or name in known or len(alike) != 1 or entry.kind == "Model":
             continue
-        if any(t.kind == entry.kind for t in (*sent(around), *taken(around))):
-            continue
         (one,) = alike
-        topic = name.removesuffix(one.more)
-        if not name.endswith(one.more):
+        tag, more = one.end.parameter, one.end.written
+        if entry.kind in kinds or not name.endswith(more):
             continue
         if around.said_elsewhere(name, as_topic=True, launched=True):
             continue
         yield Problem.at(
-            one.place,
+            one.end.place,
             "warning",
             "bridge-topic",
-            f"{one.what} has no <{one.tag}>, so its topic in Gazebo is a long one "
+            f"{one.what} has no <{tag}>, so its topic in Gazebo is a long one "
             f"below the name of the model, but the bridge carries {entry.gz.value} "
-            f"({where(entry.gz.place, one.place)}): nothing passes",
-            f"add <{one.tag}>{topic}</{one.tag}> to it",
+            f"({where(entry.gz.place, one.end.place)}): nothing passes",
+            f"add <{tag}>{name.removesuffix(more)}</{tag}> to it",
         )
 
 
@@ -136,18 +129,19 @@ def _misnamed(
     every: Sequence[BridgeEntry],
     topics: Sequence[GazeboTopic],
     ways: Sequence[str],
-    verb: str,
     own: Mapping[str, frozenset[str]],
 ) -> Iterator[Problem]:
     carried = {bare(entry.gz.value) for entry in every}
     for entry in every:
-        alike = {bare(t.name.value): t for t in topics if t.kind == entry.kind}
+        alike = {t.name: t for t in topics if t.kind == entry.kind}
         name = bare(entry.gz.value)
         if name in alike or entry.direction.value not in ways:
             continue
         if entry.scoped and not _is_own(entry, own):
             continue
-        left = {k: t for k, t in alike.items() if t.wanted and k not in carried}
+        left = {
+            k: t for k, t in alike.items() if not t.end.is_seldom and k not in carried
+        }
         alone = len(alike) == 1 and sum(e.kind == entry.kind for e in every) == 1
         near = nearest(name, left, 0.0 if alone else 0.6)
         if near is not None:
@@ -156,8 +150,8 @@ def _misnamed(
                 place,
                 "warning",
                 "bridge-topic",
-                f"the bridge carries {entry.gz.value}, but {topic.what} {verb} "
-                f"{topic.name.value} ({where(topic.name.place, place)}), which no "
+                f"the bridge carries {entry.gz.value}, but {topic.what} {topic.verb} "
+                f"{topic.end.written} ({where(topic.end.place, place)}), which no "
                 "bridge carries",
                 write(
                     place,
@@ -169,7 +163,7 @@ def _misnamed(
 
 def scoped_frames(around: Surroundings) -> Iterator[Problem]:
     """Report sensors whose messages reach ROS with a frame that Gazebo makes up."""
-    every = entries(around)
+    every = around.bridged
     if any(e.kind == "Pose_V" and e.scoped for e in every):
         # A bridge may bring the frames of Gazebo too.
         return
@@ -185,10 +179,11 @@ def scoped_frames(around: Surroundings) -> Iterator[Problem]:
         if _names_frame(sensor) or any(text.endswith(f"/{name}") for text in said):
             continue
         for topic in topics_of_sensor(sensor):
-            entry = next((e for e in every if _brings(e, topic)), None)
+            brings = (e for e in every if e.reaches_ros and _fits(e, topic))
+            entry = next(brings, None)
             read = entry is not None and bare(entry.ros.value) in filtered
             if entry is not None and (topic.kind in _PLACED or read):
-                place = topic.name.place
+                place = topic.end.place
                 yield Problem.at(
                     place,
                     "warning",
@@ -208,8 +203,3 @@ _PLACED = frozenset({"LaserScan", "PointCloudPacked"})
 
 def _names_frame(sensor: Element) -> bool:
     return any("frame_id" in element.tag for element in sensor.iter())
-
-
-def _brings(entry: BridgeEntry, topic: GazeboTopic) -> bool:
-    same = bare(entry.gz.value) == bare(topic.name.value)
-    return same and entry.kind == topic.kind and entry.reaches_ros

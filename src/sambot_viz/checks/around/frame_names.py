@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.exchanged_ends import exchanged_ends
 from sambot_viz.checks.around.files.gazebo import (
     SENSOR_FRAMES,
@@ -321,7 +320,7 @@ def drive_tf(around: Surroundings, plugin: Plugin) -> Fact | None:
     topic = plugin.one("tf_topic")
     if topic is None:
         return None
-    for entry in entries(around):
+    for entry in around.bridged:
         if bare(entry.gz.value) == bare(topic.value) and entry.kind == "Pose_V":
             if bare(entry.ros.value) == "tf" and entry.reaches_ros:
                 return entry.ros

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.bridges import entries
 from sambot_viz.checks.around.files.gazebo import Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.frame_names import drive_tf
@@ -64,7 +63,7 @@ def _others_publish(around: Surroundings) -> bool:
         return True
     return any(
         entry.kind == "Pose_V" and bare(entry.ros.value) in ("tf", "tf_static")
-        for entry in entries(around)
+        for entry in around.bridged
     )
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from sambot_viz.checks.around.bridges import entries
-from sambot_viz.checks.around.files.gazebo import Fact, Plugin
+from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.navigation import is_open
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
@@ -16,15 +15,6 @@ from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
 _FILTERED = "odometry/filtered"
-_CLASSIC: dict[str, tuple[str, str]] = {
-    "libgazebo_ros_imu_sensor.so": ("Imu", "~/out"),
-    "libgazebo_ros_ray_sensor.so": ("", "~/out"),
-    "libgazebo_ros_diff_drive.so": ("Odometry", "odom"),
-}
-"""Plugin of Gazebo Classic → the type that it publishes, and its own topic.
-
-The type of a ray sensor is in its <output_type>.
-"""
 
 
 class Published(NamedTuple):
@@ -102,7 +92,7 @@ def _renamed(
 ) -> Iterator[tuple[Problem, ReadTopic]]:
     """Entries of a bridge whose topic all read under its name in Gazebo."""
     names = {bare(p.topic.value) for p in published}
-    for entry in entries(around):
+    for entry in around.bridged:
         gz, ros = bare(entry.gz.value), entry.ros
         kind = entry.ros_type.value.rpartition("/")[2]
         readers = [u for u in used if u.end.message == kind]
@@ -153,43 +143,17 @@ def used_topics(around: Surroundings) -> list[ReadTopic]:
         (node.path, end.parameter, end.place): ReadTopic(node, end)
         for node in around.running.started
         for end in node.endpoints
-        if end.parameter and not end.publishes
+        if end.parameter and not end.publishes and not end.in_gazebo
     }
     return list(named.values())
 
 
 def published_topics(around: Surroundings) -> Iterator[Published]:
     """Give the topics in ROS that bridges and plugins publish."""
+    plugins = {plugin.filename for plugin in around.plugins}
     for node in around.running.started:
-        for end in node.endpoints if node.is_bridge else ():
-            if end.publishes and not end.in_gazebo:
-                topic = Fact(end.topic, end.place)
-                yield Published(topic, end.message, "the bridge")
-    for plugin in around.plugins:
-        yield from _of_classic(plugin)
-
-
-def _of_classic(plugin: Plugin) -> Iterator[Published]:
-    kind, topic = _CLASSIC.get(plugin.filename, ("", ""))
-    output = plugin.one("output_type")
-    if output is not None:
-        kind = output.value.rpartition("/")[2]
-    if not kind or not topic:
-        return
-    ros = plugin.element.find("ros")
-    place, namespace = plugin.element.place, ""
-    for child in ros.children if ros is not None else ():
-        text = child.text.strip()
-        old, becomes, new = text.partition(":=")
-        if child.tag == "remap":
-            old, becomes, new = child.get("from") or "", ":=", child.get("to") or ""
-        if child.tag == "namespace":
-            namespace, place = bare(text), child.place
-        elif becomes and old in (topic, topic.removeprefix("~/")):
-            topic, place = new, child.place
-    name = plugin.element.get("name") or ""
-    topic = topic.replace("~", name)
-    whole = topic if topic.startswith("/") or not namespace else f"{namespace}/{topic}"
-    if not is_open(whole):
-        fact = Fact(f"/{bare(whole)}", place)
-        yield Published(fact, kind, f"the plugin {plugin.filename}")
+        what = "the bridge" if node.is_bridge else f"the plugin {node.executable}"
+        if node.is_bridge or node.executable in plugins:
+            for end in node.endpoints:
+                if end.publishes and not end.in_gazebo:
+                    yield Published(Fact(end.topic, end.place), end.message, what)

@@ -14,6 +14,9 @@ from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
 from sambot_viz.checks.around.files.setup_py import SetupFile
 from sambot_viz.checks.around.running.assemble import system_of
+from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
+from sambot_viz.checks.around.running.endpoints import entries_of
+from sambot_viz.checks.around.running.simulated import simulated
 from sambot_viz.checks.around.running.system import RunningSystem
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
@@ -70,13 +73,26 @@ class Surroundings:
         """What runs when the launch files are started."""
         packages = {package.name: package for package in self.packages}
         files = [(each, path) for each in self.packages for path in each.launch_paths]
-        return system_of(files, self.packages, packages.get)
+        parts = self.known.gazebo if self.known is not None else ()
+        return system_of(files, self.packages, packages.get, simulated=simulated(parts))
+
+    @cached_property
+    def bridged(self) -> tuple[BridgeEntry, ...]:
+        """What bridges between Gazebo and ROS carry."""
+        packages = {package.name: package for package in self.packages}
+        found = (
+            entry
+            for node in self.running.started
+            if node.is_bridge
+            for entry in entries_of(node, packages.get)
+        )
+        return tuple(dict.fromkeys(found))
 
     @property
     def simulates_only_known(self) -> bool:
         """True when Gazebo is started, and nothing whose topics are not known."""
-        simulated = any(launch.may_start for launch in self.launches)
-        return simulated and self.running.is_known
+        simulates = any(launch.may_start for launch in self.launches)
+        return simulates and self.running.is_known
 
     def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
         """Give the Python launch files with their texts."""

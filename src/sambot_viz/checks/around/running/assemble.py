@@ -28,6 +28,7 @@ def system_of(
     packages: Sequence[Package],
     find: Find,
     *,
+    simulated: Iterable[RunningNode] = (),
     displays: bool = False,
 ) -> RunningSystem:
     """Return what runs when launch files are started.
@@ -40,6 +41,7 @@ def system_of(
         files: the launch files, each with its package.
         packages: those whose parameters count.
         find: returns a package that is here by its name.
+        simulated: what Gazebo runs for a robot.
         displays: read the configs of RViz for the topics of its displays.
     """
     followed: dict[tuple[Package, str], LaunchEvaluation] = {}
@@ -56,6 +58,7 @@ def system_of(
         unknown += followed[root].unknown
     nodes += _controllers(nodes, packages)
     nodes += _by_hand(nodes, packages)
+    nodes += simulated
     return RunningSystem(
         tuple(package.shown(path) for package, path in roots),
         tuple(with_endpoints(node, find, displays=displays) for node in nodes),

@@ -13,6 +13,8 @@ import yaml
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag, pairs, place_of, read_yaml
 from sambot_viz.checks.around.running.bridge_entries import (
+    BridgeEntry,
+    bare,
     entries_in,
     entries_of_file,
 )
@@ -26,6 +28,14 @@ from sambot_viz.checks.around.running.system import (
 from sambot_viz.checks.around.workspace import Package
 
 _WILD = {"#": r"(\d+)", "*": r"([\w.]+)"}
+_WORD = re.compile(r"([^$]*)\$([\w.#*]+)(?:=(.*)|(/.*))?")
+_ENDS = {
+    "publishes": (True, False),
+    "subscribes": (False, False),
+    "sends": (True, True),
+    "takes": (False, True),
+}
+"""Verb of a row → whether it is a publisher, and whether its topic is in Gazebo."""
 _TOPICS = ("Topic", "Description Topic", "Depth Map Topic", "Image Topic")
 
 
@@ -74,7 +84,8 @@ def with_endpoints(
         return replace(node, endpoints_known=ours)
     endpoints = list(_of_rows(node, known))
     if known.does("bridge"):
-        endpoints += _of_bridge(node, find)
+        for entry in entries_of(replace(node, remappings=()), find):
+            endpoints += entry.endpoints(whole_name(node, entry.ros.value))
     if known.does("displays") and displays:
         endpoints += _of_displays(node, find)
     return replace(
@@ -87,18 +98,34 @@ def with_endpoints(
 
 def _of_rows(node: RunningNode, known: KnownNode) -> Iterator[Endpoint]:
     for row in known.rows:
-        if row.verb not in ("publishes", "subscribes") or _is_off(node, row):
+        if row.verb not in _ENDS or _is_off(node, row):
             continue
-        for said in _said(node, row.words[0]):
+        publishes, in_gazebo = _ENDS[row.verb]
+        every = list(_said(node, row.words[0]))
+        if in_gazebo and not every:
+            yield _unnamed(node, row)
+        for said in every:
             kind = next(iter(_said(node, row.words[1].replace("*", said.star))), None)
+            name = said.text
             yield Endpoint(
-                whole_name(node, said.text),
+                f"/{bare(name)}" if in_gazebo else whole_name(node, name),
                 kind.text if kind is not None else "",
-                row.verb == "publishes",
+                publishes,
                 said.parameter.place if said.parameter else node.place,
-                said.text,
+                name,
                 said.parameter.name if said.parameter else "",
+                in_gazebo,
+                row.is_seldom,
             )
+
+
+def _unnamed(node: RunningNode, row: NodeRow) -> Endpoint:
+    """Return an end whose topic Gazebo makes up: its parameter is not given."""
+    found = _WORD.fullmatch(row.words[0])
+    name, after = (found[2], found[4] or "") if found else ("", "")
+    publishes, _ = _ENDS[row.verb]
+    place, kind = node.place, row.words[1]
+    return Endpoint("", kind, publishes, place, after, name, True, row.is_seldom)
 
 
 def _is_off(node: RunningNode, row: NodeRow) -> bool:
@@ -109,23 +136,23 @@ def _is_off(node: RunningNode, row: NodeRow) -> bool:
 
 def _said(node: RunningNode, words: str) -> Iterator[_Said]:
     """Give the texts that a word of the table stands for."""
-    before, mark, rest = words.partition("$")
-    if not mark:
+    found = _WORD.fullmatch(words)
+    if found is None:
         yield _Said(words, None, "")
         return
-    name, _, default = rest.partition("=")
+    before, name, default, after = found.groups(default="")
     wild = next((sign for sign in _WILD if sign in name), None)
     if wild is not None:
         pattern = re.compile(re.escape(name).replace(re.escape(wild), _WILD[wild]))
         for parameter in node.parameters:
-            found = pattern.fullmatch(parameter.name)
-            if found is not None and parameter.value:
-                yield _Said(before + parameter.value, parameter, found[1])
+            match = pattern.fullmatch(parameter.name)
+            if match is not None and parameter.value:
+                yield _Said(before + parameter.value + after, parameter, match[1])
         return
     given = node.parameter(name)
     if given is not None:
         if given.value:
-            yield _Said(before + given.value, given, "")
+            yield _Said(before + given.value + after, given, "")
     elif default:
         yield from (
             _Said(before + s.text, s.parameter, "") for s in _said(node, default)
@@ -159,18 +186,22 @@ def _static(node: RunningNode) -> Iterator[PublishedTransform]:
         yield PublishedTransform(parent.lstrip("/"), child.lstrip("/"), node.place)
 
 
-def _of_bridge(
+def entries_of(
     node: RunningNode, find: Callable[[str], Package | None]
-) -> Iterator[Endpoint]:
-    for entry in entries_in(node.arguments, (), node.place):
-        yield from entry.endpoints(whole_name(node, entry.ros.value))
+) -> Iterator[BridgeEntry]:
+    """Give what a bridge carries, by its arguments, with remappings, and its file.
+
+    Args:
+        node: the bridge.
+        find: returns a package that is here by its name.
+    """
+    yield from entries_in(node.arguments, node.remappings, node.place)
     given = node.parameter("config_file")
     path = given.value if given is not None else None
     name, _, below = (path or "").removeprefix(SHARE).partition("/")
     package = find(name)
     for file in package.yaml_files if package is not None else ():
-        for entry in entries_of_file(file) if file.path == below else ():
-            yield from entry.endpoints(whole_name(node, entry.ros.value))
+        yield from entries_of_file(file) if file.path == below else ()
 
 
 def _of_displays(

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+SENSOR, SYSTEM = "gz.sensor", "gz.system"
+"""What stands for the package of a sensor or a system of Gazebo."""
 _TABLE = Path(__file__).parents[2] / "vocabularies" / "nodes.txt"
 
 
@@ -24,6 +26,11 @@ class NodeRow:
     verb: str
     words: tuple[str, ...]
     unless: tuple[str, str] = ("", "")
+
+    @property
+    def is_seldom(self) -> bool:
+        """True for what few want."""
+        return self.words[-1:] == ("seldom",)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +119,7 @@ def known_nodes() -> KnownNodes:
     nodes.reverse()
     return KnownNodes(
         {(node.package, program): node for node in nodes for program in node.programs},
-        {node.name: node for node in reversed(nodes)},
+        {n.name: n for n in reversed(nodes) if n.package not in (SENSOR, SYSTEM)},
         launches,
         displays,
         tools,

@@ -5,6 +5,7 @@ A model of it, not the programs: launch files are read, never run.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -27,7 +28,9 @@ class Endpoint:
         place: the line that says so: of a parameter, a bridge's entry or the node.
         written: the name there, before namespace and remappings.
         parameter: the parameter that names it; empty without one.
-        in_gazebo: it is a topic of Gazebo, not of ROS.
+        in_gazebo: it is a topic of Gazebo, not of ROS. One that Gazebo makes up has no
+            topic here, and in written what Gazebo adds to it.
+        is_seldom: few want what it sends.
     """
 
     topic: str
@@ -37,11 +40,12 @@ class Endpoint:
     written: str = ""
     parameter: str = ""
     in_gazebo: bool = False
+    is_seldom: bool = False
 
     @property
     def message(self) -> str:
         """The type without its package."""
-        return self.kind.rpartition("/")[2]
+        return re.split("[/.]", self.kind)[-1]
 
 
 @dataclass(frozen=True, slots=True)
