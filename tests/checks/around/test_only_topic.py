@@ -165,3 +165,51 @@ def test_a_bridge_that_is_not_started_publishes_nothing(copied: Copied) -> None:
     text = config.read_text("utf-8")
     config.write_text(text.replace("imu0: demo/imu", "imu0: demo/im"), "utf-8")
     assert "topic-unknown" not in {problem.code for problem in check(package / MODEL)}
+
+
+def test_a_namespace_leads_a_reader_away_from_its_topic(copied: Copied) -> None:
+    package = copied("gz")
+    launch, config = package / LAUNCH, package / EKF
+    text = launch.read_text("utf-8")
+    name = '        name="ekf_filter_node",\n'
+    launch.write_text(
+        text.replace(name, f'{name}        namespace="robot",\n'), "utf-8"
+    )
+    said = config.read_text("utf-8")
+    config.write_text(said.replace("ekf_filter_node", "/**/ekf_filter_node"), "utf-8")
+
+    found = [p for p in check(package / MODEL) if p.code == "topic-unknown"]
+
+    assert [p.hint for p in found] == ["write /demo/odom", "write /demo/imu"]
+    assert found[0].message == (
+        "robot/ekf_filter_node reads demo/odom, which is /robot/demo/odom by its "
+        "namespace, but the bridge publishes this Odometry as /demo/odom "
+        "(bridge_config.yaml line 14)"
+    )
+
+
+def test_topics_of_a_controller_have_its_name(copied: Copied) -> None:
+    package = copied("gz")
+    launch = package / LAUNCH
+    spawner = (
+        'Node(package="controller_manager", executable="spawner", arguments=["base"]),'
+    )
+    text = launch.read_text("utf-8")
+    launch.write_text(
+        text.replace(
+            "            bridge,", f"            bridge,\n            {spawner}"
+        ),
+        "utf-8",
+    )
+    (package / "config" / "controllers.yaml").write_text(
+        "controller_manager:\n  ros__parameters:\n    base:\n"
+        "      type: diff_drive_controller/DiffDriveController\n",
+        "utf-8",
+    )
+    config = package / EKF
+    said = config.read_text("utf-8")
+    config.write_text(said.replace("demo/odom", "base/odm"), "utf-8")
+
+    found = [p for p in check(package / MODEL) if p.code == "topic-unknown"]
+
+    assert "base publishes this Odometry as /base/odom" in found[0].message

@@ -110,7 +110,7 @@ def _is_gz_type(written: str) -> bool:
 
 def topics_of_other_types(around: Surroundings) -> Iterator[Problem]:
     """Report topics that are published, with a type that the reader does not take."""
-    if around.namespaced or _has_wrong_types(around):
+    if _has_wrong_types(around):
         return
     published = list(published_topics(around))
     for read in used_topics(around):

@@ -26,15 +26,17 @@ class Published(NamedTuple):
 
 
 class ReadTopic(NamedTuple):
-    """A topic that a node subscribes to since a parameter names it."""
+    """A topic that a node subscribes to since a parameter names it.
+
+    Attributes:
+        node: the node.
+        end: its subscription.
+        name: the topic, without a slash before it.
+    """
 
     node: RunningNode
     end: Endpoint
-
-    @property
-    def name(self) -> str:
-        """The topic, as in the parameter."""
-        return bare(self.end.written)
+    name: str
 
     @property
     def reader(self) -> str:
@@ -45,8 +47,6 @@ class ReadTopic(NamedTuple):
 def unknown_topics(around: Surroundings) -> Iterator[Problem]:
     """Report topics that are read under another name than they are published."""
     published = list(published_topics(around))
-    if around.namespaced:
-        return
     used = used_topics(around)
     renamed = {u.end.message: p for p, u in _renamed(around, used, published)}
     yield from renamed.values()
@@ -55,7 +55,12 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
         if any(bare(p.topic.value) == name for p in published):
             # It is there; whether its type is the right one is another question.
             continue
-        known = {bare(p.topic.value): p for p in published if p.kind == kind}
+        known = {
+            bare(p.topic.value): p
+            for p in published
+            # What a node publishes itself it does not read.
+            if p.kind == kind and p.what != one.reader
+        }
         if not known or is_open(name) or name == _FILTERED:
             continue
         if any(other.name in known for other in used if _same(other, one)):
@@ -69,12 +74,16 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
 
 
 def _unknown(read: ReadTopic, source: Published) -> Problem:
-    end = read.end
+    end, inside = read.end, ""
+    if bare(end.written) != read.name:
+        is_renamed = read.node.namespace in ("", "/")
+        by = "a remapping" if is_renamed else "its namespace"
+        inside = f", which is {end.topic} by {by},"
     return Problem.at(
         end.place,
         "warning",
         "topic-unknown",
-        f"{read.reader} reads {end.written}, but {source.what} "
+        f"{read.reader} reads {end.written}{inside or ','} but {source.what} "
         f"publishes this {end.message} as {source.topic.value} "
         f"({where(source.topic.place, end.place)})",
         write(end.place, end.written, source.topic.value),
@@ -116,8 +125,11 @@ def _renamed(
 
 
 def _of_a_node(around: Surroundings, topic: str) -> bool:
-    """True for a topic below the name of a node or controller of the package."""
+    """True for a topic below the name of a node whose topics are not known."""
     owner = topic.rpartition("/")[0]
+    running = around.running.started
+    if any(bare(node.path) == owner and node.endpoints_known for node in running):
+        return False
     nodes = {
         part for file in around.yaml_files for n in file.nodes for part in n.split("/")
     }
@@ -138,22 +150,39 @@ def _meant(name: str, known: dict[str, Published]) -> str | None:
 
 
 def used_topics(around: Surroundings) -> list[ReadTopic]:
-    """Return the topics that nodes read since parameters name them."""
+    """Return the topics that nodes read since parameters name them.
+
+    Where there are namespaces, only those of nodes that surely start in one, and of
+    types that no other node publishes.
+    """
+    lost = {
+        end.message
+        for node in around.running.started
+        for end in node.endpoints
+        if end.publishes and not end.in_gazebo and not _is_placed(around, node)
+    }
     named = {
-        (node.path, end.parameter, end.place): ReadTopic(node, end)
+        (node.path, end.parameter, end.place): ReadTopic(node, end, bare(end.topic))
         for node in around.running.started
         for end in node.endpoints
         if end.parameter and not end.publishes and not end.in_gazebo
+        if _is_placed(around, node)
     }
-    return list(named.values())
+    return [read for read in named.values() if read.end.message not in lost]
+
+
+def _is_placed(around: Surroundings, node: RunningNode) -> bool:
+    """Tell whether the namespace of a node is known."""
+    return not around.namespaced or (node.starts == "yes" and node.namespace != "")
 
 
 def published_topics(around: Surroundings) -> Iterator[Published]:
-    """Give the topics in ROS that bridges and plugins publish."""
+    """Give the topics in ROS that nodes, bridges and plugins publish."""
     plugins = {plugin.filename for plugin in around.plugins}
     for node in around.running.started:
-        what = "the bridge" if node.is_bridge else f"the plugin {node.executable}"
+        what = node.path.strip("/")
         if node.is_bridge or node.executable in plugins:
-            for end in node.endpoints:
-                if end.publishes and not end.in_gazebo:
-                    yield Published(Fact(end.topic, end.place), end.message, what)
+            what = "the bridge" if node.is_bridge else f"the plugin {node.executable}"
+        for end in node.endpoints if _is_placed(around, node) else ():
+            if end.publishes and not end.in_gazebo:
+                yield Published(Fact(end.topic, end.place), end.message, what)
