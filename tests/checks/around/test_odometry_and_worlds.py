@@ -63,6 +63,31 @@ def test_another_node_may_publish_it(copied: Copied) -> None:
     assert check(package / MODEL) == []
 
 
+def test_a_mapper_needs_somebody_who_publishes_odometry(copied: Copied) -> None:
+    package = copied("gz")
+    launch = package / LAUNCH
+    text = launch.read_text("utf-8")
+    mapper = (
+        'Node(package="slam_toolbox", executable="async_slam_toolbox_node"),\n'
+        "            robot_state_publisher,"
+    )
+    launch.write_text(text.replace("robot_state_publisher,", mapper), "utf-8")
+    assert check(package / MODEL) == []
+
+    without = launch.read_text("utf-8").replace("            robot_localization,\n", "")
+    start = without.index("    robot_localization = Node")
+    without = without[:start] + without[without.index("    rviz = Node") :]
+    launch.write_text(without, "utf-8")
+    (package / EKF).unlink()
+
+    found = [p for p in check(package / MODEL) if p.code == "odometry-unpublished"]
+
+    assert [p.message for p in found] == [
+        "no node publishes the transform from odom to base_link, which slam_toolbox "
+        "needs"
+    ]
+
+
 @pytest.mark.parametrize(
     ("systems", "sensor", "better"),
     [

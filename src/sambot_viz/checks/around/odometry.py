@@ -16,28 +16,53 @@ from sambot_viz.errors import Fix, Problem
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
-    """Report a filter that is told not to publish what only it could publish."""
+    """Report a frame of odometry that nodes need and nobody publishes.
+
+    It is said at the parameter of a filter that is told not to publish what only it
+    could, else where the first node needs it.
+    """
+    if around.namespaced or not around.simulates_only_known or _others_publish(around):
+        return
     started = [one for one in filters(around) if one.started]
-    if len(started) != 1 or around.namespaced or started[0].moves_base:
-        return
-    (one,) = started
-    user = _user(around, one.odom_frame)
-    if user is None or _others_publish(around) or not around.simulates_only_known:
-        return
-    found = _reason(one)
-    if found is None:
-        return
-    reason, hint = found
-    base = one.frame("base_link_frame", "base_link")
-    yield Problem.at(
-        reason.value_place,
-        "warning",
-        "odometry-unpublished",
-        f"no node publishes the transform from {one.odom_frame} to {base}, which "
-        f"{user.node.rpartition('/')[2]} needs ({where(user.place, reason.place)}): "
-        f"{one.node} does not, because {reason.name} is {reason.fact.value}",
-        hint,
-    )
+    for one in started[:1] if len(started) == 1 else ():
+        user, found = _user(around, one.odom_frame), _reason(one)
+        if user is None or found is None or one.moves_base:
+            return
+        reason, hint = found
+        base = one.frame("base_link_frame", "base_link")
+        user_name = user.node.rpartition("/")[2]
+        yield Problem.at(
+            reason.value_place,
+            "warning",
+            "odometry-unpublished",
+            f"no node publishes the transform from {one.odom_frame} to {base}, which "
+            f"{user_name} needs ({where(user.place, reason.place)}): {one.node} does "
+            f"not, because {reason.name} is {reason.fact.value}",
+            hint,
+        )
+    if not started:
+        yield from _without_filter(around)
+
+
+def _without_filter(around: Surroundings) -> Iterator[Problem]:
+    running = [node for node in around.running.started if node.starts == "yes"]
+    published = {one.parent for node in running for one in node.transforms}
+    # A map that hangs at the frame of odometry is of no use without it.
+    known = {*around.links, *(published - {"map"})}
+    for node in running:
+        for need in node.needs:
+            if need.name in known or around.said_elsewhere(need.name):
+                continue
+            yield Problem.at(
+                need.place,
+                "warning",
+                "odometry-unpublished",
+                f"no node publishes the transform from {need.name} to "
+                f"{around.robot.root}, which {node.name} needs",
+                "start ekf_node of robot_localization, or let the bridge carry the "
+                "<tf_topic> of the drive to /tf",
+            )
+            return
 
 
 def _reason(one: StateFilter) -> tuple[Parameter, Fix] | None:

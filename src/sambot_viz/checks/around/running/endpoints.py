@@ -22,6 +22,7 @@ from sambot_viz.checks.around.running.known import KnownNode, NodeRow, known_nod
 from sambot_viz.checks.around.running.system import (
     Endpoint,
     GivenParameter,
+    NeededFrame,
     PublishedTransform,
     RunningNode,
 )
@@ -92,6 +93,7 @@ def with_endpoints(
         node,
         endpoints=tuple(dict.fromkeys(endpoints)),
         transforms=tuple(_transforms(node, known)),
+        needs=tuple(_needs(node, known)),
         endpoints_known=True,
     )
 
@@ -171,6 +173,13 @@ def _transforms(node: RunningNode, known: KnownNode) -> Iterator[PublishedTransf
                 yield PublishedTransform(frames[0], frames[1], place)
     if known.name == "static_transform_publisher":
         yield from _static(node)
+
+
+def _needs(node: RunningNode, known: KnownNode) -> Iterator[NeededFrame]:
+    for row in known.rows:
+        for said in _said(node, row.words[0]) if row.verb == "needs" else ():
+            place = said.parameter.place if said.parameter else node.place
+            yield NeededFrame(said.text.strip().lstrip("/"), place)
 
 
 def _static(node: RunningNode) -> Iterator[PublishedTransform]:

@@ -64,6 +64,19 @@ class PublishedTransform:
 
 
 @dataclass(frozen=True, slots=True)
+class NeededFrame:
+    """A frame of odometry that a node needs a transform to.
+
+    Attributes:
+        name: the frame.
+        place: the line that says so.
+    """
+
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
 class GivenParameter:
     """A parameter that a node is given.
 
@@ -111,6 +124,7 @@ class RunningNode:
             that the user starts.
         endpoints: the topics it publishes and subscribes to, as far as is known.
         transforms: the transforms it publishes, as far as is known.
+        needs: the frames that it needs.
         endpoints_known: it has no other topics and transforms.
     """
 
@@ -127,6 +141,7 @@ class RunningNode:
     chain: tuple[Place, ...] = ()
     endpoints: tuple[Endpoint, ...] = ()
     transforms: tuple[PublishedTransform, ...] = ()
+    needs: tuple[NeededFrame, ...] = ()
     endpoints_known: bool = False
 
     @property
