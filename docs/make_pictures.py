@@ -76,10 +76,7 @@ def tutorial(walk: Walk) -> None:
 def graph(walk: Walk) -> None:
     """Draw the nodes and topics of the tutorial's package, as it is at the end."""
     with tempfile.TemporaryDirectory() as folder:
-        # Launch files of other packages name theirs so, wherever they are started.
-        share = 'get_package_share_directory("sam_bot") + "/config/'
-        files = {n: text.replace('"config/', share) for n, text in walk.files.items()}
-        write_files(files, Path(folder))
+        write_files(walk.files, Path(folder))
         command = [sys.executable, "-m", "sambot_viz", "graph", ".", "--format", "svg"]
         drawn = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE)
     (PICTURES / "first_robot_graph.svg").write_bytes(drawn.stdout)

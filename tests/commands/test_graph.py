@@ -18,6 +18,22 @@ from sambot_viz.cli import main
 
 Capture = pytest.CaptureFixture[str]
 FOR = ["--for", str(patience(5.0))]
+_CONDITIONAL = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("extra", default_value="false"),
+        DeclareLaunchArgument("name", default_value="a"),
+        Node(package="demo_nodes_cpp", executable="talker",
+             name=LaunchConfiguration("name"),
+             condition=IfCondition(LaunchConfiguration("extra"))),
+    ])
+"""
 
 
 @pytest.fixture
@@ -82,6 +98,21 @@ def test_another_launch_file_can_be_chosen(
     assert [*states(said)] == ["/listener"]
     file = package / "launch" / "small.launch.py"
     assert [*states(drawn(capsys, str(file)))] == ["/listener"]
+
+
+def test_arguments_reach_the_launch_file_as_with_ros2_launch(
+    package: Path, capsys: Capture
+) -> None:
+    file = package / "launch" / "small.launch.py"
+    file.write_text(_CONDITIONAL, "utf-8")
+    command = ["graph", str(file), "--format", "json"]
+    for words, names in (([], []), (["extra:=true", "name:=b"], ["/b"])):
+        assert main([*command, *words]) == 0
+        out, err = capsys.readouterr()
+        assert ([*states(json.loads(out))], err) == (names, "")
+    assert main([*command, "extro:=true"]) == 0
+    said = "no launch argument 'extro' is declared; did you mean 'extra'?"
+    assert said in capsys.readouterr().err
 
 
 def test_what_runs_is_drawn_as_the_robot_tells_it(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -67,6 +67,8 @@ def parser() -> Parser:
         prog="sambot-viz graph",
         groups=("model", "check", "source"),
         model="package folder, or a launch file",
+        epilog="NAME:=VALUE is an argument of the launch file and of xacro, anywhere "
+        "on the line, as for ros2 launch.",
         description="Draw nodes and topics from left to right, as rqt_graph does: what "
         "the launch files of a package would start, with what check finds in it, or "
         "what runs on a robot, as far as its bridge says it; with both, what was "
@@ -112,11 +114,13 @@ def _expected(options: Options, name: str | None) -> NodeGraph:
         raise UsageError(missing("model", path))
     found = started_launches(
         path,
+        arguments=options.xacro_args,
         package_path=options.package_path,
         workspace=options.workspace,
         trusted=options.trusted,
     )
     launch = _chosen(found, name, path)
+    _note_unknown(options.xacro_args, launch.system.declared)
     try:
         problems = check_all(
             path if path.is_dir() else launch.package,
@@ -129,6 +133,15 @@ def _expected(options: Options, name: str | None) -> NodeGraph:
         # A package without a model can be drawn all the same.
         problems = ()
     return expected_graph(launch.system, problems)
+
+
+def _note_unknown(given: Iterable[str], declared: frozenset[str]) -> None:
+    """Say which arguments no launch file declares; xacro may have them."""
+    for name in given:
+        if name not in declared:
+            near = did_you_mean(name, sorted(declared))
+            said = f"no launch argument '{text(name)}' is declared; {near}"
+            write_err(f"sambot-viz: note: {said}")
 
 
 def _chosen(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,6 +34,7 @@ class StartedLaunch:
 def started_launches(
     path: Path,
     *,
+    arguments: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
     workspace: Sequence[Path | str] = (),
     trusted: bool = True,
@@ -42,6 +43,7 @@ def started_launches(
 
     Args:
         path: a package, a launch file, or a model in a package.
+        arguments: as for `running_system`.
         package_path: as for `check`.
         workspace: as for `check`.
         trusted: as for `check`.
@@ -49,7 +51,11 @@ def started_launches(
 
     def of(target: Path) -> RunningSystem:
         return running_system(
-            target, package_path=package_path, workspace=workspace, trusted=trusted
+            target,
+            arguments=arguments,
+            package_path=package_path,
+            workspace=workspace,
+            trusted=trusted,
         )
 
     package = package_around(path) or (path if path.is_dir() else path.parent)

@@ -273,6 +273,23 @@ def test_what_may_start_more_is_named_with_its_place(
     assert Path(unknown.place.file).name == "a.launch.py"
 
 
+@pytest.mark.parametrize(
+    ("files", "known"),
+    [(["config/ekf.yaml"], True), (["a/ekf.yaml", "ekf.yaml"], False)],
+)
+def test_a_relative_path_means_the_one_file_that_it_fits(
+    packages: Packages, files: list[str], known: bool
+) -> None:
+    node_of = "Node(package='robot_localization', executable='ekf_node', name='ekf', "
+    launch = python(f"{node_of}parameters=['ekf.yaml'])")
+    text = "ekf: {ros__parameters: {odom0: wheels}}"
+    given = dict.fromkeys(files, text)
+    folder = packages(carts={"launch/a.launch.py": launch, **given})
+    (node,) = (n for n in running_system(folder).nodes if n.place.file.endswith("py"))
+    assert node.parameters_known == known
+    assert [p.name for p in node.parameters if p.given_at] == ["odom0"] * known
+
+
 def test_files_that_include_each_other_and_long_loops_end(packages: Packages) -> None:
     again = INCLUDING.replace("parts", "carts").replace("part.l", "a.l")
     deep = "x = ['a']\n" + "    x = x + x\n" * 40

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.checks.around.running.assemble import system_of
@@ -33,6 +33,7 @@ __all__ = [
 def running_system(
     path: Path,
     *,
+    arguments: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
     workspace: Sequence[Path | str] = (),
     trusted: bool = True,
@@ -41,6 +42,7 @@ def running_system(
 
     Args:
         path: a launch file in a package, or a package.
+        arguments: values for launch arguments, as `ros2 launch` takes them.
         package_path: as for `check`.
         workspace: as for `check`.
         trusted: as for `check`.
@@ -63,4 +65,6 @@ def running_system(
         if is_folder or (package.folder / each).samefile(path)
     ]
     others = (each for each in found.given if each is not package)
-    return system_of(files, [package, *others], found.named, displays=True)
+    return system_of(
+        files, [package, *others], found.named, arguments=arguments, displays=True
+    )

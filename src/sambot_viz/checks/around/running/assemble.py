@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -29,6 +29,7 @@ def system_of(
     find: Find,
     *,
     simulated: Iterable[RunningNode] = (),
+    arguments: Mapping[str, str] | None = None,
     displays: bool = False,
 ) -> RunningSystem:
     """Return what runs when launch files are started.
@@ -42,11 +43,12 @@ def system_of(
         packages: those whose parameters count.
         find: returns a package that is here by its name.
         simulated: what Gazebo runs for a robot.
+        arguments: of the command line, for each of the launch files.
         displays: read the configs of RViz for the topics of its displays.
     """
     followed: dict[tuple[Package, str], LaunchEvaluation] = {}
     for package, path in files:
-        followed[package, path] = LaunchEvaluation(find)
+        followed[package, path] = LaunchEvaluation(find, arguments)
         followed[package, path].run(package, path)
     included = {file for one in followed.values() for file in one.included}
     # Files that include each other are all started.
@@ -63,6 +65,7 @@ def system_of(
         tuple(package.shown(path) for package, path in roots),
         tuple(with_endpoints(node, find, displays=displays) for node in nodes),
         tuple(dict.fromkeys(unknown)),
+        frozenset(name for one in followed.values() for name in one.declared),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -27,7 +27,11 @@ from sambot_viz.checks.around.running.includes import (
     launch_file_of,
 )
 from sambot_viz.checks.around.running.known import known_nodes
-from sambot_viz.checks.around.running.parameter_files import options_in, parameters_for
+from sambot_viz.checks.around.running.parameter_files import (
+    located,
+    options_in,
+    parameters_for,
+)
 from sambot_viz.checks.around.running.system import (
     GivenParameter,
     RunningNode,
@@ -55,19 +59,27 @@ class LaunchEvaluation:
 
     Args:
         find: returns a package that is here by its name.
+        arguments: of the command line, as `ros2 launch` takes them.
 
     Attributes:
         nodes: the nodes.
         unknown: where more may start.
         included: the launch files that others include.
+        declared: names of launch arguments.
     """
 
-    def __init__(self, find: Callable[[str], Package | None]) -> None:
+    def __init__(
+        self,
+        find: Callable[[str], Package | None],
+        arguments: Mapping[str, str] | None = None,
+    ) -> None:
         self._find = find
         self.nodes: list[RunningNode] = []
         self.unknown: list[UnknownStart] = []
         self.included: set[tuple[Package, str]] = set()
+        self.declared: set[str] = set()
         self._texts = LaunchTexts()
+        self._texts.arguments.update(arguments or {})
         self._starts: Starts = "yes"
         self._namespace: str | None = "/"
         self._given: tuple[GivenParameter, ...] = ()
@@ -134,6 +146,8 @@ class LaunchEvaluation:
     def _set(self, action: SetArgument) -> None:
         name = self._texts.text(action.name)
         known = self._texts.arguments
+        if name is not None and action.declares:
+            self.declared.add(name)
         if name is None or self._starts == "no" or (action.declares and name in known):
             return
         certain = self._starts == "yes"
@@ -284,7 +298,8 @@ class LaunchEvaluation:
                 continue
             settled = [self._texts.settled(value) for value in each.values or ()]
             robot = settled[0] if settled else None
-            values = tuple(value for value in settled if isinstance(value, str))
+            texts = (value for value in settled if isinstance(value, str))
+            values = tuple(located(self._files[-1][0], value) for value in texts)
             whole = each.values is not None and len(values) == len(settled)
             source = robot.source if isinstance(robot, RobotText) else None
             found.append(
@@ -301,8 +316,8 @@ class LaunchEvaluation:
     def _from_file(
         self, given: FromFile, name: str, namespace: str | None
     ) -> list[GivenParameter] | None:
-        path = self._texts.text(given.path)
-        if path is None or not path.startswith(SHARE):
+        path = located(self._files[-1][0], self._texts.text(given.path) or "")
+        if not path.startswith(SHARE):
             return None
         package = self._find(path.removeprefix(SHARE).partition("/")[0])
         if package is None:

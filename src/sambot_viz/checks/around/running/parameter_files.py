@@ -6,8 +6,10 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.running.system import GivenParameter
+from sambot_viz.checks.around.workspace import Package
 
 _OPTIONS = {"-r": "remap", "--remap": "remap", "-p": "value", "--params-file": "file"}
 
@@ -29,6 +31,18 @@ def parameters_for(
                 yield GivenParameter(
                     parameter.name, parameter.values, parameter.value_place
                 )
+
+
+def located(package: Package, path: str) -> str:
+    """Return the path in a package that the relative path of a YAML file means.
+
+    It is relative to where the launch file is run: exactly one file has to fit.
+    """
+    if path.startswith("/") or not path.endswith((".yaml", ".yml")):
+        return path
+    ending = f"/{path.removeprefix('./')}"
+    fit = [f.path for f in package.yaml_files if f"/{f.path}".endswith(ending)]
+    return f"{SHARE}{package.name}/{fit[0]}" if len(fit) == 1 else path
 
 
 def _fits(key: str, name: str, path: str | None) -> bool:

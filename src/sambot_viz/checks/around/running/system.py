@@ -181,11 +181,13 @@ class RunningSystem:
         launches: the launch files, as the user would write them.
         nodes: the nodes, also those that do not start, in the order of the files.
         unknown: where more may start than is known.
+        declared: names of the launch arguments.
     """
 
     launches: tuple[str, ...] = ()
     nodes: tuple[RunningNode, ...] = ()
     unknown: tuple[UnknownStart, ...] = field(default=())
+    declared: frozenset[str] = frozenset()
 
     @property
     def is_whole(self) -> bool:
