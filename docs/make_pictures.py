@@ -2,7 +2,8 @@
 
     PYTHONPATH=tests/support:src python docs/make_pictures.py
 
-It needs sambot-viz and a Chromium or Chrome on this machine.
+It needs sambot-viz and a Chromium or Chrome on this machine; with --graphs it draws
+only the graphs, for which no browser is needed.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from first_robot import PAGE, Walk, said_in, write_files
+from first_robot import PAGE, Walk, graph_in, said_in, write_files
 
 from sambot_viz.export.chromium import Chromium
 
@@ -58,7 +59,7 @@ def tutorial(walk: Walk) -> None:
     opens the page gives the picture of the window.
     """
     opened = next(trial for trial in walk.trials if trial.shows)
-    snapshots = [t for t in walk.trials if t.draws and not t.quoted]
+    snapshots = [t for t in walk.trials if t.draws and t.picture]
     for trial in (opened, *snapshots):
         with tempfile.TemporaryDirectory() as folder:
             write_files(trial.files, Path(folder))
@@ -68,25 +69,27 @@ def tutorial(walk: Walk) -> None:
                 take(["--model", str(model)], target, "true")
                 continue
             said_in(Path(folder), trial)
-            name = trial.commands[0].split()[-1]
-            picture = (Path(folder) / name).read_bytes()
-            (PICTURES / f"first_robot_{name}").write_bytes(picture)
+            picture = (Path(folder) / trial.picture).read_bytes()
+            (PICTURES / f"first_robot_{trial.picture}").write_bytes(picture)
 
 
-def graph(walk: Walk) -> None:
-    """Draw the nodes and topics of the tutorial's package, as it is at the end."""
-    with tempfile.TemporaryDirectory() as folder:
-        write_files(walk.files, Path(folder))
-        command = [sys.executable, "-m", "sambot_viz", "graph", ".", "--format", "svg"]
-        drawn = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE)
-    (PICTURES / "first_robot_graph.svg").write_bytes(drawn.stdout)
+def graphs(walk: Walk) -> None:
+    """Draw the nodes and topics of the tutorial's package, chapter by chapter."""
+    for trial in walk.trials:
+        if trial.command == "graph":
+            with tempfile.TemporaryDirectory() as folder:
+                write_files(trial.files, Path(folder))
+                drawn = graph_in(Path(folder), trial)
+            (PICTURES / f"first_robot_{trial.picture}").write_text(drawn, "utf-8")
 
 
 def main() -> None:
-    """Make all pictures."""
+    """Make all pictures, or only those that need no browser."""
     walk = Walk(PAGE.read_text("utf-8"))
+    graphs(walk)
+    if sys.argv[1:] == ["--graphs"]:
+        return
     tutorial(walk)
-    graph(walk)
     model = ROOT / "assets" / "sam_bot.urdf.xacro"
     take(
         ["--model", str(model)],

@@ -10,7 +10,16 @@ from pathlib import Path
 import first_robot
 import pytest
 from command_line_page import parser_of
-from first_robot import PAGE, Trial, Walk, agrees, changed, said_in, write_files
+from first_robot import (
+    PAGE,
+    Trial,
+    Walk,
+    agrees,
+    changed,
+    graph_in,
+    said_in,
+    write_files,
+)
 from program import address, serving
 
 from sambot_viz import load_robot
@@ -42,8 +51,8 @@ def test_each_command_of_the_tutorial_says_what_the_page_quotes(
         return
     if trial.said is None:
         # docs/make_pictures.py draws it.
-        assert trial.draws
-        parser_of("snapshot").parse_args(shlex.split(trial.commands[0])[2:])
+        assert trial.picture
+        parser_of(trial.command).parse_args(shlex.split(trial.commands[0])[2:])
         return
     now = said_in(tmp_path, trial)
     assert agrees(trial.said, now), (
@@ -65,6 +74,7 @@ def test_each_mistake_is_quoted() -> None:
     mistakes = re.findall(r"^```diff$", text, re.MULTILINE)
     quoted = [trial for trial in WALK.trials if trial.quoted]
     assert len(quoted) >= len(mistakes) > 20
+    assert not re.findall(r"^.*says:\n\n(?!>)", text, re.MULTILINE)
     for trial in quoted:
         assert trial.said and re.match(r"> `\S", trial.said)
         assert "no problems found" not in trial.said
@@ -90,14 +100,25 @@ def test_the_commands_and_settings_in_its_sentences_exist() -> None:
         assert name in known
 
 
-def test_each_snapshot_of_the_tutorial_is_its_picture() -> None:
+PICTURES = PAGE.parents[1] / ".github"
+
+
+def test_each_picture_of_the_tutorial_is_made_by_its_command() -> None:
     """`docs/make_pictures.py` makes the pictures with these commands."""
-    embedded = re.findall(r"first_robot_(\w+)\.png\)", PAGE.read_text("utf-8"))
-    drawn = [t.commands[0] for t in WALK.trials if t.draws and not t.quoted]
-    made = [Path(shlex.split(command)[-1]).stem for command in drawn]
-    assert embedded == ["body", *made]
+    embedded = re.findall(r"first_robot_(\w+\.\w+)\)", PAGE.read_text("utf-8"))
+    made = [trial.picture for trial in WALK.trials if trial.picture]
+    assert embedded == ["body.png", *made]
     for name in embedded:
-        assert (PAGE.parents[1] / ".github" / f"first_robot_{name}.png").is_file()
+        assert (PICTURES / f"first_robot_{name}").is_file()
+
+
+@pytest.mark.parametrize("trial", [t for t in WALK.trials if t.command == "graph"])
+def test_each_graph_of_the_tutorial_is_what_its_command_draws_now(
+    trial: Trial, tmp_path: Path
+) -> None:
+    write_files(trial.files, tmp_path)
+    kept = (PICTURES / f"first_robot_{trial.picture}").read_text("utf-8")
+    assert kept == graph_in(tmp_path, trial), "run: docs/make_pictures.py --graphs"
 
 
 def test_both_files_are_the_same_robot(tmp_path: Path) -> None:

@@ -56,6 +56,11 @@ def test_a_finding_is_at_the_topic_of_its_line_or_that_it_names() -> None:
     assert graph.topics["/odom"].problem == at_line
     assert graph.topics["/wheels"].problem == by_name
     assert graph.nodes["/ekf"].problem == at_node
+    other = Problem(
+        "error", "a", "ekf reads odom, not /wheels", file=PARAMETERS, line=7
+    )
+    graph = expected_graph(system, [other])
+    assert [t.name for t in graph.topics.values() if t.problem] == ["/odom"]
     assert graph.unwritten() == {"/odom", "/wheels"}
     assert graph.is_whole
 

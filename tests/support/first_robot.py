@@ -68,12 +68,23 @@ class Trial:
     @property
     def shows(self) -> bool:
         """Whether its command opens the page and waits."""
-        return self.commands[0].split()[1] not in COMMANDS
+        return self.command not in COMMANDS
 
     @property
     def draws(self) -> bool:
         """Whether it needs a browser."""
         return any(" snapshot " in command for command in self.commands)
+
+    @property
+    def picture(self) -> str:
+        """The name of the file that is a picture of the page; "" for none."""
+        words = self.commands[0].split()
+        return words[-1] if self.said is None and "-o" in words else ""
+
+    @property
+    def command(self) -> str:
+        """The name of the first command, such as check."""
+        return self.commands[0].split()[1]
 
 
 class Walk:
@@ -241,6 +252,12 @@ def _paragraphs(output: str) -> Iterator[str]:
             continue
         quoted.setdefault(code, f"> `{line.strip()}`\n")
     yield ">\n".join(quoted.values())
+
+
+def graph_in(folder: Path, trial: Trial) -> str:
+    """Return the graph that a trial draws, without links: it is shown elsewhere."""
+    command = trial.commands[0].partition(" -o ")[0]
+    return _output(folder, f"{command} --format svg").replace("\\", "/")
 
 
 def agrees(quotation: str, now: str) -> bool:

@@ -90,14 +90,16 @@ def _by_topic(
     ends = list(ends)
     found: dict[str, Problem] = {}
     for problem in problems:
-        at = {
-            end.topic
+        at = [
+            end
             for node, end in ends
             if (end.place.file, end.place.line) == (problem.file, problem.line)
             and end.place != node.place
-        }
-        named = {end.topic for _, end in ends if _names(problem.message, end.topic)}
-        for topic in at & named or named or at:
+        ]
+        said = problem.message
+        both = {e.topic for e in at if _names(said, e.topic) or _names(said, e.written)}
+        named = {end.topic for _, end in ends if _names(said, end.topic)}
+        for topic in both or named or {end.topic for end in at}:
             found.setdefault(topic, problem)
     return found
 
