@@ -213,6 +213,8 @@ EXCEPTIONS: Mapping[str, str] = {
     # A recording has a thread that writes it.
     "sources/recording_thread.py": "threading",
     "sources/websocket/assets.py": "concurrent",
+    # What takes seconds must not hold the session's lock.
+    "session/background.py": "threading",
     "topics/live_files.py": "concurrent",  # files are asked for at once
     "sources/websocket/delivery.py": "threading",
     "sources/websocket/paced_connection.py": "socket",  # how its own is acknowledged

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,9 @@ from panel_rows import data_of, edit, panel_of, rows_of
 from patience import until
 from rosbridge_peer import RosbridgePeer
 
+import sambot_viz.graph.expected as expected
 from sambot_viz import Visualizer
+from sambot_viz.graph.node_graph import NodeGraph
 from sambot_viz.panels.graph.graph_panel import GraphPanel
 from sambot_viz.session import Session
 
@@ -33,10 +36,15 @@ def peer() -> Iterator[RosbridgePeer]:
     made.stop()
 
 
-def parts(panel: GraphPanel) -> dict[str, dict[str, Any]]:
+def parts(panel: GraphPanel, session: Session) -> dict[str, dict[str, Any]]:
     """What is drawn by now, by name."""
-    picture = data_of(panel)["graph/picture"]
+    with session.lock:
+        picture = data_of(panel)["graph/picture"]
     return {part["name"]: part for part in picture["parts"]} if picture else {}
+
+
+def until_drawn(panel: GraphPanel, session: Session, *names: str) -> None:
+    until(lambda: [*parts(panel, session)] == [*names], WAIT)
 
 
 def test_a_model_without_launch_files_has_no_graph(
@@ -48,11 +56,11 @@ def test_a_model_without_launch_files_has_no_graph(
 def test_the_graph_is_made_once_somebody_looks(session: Session) -> None:
     panel = panel_of(GraphPanel, session)
     assert [*rows_of(panel)] == ["graph/wait"]
-    assert parts(panel) == {}
+    assert parts(panel, session) == {}
     edit(panel, "graph/show", [True])
-    assert [*parts(panel)] == ["/listener", "/talker"]
+    until_drawn(panel, session, "/listener", "/talker")
     edit(panel, "graph/show", [False])
-    assert parts(panel) == {}
+    assert parts(panel, session) == {}
 
 
 def test_a_node_has_its_place_which_only_those_at_the_disk_see_whole(
@@ -61,7 +69,8 @@ def test_a_node_has_its_place_which_only_those_at_the_disk_see_whole(
     for folders, begin in ((True, f"{tmp_path}/robot/launch/"), (False, "")):
         panel = panel_of(GraphPanel, session, folders=folders)
         edit(panel, "graph/show", [True])
-        talker = parts(panel)["/talker"]
+        until_drawn(panel, session, "/listener", "/talker")
+        talker = parts(panel, session)["/talker"]
         assert talker["place"] == f"{begin}whole.launch.py:8"
         assert (str(tmp_path) in talker["said"]) == folders
         edit(panel, "graph/show", [False])
@@ -70,13 +79,14 @@ def test_a_node_has_its_place_which_only_those_at_the_disk_see_whole(
 def test_another_launch_file_is_chosen(session: Session) -> None:
     panel = panel_of(GraphPanel, session)
     edit(panel, "graph/show", [True])
+    until_drawn(panel, session, "/listener", "/talker")
     row = rows_of(panel)["graph/launch"]
     assert (row.value, row.options) == (
         "whole.launch.py",
         ["whole.launch.py", "small.launch.py"],
     )
     edit(panel, "graph/launch", "small.launch.py")
-    assert [*parts(panel)] == ["/listener"]
+    until_drawn(panel, session, "/listener")
 
 
 def test_what_a_robot_runs_is_compared_with_the_launch_files(
@@ -88,8 +98,8 @@ def test_what_a_robot_runs_is_compared_with_the_launch_files(
         panel = panel_of(GraphPanel, session)
 
         def looks() -> dict[str, str]:
-            with session.lock:
-                return {name: part["look"] for name, part in parts(panel).items()}
+            drawn = parts(panel, session)
+            return {name: part["look"] for name, part in drawn.items()}
 
         with session.lock:
             edit(panel, "graph/show", [True])
@@ -102,3 +112,26 @@ def test_what_a_robot_runs_is_compared_with_the_launch_files(
         # It is looked at again as long as somebody sees it.
         peer.listen_as("/chatter", "/listener")
         until(lambda: looks()["/listener"] == "node both", WAIT)
+
+
+def test_the_session_does_not_wait_for_a_graph_and_keeps_the_last_one(
+    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    panel = panel_of(GraphPanel, session)
+    edit(panel, "graph/show", [True])
+    until_drawn(panel, session, "/listener", "/talker")
+    drawn, going_on, makers = expected.expected_graph, threading.Event(), list[object]()
+
+    def slow(*arguments: Any) -> NodeGraph:
+        makers.append(threading.current_thread())
+        assert going_on.wait(WAIT)
+        return drawn(*arguments)
+
+    monkeypatch.setattr(expected, "expected_graph", slow)
+    for name in ("small", "whole", "small"):
+        edit(panel, "graph/launch", f"{name}.launch.py")
+    assert [*parts(panel, session)] == ["/listener", "/talker"]
+    going_on.set()
+    until_drawn(panel, session, "/listener")
+    # What was asked for meanwhile is made once, in the same thread.
+    assert len(makers) <= 2 and len(set(makers)) == 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -14,13 +13,14 @@ from sambot_viz.displays.robot_display import (
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.model_source import open_text
+from sambot_viz.session.background import Background
 
 
 class ModelThread:
     """Reads one model after the other in a thread that lives while there is work.
 
     Expanding a xacro file may take 20 seconds. Of several requests of one display only
-    the latest is carried out, so a browser that asks often keeps one thread busy.
+    the latest is carried out.
 
     Args:
         load: reads a model; its second argument is False for a file that a browser
@@ -38,9 +38,7 @@ class ModelThread:
         self.package_path = tuple(package_path)
         self._load = load
         self._load_described = load_described or _load_text
-        self._changed = threading.Condition()
-        self._requests: dict[int, Callable[[], None]] = {}
-        self._running = False
+        self._background = Background("sambot-viz-models")
 
     def read(self, request: ModelRequest) -> None:
         """Read a model soon."""
@@ -52,44 +50,16 @@ class ModelThread:
                 result = error
             request.done(result)
 
-        with self._changed:
-            self._requests[id(request.owner)] = work
-            if not self._running:
-                self._running = True
-                name = "sambot-viz-models"
-                threading.Thread(target=self._run, name=name, daemon=True).start()
+        self._background.do(request.owner, work)
+
+    def wait(self, timeout: float) -> bool:
+        """Wait until nothing is being read; False when that takes longer [s]."""
+        return self._background.wait(timeout)
 
     def _result(self, request: ModelRequest) -> Robot:
         if isinstance(request.path, Description):
             return self._load_described(request.path)
         return self._load(request.path, request.trusted)
-
-    def wait(self, timeout: float) -> bool:
-        """Wait until nothing is being read; False when that takes longer [s]."""
-        with self._changed:
-            return self._changed.wait_for(lambda: not self._running, timeout)
-
-    def _run(self) -> None:
-        while (work := self._next()) is not None:
-            try:
-                work()
-            except BaseException:
-                # After an internal error the next request starts another thread.
-                with self._changed:
-                    self._stopped()
-                raise
-
-    def _next(self) -> Callable[[], None] | None:
-        with self._changed:
-            owner = next(iter(self._requests), None)
-            if owner is None:
-                self._stopped()
-                return None
-            return self._requests.pop(owner)
-
-    def _stopped(self) -> None:
-        self._running = False
-        self._changed.notify_all()
 
 
 def _load_text(described: Description) -> Robot:

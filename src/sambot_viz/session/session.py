@@ -153,8 +153,7 @@ class Session:
             self.sources,
             change,
             worker,
-            options.package_path,
-            options.workspace,
+            options,
         )
         self.driven = Signal(change, None)
         drive = DriveSettings(

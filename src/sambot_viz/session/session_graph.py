@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.graph.launch_names import has_launch_files
+from sambot_viz.options import Options
 from sambot_viz.robot.packages.package_index import package_around
+from sambot_viz.session.background import Background
 from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Problems
@@ -17,6 +20,7 @@ from sambot_viz.session.worker import Worker
 
 # The first page does not wait for what only the tab needs.
 if TYPE_CHECKING:
+    from sambot_viz.errors import Problem
     from sambot_viz.graph.launches import StartedLaunch
     from sambot_viz.graph.node_graph import NodeGraph
     from sambot_viz.graph.placed_graph import PlacedGraph
@@ -27,17 +31,38 @@ PAUSE = 3.0
 """A robot is looked at so often while somebody sees the graph [s]."""
 
 
+@dataclass(frozen=True, slots=True)
+class _GraphInputs:
+    """What a graph is made of.
+
+    Attributes:
+        package: whose launch files are read; None for none.
+        model: number of the robot, which is another one when a file was saved.
+        problems: what check says.
+        launch: name of the launch file; "" for the one that starts most.
+        running: what a robot says.
+    """
+
+    package: Path | None
+    model: int
+    problems: tuple[Problem, ...]
+    launch: str
+    running: NodeGraph | None
+
+
 class SessionGraph:
     """Makes the graph while somebody looks at it, and again when it has changed.
+
+    It is made in a thread of its own, one after the other: the files of a package may
+    take seconds, and the session must not wait for them.
 
     Args:
         robot: has the model, whose package is read.
         problems: are drawn where they are.
         sources: a live one says what runs.
         change: tells changes.
-        worker: makes it.
-        package_path: folders of packages, as for `check`.
-        workspace: as for `check`.
+        worker: takes what was made.
+        options: arguments of the launch files, and where packages are.
 
     Attributes:
         changed: told when there is another graph.
@@ -52,19 +77,20 @@ class SessionGraph:
         sources: SessionSources,
         change: Change,
         worker: Worker,
-        package_path: Sequence[Path | str] = (),
-        workspace: Sequence[Path | str] = (),
+        options: Options,
     ) -> None:
         self.changed = Signal(change, None)
         self.launch = ""
         self._robot, self._problems, self._sources = robot, problems, sources
         self._worker = worker
-        self._package_path, self._workspace = package_path, workspace
+        self._options = options
+        self._background = Background("sambot-viz-graph")
         self._viewers: set[object] = set()
         self._launches: tuple[StartedLaunch, ...] = ()
-        self._read: object = None
+        self._asked: _GraphInputs | None = None
+        self._read: tuple[object, tuple[StartedLaunch, ...]] = (None, ())
         self._nodes: tuple[Source, RunningNodes] | None = None
-        self._graph: NodeGraph | None = None
+        self._drawn: tuple[NodeGraph | None, PlacedGraph | None] = (None, None)
         self._placed: PlacedGraph | None = None
         self._is_looking = False
         self.facts = (robot.changed, sources.replaced)
@@ -115,17 +141,37 @@ class SessionGraph:
         return None if data is None else data.source.live
 
     def _look(self) -> None:
-        """Make the graph, and tell it when it is another one."""
+        """Have the graph made, when it may be another one."""
         if not self._viewers:
             return
+        robot, problems = self._robot.model, self._problems.shown.value.listed
+        package, running = self._package, self._running()
+        given = _GraphInputs(package, id(robot), problems, self.launch, running)
+        if given != self._asked:
+            self._asked = given
+            self._background.do(self, partial(self._make, given))
+
+    def _make(self, given: _GraphInputs) -> None:
+        """Make the graph, in its thread."""
         from sambot_viz.graph.node_graph import compared
         from sambot_viz.graph.placed_graph import place_graph
 
-        found = [one for one in (self._expected(), self._running()) if one is not None]
-        graph = compared(*found) if len(found) == 2 else next(iter(found), None)
-        if graph != self._graph:
-            self._graph = graph
-            self._placed = None if graph is None else place_graph(graph)
+        try:
+            expected, launches = self._expected(given)
+            found = [one for one in (expected, given.running) if one is not None]
+            graph = compared(*found) if len(found) == 2 else next(iter(found), None)
+            if graph != self._drawn[0]:
+                self._drawn = graph, None if graph is None else place_graph(graph)
+        except Exception as error:
+            self._worker.post(partial(self._worker.report, error))
+            return
+        self._worker.post(partial(self._take, self._drawn[1], launches))
+
+    def _take(
+        self, placed: PlacedGraph | None, launches: tuple[StartedLaunch, ...]
+    ) -> None:
+        if placed is not self._placed or launches is not self._launches:
+            self._placed, self._launches = placed, launches
             self.changed.touch()
 
     def _look_later(self) -> None:
@@ -141,22 +187,29 @@ class SessionGraph:
         self._look()
         self._look_later()
 
-    def _expected(self) -> NodeGraph | None:
-        package, problems = self._package, self._problems.shown.value
-        if package is None:
-            return None
+    def _expected(
+        self, given: _GraphInputs
+    ) -> tuple[NodeGraph | None, tuple[StartedLaunch, ...]]:
+        """Return what launch files start, and these; called in the thread alone."""
+        if given.package is None:
+            return None, ()
         from sambot_viz.graph.expected import expected_graph
         from sambot_viz.graph.launches import started_launches
 
-        read = (package, self._robot.model and id(self._robot.model), problems.listed)
-        if read != self._read:
-            self._read = read
-            self._launches = started_launches(
-                package, package_path=self._package_path, workspace=self._workspace
+        of = (given.package, given.model, given.problems)
+        if of != self._read[0]:
+            options = self._options
+            launches = started_launches(
+                given.package,
+                arguments=options.xacro_args,
+                package_path=options.package_path,
+                workspace=options.workspace,
             )
-        called = (one for one in self._launches if one.is_called(self.launch))
-        launch = next(called, next(iter(self._launches), None))
-        return launch and expected_graph(launch.system, problems.listed)
+            self._read = of, launches
+        launches = self._read[1]
+        called = (one for one in launches if one.is_called(given.launch))
+        launch = next(called, next(iter(launches), None))
+        return launch and expected_graph(launch.system, given.problems), launches
 
     def _running(self) -> NodeGraph | None:
         live = self._live
