@@ -33,7 +33,7 @@ Visualization Manager:
 """
 WATCH = """(() => {
   const { scene, camera, nodeRefFromName } = __viserMutable;
-  const draw = scene.onBeforeRender;
+  const [prepare, tidy] = [scene.onBeforeRender, scene.onAfterRender];
   const xOf = (object, [x, y, z]) => nodeRefFromName[""].worldToLocal(
     object.localToWorld(camera.position.clone().set(x, y, z))).x;
   window.seen = [];
@@ -42,7 +42,7 @@ WATCH = """(() => {
   performance.now = () => now;
   scene.onBeforeRender = function (...args) {
     scene.updateMatrixWorld();
-    draw.apply(this, args);
+    prepare.apply(this, args);
     const found = { base: xOf(nodeRefFromName[BASE], [0, 0, 0]) };
     scene.traverse((one) => {
       const { drawAs } = one.userData;
@@ -51,6 +51,12 @@ WATCH = """(() => {
       if (drawAs === "lines") found.outline = xOf(one, position.array);
     });
     window.seen.push([found.base, found.cloud ?? null, found.outline ?? null]);
+    // It is noted; to draw thousands of points takes software a long time.
+    scene.visible = false;
+  };
+  scene.onAfterRender = function (...args) {
+    scene.visible = true;
+    tidy.apply(this, args);
   };
   __viserMutable.scene.__r3f.root.getState().gl.hurry += 1;
 })()"""
