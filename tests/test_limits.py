@@ -45,7 +45,7 @@ NO_LIMITS = {
         sources/bag/left_out.py _MOST_NAMED
         sources/foxglove.py _MOST_NOTES
         sources/joined.py _MOST_NAMED
-        sources/websocket/conversation.py _MOST_LARGE _MOST_SAID
+        sources/live/conversation.py _MOST_LARGE _MOST_SAID
         topics/contents/clouds.py _MOST_NAMED
     """,
     "time: how long something is waited for, lasts or is kept": """
@@ -64,11 +64,11 @@ NO_LIMITS = {
         session/worker.py LONGEST_STOP
         sources/recording_thread.py LONGEST_PERIOD LONGEST_STOP
         sources/rosapi.py LONGEST_ANSWER
-        sources/websocket/service_calls.py LONGEST_ANSWER
-        sources/websocket/assets.py LONGEST_FETCH
-        sources/websocket/delivery.py LONGEST_STOP
+        sources/live/service_calls.py LONGEST_ANSWER
+        sources/live/assets.py LONGEST_FETCH
+        sources/live/delivery.py LONGEST_STOP
         sources/websocket/runner.py LONGEST_SILENCE
-        sources/websocket/live_source.py LONGEST_PAUSE LONGEST_STOP
+        sources/live/live_source.py LONGEST_PAUSE LONGEST_STOP
         sources/zenoh/session.py LONGEST_OPENING
     """,
     "work: what is kept to be quick, or for how long a quick way is taken": """

@@ -212,17 +212,17 @@ EXCEPTIONS: Mapping[str, str] = {
     "publishing/dead_mans_switch.py": "threading",
     # A recording has a thread that writes it.
     "sources/recording_thread.py": "threading",
-    "sources/websocket/assets.py": "concurrent",
     # What takes seconds must not hold the session's lock.
     "session/background.py": "threading",
+    "sources/live/assets.py": "concurrent",
     "topics/live_files.py": "concurrent",  # files are asked for at once
-    "sources/websocket/delivery.py": "threading",
+    "sources/live/delivery.py": "threading",
     "sources/websocket/paced_connection.py": "socket",  # how its own is acknowledged
     "sources/websocket/runner.py": "asyncio",
     "sources/websocket/side_connection.py": "asyncio",
-    "sources/websocket/event_loop.py": "asyncio socket threading",
+    "sources/live/event_loop.py": "asyncio socket threading",
     "sources/websocket/trouble.py": "socket ssl",
-    "sources/websocket/live_source.py": "asyncio concurrent threading",
+    "sources/live/live_source.py": "asyncio concurrent threading",
     "sources/websocket/websocket_source.py": "asyncio",
     "sources/zenoh/session.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",

@@ -24,11 +24,11 @@ from sambot_viz.errors import SourceError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.joined import JoinedSources
+from sambot_viz.sources.live.followed_goal import FOLLOWED
 from sambot_viz.sources.playback import RecordingPlayback
 from sambot_viz.sources.prefixed_source import PrefixedSource
 from sambot_viz.sources.registry import open_source
 from sambot_viz.sources.source import GoalReport, OutgoingAction, Source
-from sambot_viz.sources.websocket.followed_goal import FOLLOWED
 
 Open = Callable[[str], Source]
 GOAL = "geometry_msgs/PoseStamped pose\nstring behavior_tree"

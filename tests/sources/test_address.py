@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from sambot_viz.errors import UsageError
+from sambot_viz.sources.live.address import parse_address
 from sambot_viz.sources.registry import is_live, open_source
-from sambot_viz.sources.websocket.address import parse_address
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from lower_limit import lower
 from patience import until
 
 from sambot_viz.messages import Schema
+from sambot_viz.sources.live.delivery import Delivery
 from sambot_viz.sources.message import Recorded, TopicChannel
-from sambot_viz.sources.websocket.delivery import Delivery
 
 SCHEMA = Schema("std_msgs/msg/String")
 

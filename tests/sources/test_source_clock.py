@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sambot_viz.sources.websocket.clock import SourceClock
+from sambot_viz.sources.live.clock import SourceClock
 
 SECOND = 1_000_000_000
 EPOCH = 1_700_000_000 * SECOND

@@ -29,7 +29,7 @@ from sambot_viz.panels import validation
 from sambot_viz.panels.command import LIST, NUMBER, Command
 from sambot_viz.panels.rows.row import Row
 from sambot_viz.sources.bag import open_bag
-from sambot_viz.sources.websocket.assets import AssetStore
+from sambot_viz.sources.live.assets import AssetStore
 from sambot_viz.topics.live_files import fetch_files
 
 MESH = '<link name="{0}"><visual><geometry><mesh filename="{1}"/></geometry></visual>'

@@ -21,6 +21,8 @@ from sambot_viz.sources.action_names import (
 )
 from sambot_viz.sources.foxglove_services import FoxgloveServices
 from sambot_viz.sources.hidden_action import HiddenAction
+from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.message import (
     Recorded,
     SourceTopic,
@@ -34,8 +36,6 @@ from sambot_viz.sources.source import (
     Receivers,
     Source,
 )
-from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.websocket.trouble import NewSession, WrongServer, other_protocol
 from sambot_viz.text import text
 

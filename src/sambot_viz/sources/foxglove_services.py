@@ -5,8 +5,8 @@ from __future__ import annotations
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
 from sambot_viz.sources import foxglove_wire as wire
-from sambot_viz.sources.websocket.conversation import Ends
-from sambot_viz.sources.websocket.service_calls import ServiceCalls
+from sambot_viz.sources.live.conversation import Ends
+from sambot_viz.sources.live.service_calls import ServiceCalls
 from sambot_viz.text import text
 
 

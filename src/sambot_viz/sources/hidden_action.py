@@ -17,6 +17,7 @@ from sambot_viz.sources.action_names import (
     send_service,
     status_topic,
 )
+from sambot_viz.sources.live.followed_goal import FollowedGoals
 from sambot_viz.sources.message import Recorded
 from sambot_viz.sources.source import (
     GOAL_ENDS,
@@ -27,7 +28,6 @@ from sambot_viz.sources.source import (
     Reply,
     Source,
 )
-from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 
 _HEAD = 4
 """The bytes of CDR before the fields."""

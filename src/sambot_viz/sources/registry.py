@@ -5,8 +5,8 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from sambot_viz.errors import UsageError
+from sambot_viz.sources.live.address import Address, parse_address
 from sambot_viz.sources.source import Source
-from sambot_viz.sources.websocket.address import Address, parse_address
 from sambot_viz.text import text
 
 KNOWN = (

@@ -17,6 +17,9 @@ from sambot_viz import limits
 from sambot_viz.errors import SourceError
 from sambot_viz.sources import rosbridge_wire as wire
 from sambot_viz.sources.action_names import action_of, status_topic
+from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
+from sambot_viz.sources.live.service_calls import ServiceCalls
 from sambot_viz.sources.message import (
     Recorded,
     SourceTopic,
@@ -32,9 +35,6 @@ from sambot_viz.sources.source import (
     Receivers,
     Source,
 )
-from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
-from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.sources.websocket.trouble import WrongServer, other_protocol
 from sambot_viz.text import text
 

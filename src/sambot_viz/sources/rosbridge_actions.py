@@ -15,6 +15,8 @@ from sambot_viz.errors import SourceError
 from sambot_viz.messages import Schema
 from sambot_viz.sources import rosbridge_wire as wire
 from sambot_viz.sources.action_names import feedback_topic
+from sambot_viz.sources.live.conversation import Ends
+from sambot_viz.sources.live.followed_goal import FollowedGoals
 from sambot_viz.sources.message import Recorded, TopicChannel
 from sambot_viz.sources.source import (
     ABORTED,
@@ -26,8 +28,6 @@ from sambot_viz.sources.source import (
     OnReport,
     Reply,
 )
-from sambot_viz.sources.websocket.conversation import Ends
-from sambot_viz.sources.websocket.followed_goal import FollowedGoals
 from sambot_viz.sources.websocket.side_connection import SideConnection
 from sambot_viz.text import text
 

@@ -12,9 +12,9 @@ from functools import cache, partial
 from sambot_viz import limits
 from sambot_viz.errors import DecodeError
 from sambot_viz.messages import MessageTypes, Schema, standard_definition
+from sambot_viz.sources.live.service_calls import ServiceCalls
 from sambot_viz.sources.ros_graph import NO_HASH
 from sambot_viz.sources.source import Reply
-from sambot_viz.sources.websocket.service_calls import ServiceCalls
 
 _ASKED = "string type_name\nstring type_hash\nbool include_type_sources"
 _ANSWER = Schema(

@@ -24,8 +24,8 @@ from sambot_viz.session.scene.drawings import drawing_of
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import Worker
+from sambot_viz.sources.live.clock_topic import CLOCK
 from sambot_viz.sources.message import Recorded
-from sambot_viz.sources.websocket.clock_topic import CLOCK
 from sambot_viz.topics.live_evidence import LiveEvidence
 from sambot_viz.topics.placement import Placement
 from sambot_viz.topics.reasons import TopicReason

@@ -7,11 +7,10 @@ from collections.abc import Callable
 
 from websockets.asyncio.client import ClientConnection
 
-from sambot_viz.sources.websocket.conversation import Conversation
+from sambot_viz.sources.live.conversation import Conversation
+from sambot_viz.sources.live.live_source import TICK
 from sambot_viz.sources.websocket.trouble import WrongServer
 
-TICK = 0.5
-"""Between two looks at what is due [s]."""
 LONGEST_SILENCE = 10.0
 """The server has so long to say who it is [s]."""
 LAST_WORDS = 1.0

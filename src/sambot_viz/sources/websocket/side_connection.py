@@ -8,7 +8,7 @@ from collections.abc import Callable
 from websockets.asyncio.client import ClientConnection, connect
 
 from sambot_viz import limits
-from sambot_viz.sources.websocket.address import Address
+from sambot_viz.sources.live.address import Address
 from sambot_viz.sources.websocket.trouble import explain
 
 

@@ -15,7 +15,7 @@ from websockets.exceptions import (
 )
 
 from sambot_viz import limits
-from sambot_viz.sources.websocket.address import PORTS, Address
+from sambot_viz.sources.live.address import PORTS, Address
 from sambot_viz.text import text
 
 START = {

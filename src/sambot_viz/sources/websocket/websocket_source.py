@@ -9,9 +9,9 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from sambot_viz import limits
-from sambot_viz.sources.websocket.address import Address
-from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.live_source import LiveSource
+from sambot_viz.sources.live.address import Address
+from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.live_source import LiveSource
 from sambot_viz.sources.websocket.paced_connection import PacedConnection
 from sambot_viz.sources.websocket.runner import ConversationRunner
 from sambot_viz.sources.websocket.trouble import explain

@@ -13,6 +13,9 @@ from sambot_viz.errors import SourceError
 from sambot_viz.messages import standard_hash
 from sambot_viz.sources.action_names import send_service, status_topic
 from sambot_viz.sources.hidden_action import HiddenAction
+from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
+from sambot_viz.sources.live.service_calls import LONGEST_ANSWER, ServiceCalls
 from sambot_viz.sources.message import (
     SourceTopic,
     is_latched_name,
@@ -25,9 +28,6 @@ from sambot_viz.sources.source import (
     Source,
 )
 from sambot_viz.sources.type_descriptions import TypeDescriptions
-from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
-from sambot_viz.sources.websocket.service_calls import LONGEST_ANSWER, ServiceCalls
 from sambot_viz.sources.zenoh import names
 from sambot_viz.sources.zenoh.session import (
     ZenohDeclaration,

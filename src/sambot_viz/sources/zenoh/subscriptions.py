@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from sambot_viz import limits
+from sambot_viz.sources.live.conversation import Conversation
 from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
 from sambot_viz.sources.ros_graph import Kind, RosEndpoint, RosGraph
 from sambot_viz.sources.type_descriptions import TypeDescriptions, service_of
-from sambot_viz.sources.websocket.conversation import Conversation
 from sambot_viz.sources.zenoh import names
 from sambot_viz.sources.zenoh.session import ZenohDeclaration, ZenohSession
 

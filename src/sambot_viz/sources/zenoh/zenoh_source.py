@@ -6,9 +6,8 @@ import asyncio
 from functools import partial
 
 from sambot_viz.errors import SourceError
-from sambot_viz.sources.websocket.event_loop import SourceLoop
-from sambot_viz.sources.websocket.live_source import LiveSource
-from sambot_viz.sources.websocket.runner import TICK
+from sambot_viz.sources.live.event_loop import SourceLoop
+from sambot_viz.sources.live.live_source import TICK, LiveSource
 from sambot_viz.sources.websocket.trouble import explain
 from sambot_viz.sources.zenoh.conversation import ZenohConversation
 from sambot_viz.sources.zenoh.session import LONGEST_OPENING, ZenohSession, open_session

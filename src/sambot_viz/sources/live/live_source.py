@@ -20,6 +20,14 @@ from typing import Any
 
 from sambot_viz.errors import Problem, SourceError
 from sambot_viz.outlet import logger
+from sambot_viz.sources.live.address import Address
+from sambot_viz.sources.live.assets import AssetStore
+from sambot_viz.sources.live.clock import SourceClock
+from sambot_viz.sources.live.clock_topic import CLOCK, is_clock, told_time
+from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.delivery import Delivery
+from sambot_viz.sources.live.event_loop import SourceLoop
+from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
     Capability,
@@ -30,17 +38,11 @@ from sambot_viz.sources.source import (
     Source,
     SourceStatus,
 )
-from sambot_viz.sources.websocket.address import Address
-from sambot_viz.sources.websocket.assets import AssetStore
-from sambot_viz.sources.websocket.clock import SourceClock
-from sambot_viz.sources.websocket.clock_topic import CLOCK, is_clock, told_time
-from sambot_viz.sources.websocket.conversation import Conversation, Ends
-from sambot_viz.sources.websocket.delivery import Delivery
-from sambot_viz.sources.websocket.event_loop import SourceLoop
-from sambot_viz.sources.websocket.outgoing_topic import OutgoingTopic
 
 FIRST_PAUSE, LONGEST_PAUSE, GROWTH = 0.5, 15.0, 1.7
 """Before the second attempt and at most [s], and how much each pause is longer."""
+TICK = 0.5
+"""Between two looks at what is due [s]."""
 STEADY = 10.0
 """A connection that lasted so long [s] was a good one: pauses begin again."""
 LONGEST_STOP = 5.0

@@ -10,14 +10,14 @@ from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from sambot_viz.sources.live.address import Address
+from sambot_viz.sources.live.assets import AssetStore
+from sambot_viz.sources.live.clock import SourceClock
+from sambot_viz.sources.live.followed_goal import FollowedGoals
+from sambot_viz.sources.live.outgoing_topic import TopicSender
+from sambot_viz.sources.live.service_calls import ServiceCalls
 from sambot_viz.sources.message import Recorded, SourceTopic, too_large
 from sambot_viz.sources.source import Capability, OutgoingAction, Source
-from sambot_viz.sources.websocket.address import Address
-from sambot_viz.sources.websocket.assets import AssetStore
-from sambot_viz.sources.websocket.clock import SourceClock
-from sambot_viz.sources.websocket.followed_goal import FollowedGoals
-from sambot_viz.sources.websocket.outgoing_topic import TopicSender
-from sambot_viz.sources.websocket.service_calls import ServiceCalls
 from sambot_viz.text import text
 
 _LATE = 1.0

@@ -1,0 +1,1 @@
+"""What live sources share, whatever their transport."""
