@@ -21,6 +21,7 @@ import pytest
 SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 """Finds the scripts that one of the page imports."""
 FOUNDATIONS = {
+    "advice",
     "edits",
     "errors",
     "files",
@@ -177,6 +178,7 @@ ROOMS: Mapping[str, Row] = {
     "__init__": Row("_version checks frames inputs robot rviz visualizer"),
     "__main__": Row("cli"),
     "_version": Row(),
+    "advice": Row(),
     "bundled": Row("robot"),
     "cli": Row("problems"),
     "edits": Row(),

@@ -300,6 +300,13 @@ class SourceFile:
             return None
         return Tag(Extent(*name.span(1)), names, values, at, end.end(), bool(end[1]))
 
+    def end_of(self, tag: Tag) -> int | None:
+        """Return the offset behind an element; None when it is not closed."""
+        if tag.is_empty:
+            return tag.end
+        name = self.closing_name(tag)
+        return None if name is None else self.text.index(">", name.end) + 1
+
     def closing_name(self, tag: Tag) -> Extent | None:
         """Return where the name is in the end tag that belongs to a start tag."""
         name = re.escape(self.text[tag.name.start : tag.name.end])

@@ -13,6 +13,7 @@ from sambot_viz.problems import group_problems
 
 REVEALED = {
     "xacro-prefix-missing": {"root-not-unique"},
+    "xacro-prefix-undeclared": {"xacro-left-over"},
     "python-syntax": {"launch-code"},
 }
 """What is seen only when the macro is called, or the file can be read."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from sambot_viz.advice import with_edits
 from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
 from sambot_viz.checks.exchanged_lengths import exchanged_lengths
@@ -154,5 +155,6 @@ def in_order(problems: Sequence[Problem]) -> list[Problem]:
         repeated = (problem.code, problem.place, problem.hint)
         once.setdefault(problem if problem.column is None else repeated, problem)
     return sorted(
-        once.values(), key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0)
+        with_edits(once.values()),
+        key=lambda p: (_ORDER[p.severity], p.file or "", p.line or 0),
     )

@@ -159,7 +159,7 @@ class _ElementChecker:
                 "sdf-attribute-unknown",
                 f"SDF knows no attribute {name} of <{element.tag}> ({near}); ROS "
                 "ignores it",
-                "delete it",
+                f"delete {name}",
                 element,
                 name,
             )

@@ -159,7 +159,7 @@ def _refuse_frame(
         "sdf-joint-to-frame",
         f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
         f"but {REFUSED}",
-        # No edit: it may be meant as a link, or be at another place than its link.
+        # It may be meant as a link, or be at another place than its link.
         _as_link(joint, named)
         if named is not None and better in _ends_of(joint)
         else f"write <{tag}>{better or '…'}</{tag}>",

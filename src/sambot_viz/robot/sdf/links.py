@@ -134,7 +134,8 @@ class SdfLinkReader:
             "material-without-colour",
             "ROS shows this <material> black: it has neither <ambient> nor <diffuse>"
             + (f", and ROS knows no <{what}>" if what else ""),
-            "write <ambient>0.5 0.5 0.5 1</ambient><diffuse>0.5 0.5 0.5 1</diffuse>",
+            "write <ambient>0.5 0.5 0.5 1</ambient><diffuse>0.5 0.5 0.5 1</diffuse> "
+            "into it",
             material,
         )
 

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.packages.package_index import places_of
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
@@ -220,7 +220,7 @@ class FailedExpansion:
         """Attributes for the names of a comma list: side="…" y="…"."""
         return " ".join(f'{name}="…"' for name in self.listed)
 
-    def error(self, code: str, message: str, hint: str) -> Problem:
+    def error(self, code: str, message: str, hint: str | Fix) -> Problem:
         """Make a problem of severity "error" at the place."""
         return Problem.at(self.at, "error", code, message, hint)
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from sambot_viz.edits import rename_attribute
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
@@ -73,11 +74,12 @@ def _misspelt_attribute(here: FailedExpansion, token: Token) -> Problem | None:
     if found is None or not _concerns(here, token):
         return None
     wrong, right, value = found
+    fix = rename_attribute(here.at, wrong, right, value, f'write {right}="{value}"')
     return here.error(
         "xacro-attribute-misspelt",
         f"the attribute {wrong} of {token.shown} is not known to xacro; did you mean "
         f"{right}?{_seen(here)}",
-        f'write {right}="{value}"',
+        fix,
     )
 
 
