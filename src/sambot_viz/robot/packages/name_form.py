@@ -54,6 +54,12 @@ _ROWS = (
         "the name has quotation marks inside the quotation marks",
         "delete the inner ones",
     ),
+    _Row(
+        re.compile(r"^(?:file://)?(?:\(|\$)?find\s+([\w.-]+)\)?(?=/)"),
+        r"package://\1",
+        "find is a word of xacro, which it reads only in $( and )",
+        "write $(find PACKAGE)/…, or package://PACKAGE/…",
+    ),
     _Row(re.compile(r"\\"), "/", "it has \\ in place of /", "write / for each \\"),
     _Row(
         re.compile(r"^(package|model)(:/?(?!/)|//+)"),

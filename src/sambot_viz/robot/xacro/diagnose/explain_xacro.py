@@ -61,7 +61,7 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
             groups = match.groups()
             x = failed.pointing_at(_place(failed, groups, where), groups)
             message, hint = message.format(*groups, x=x), hint.format(*groups, x=x)
-            return [x.error(code, message, hint)]
+            return [x.error(code, message, x.repair(hint))]
     raise AssertionError("the last row fits everything")
 
 

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from sambot_viz.edits import Extent, source_of
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.packages.package_index import places_of
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
@@ -15,6 +16,22 @@ from sambot_viz.robot.xacro.diagnose.source_files import (
     SourceSet,
     read_source,
 )
+
+_IN_EXPRESSION = r"\$(?:\{[^}\"]*(?:\}|(?=\"))|\([^)\"]*(?:\)|(?=\")))"
+_REPAIRS = {
+    "write ** for ^": (r"\^", "**"),
+    "add }; an expression cannot contain } before its end": (
+        r"\$\{\s*[\w.]+(?:\s*[-+*/]+\s*[\w.]+)*",
+        r"\g<0>}",
+    ),
+    "add ) at the end": (r"(?=\}$)", ")"),
+    "delete the ) that is too many": (r"\)(?=[^)]*\}$)", ""),
+    "write * between the number and the name": (
+        r"(?<![\w.])(\d+\.?\d*)(?=[A-Za-z_])",
+        r"\1*",
+    ),
+}
+"""Hint → what is wrong in the expression, and what is written for it."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +95,35 @@ class FailedExpansion:
             return self.at
         pattern = r"\$[({]\s*(?:eval\s+)?" + re.escape(self.expression) + r"\s*[)}]"
         return self.sources.find(pattern, self.at) or self.at
+
+    def rewrite(self, wrong: str, right: str, hint: str) -> Fix:
+        """Return the fix that writes something else in the failed expression.
+
+        Args:
+            wrong: a pattern for what is wrong, wherever it is in the expression.
+            right: what to write.
+            hint: what the fix says.
+        """
+        place, source = self.expression_place(), source_of(self.expression_place().file)
+        start = 0 if source is None else source.offset(place)
+        found = source and re.compile(_IN_EXPRESSION).match(source.text, start)
+        if source is None or not found:
+            return Fix(hint)
+        matches = re.finditer(wrong, source.text[start : found.end()])
+        return Fix(
+            hint,
+            tuple(
+                source.edit(
+                    place, Extent(start + m.start(), start + m.end()), m.expand(right)
+                )
+                for m in matches
+            ),
+        )
+
+    def repair(self, hint: str) -> str | Fix:
+        """Return a hint with what it changes in the failed expression."""
+        known = _REPAIRS.get(hint)
+        return hint if known is None else self.rewrite(*known, hint)
 
     @property
     def trail(self) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.urdf.attributes import BadNumber, read_number, read_numbers
-from sambot_viz.robot.xacro.diagnose.failed_expansion import line_in
+from sambot_viz.robot.xacro.diagnose.failed_expansion import line_in, parameters
 from sambot_viz.robot.xacro.diagnose.source_files import SourceSet, token_place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 
@@ -20,6 +20,9 @@ _NUMBERS = ("number-malformed", "sdf-value", "sdf-number-cut-off")
 """The codes of problems with a text in place of a number."""
 
 _FILLED_UP = re.compile(r'write rpy="(\S+) 0 0"')
+_SAID = re.compile(r'(?:\w+="(?P<value>[^"]*)"|<(\w+)>(?P<text>[^<]*)</\w+>)')
+_AROUND = re.compile(r"(?<=[\">])[^\"<>]+(?=\"|</)")
+_BARE = re.compile(r"(?<![\w.$}{])[A-Za-z_]\w*(?![\w.}])")
 _USE = re.compile(r"\$(?:\{([^}]*)\}|\(\s*arg\s+([^)]*)\))")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _DEFAULT = re.compile(r"(\w+):?=(\S+)")
@@ -89,7 +92,7 @@ def name_given_values(
             if there is None or there.severity != "error":
                 found[cause] = _report(problem, cause, bad)
         if not causes:
-            kept.append(_as_written(problem, sources))
+            kept.append(_bare_name(problem, sources) or _as_written(problem, sources))
     return [*found.values(), *kept]
 
 
@@ -105,6 +108,41 @@ def _report(problem: Problem, cause: _Given, bad: BadNumber) -> Problem:
         line=cause.place.line,
         column=cause.place.column,
     )
+
+
+def _bare_name(problem: Problem, sources: SourceSet) -> Problem | None:
+    """Report the name of a property or parameter that is written without ${ and }."""
+    said = _SAID.match(problem.message)
+    value = "" if said is None else said["value"] or said["text"] or ""
+    if problem.code not in _NUMBERS or said is None or not value:
+        return None
+    known = {p.name for p in sources.named("property") if p.prefixed}
+    known.update(_parameters_at(problem, sources))
+    bare = [name for name in _BARE.findall(value) if name in known]
+    if not bare or value not in _written(problem, sources):
+        return None
+    better = _BARE.sub(
+        lambda one: f"${{{one[0]}}}" if one[0] in known else one[0], value
+    )
+    _, loss, rest = problem.message.partition("; ROS")
+    return replace(
+        problem,
+        message=f"{said[0]} has the name {bare[0]} as text: xacro replaces it only in "
+        f"${{ and }}{loss}{rest}",
+        hint=f"write {better.join(_AROUND.split(said[0]))}",
+        edits=(),
+    )
+
+
+def _parameters_at(problem: Problem, sources: SourceSet) -> list[str]:
+    """Return the parameters of the macro in which a problem is."""
+    source, found = sources.get(problem.file or ""), list[str]()
+    for token in source.tags if source is not None else ():
+        if source is None or source.line(token.start) > (problem.line or 0):
+            break
+        if token.name == "xacro:macro":
+            found = [] if token.closes else parameters(token.get("params") or "")
+    return found
 
 
 def _as_written(problem: Problem, sources: SourceSet) -> Problem:

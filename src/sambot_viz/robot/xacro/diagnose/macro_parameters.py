@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from sambot_viz.edits import rename_attribute
 from sambot_viz.errors import Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
@@ -28,8 +29,8 @@ def unknown_parameter(failed: FailedExpansion, name: str) -> Problem:
         if twice is not None:
             return twice
     macro = macros[-1] if macros else None
-    if call is not None and macro is not None and not macro.params:
-        lacking = _without_params(here, macro, call)
+    if call is not None and macro is not None:
+        lacking = _not_declared(here, macro, call)
         if lacking is not None:
             return lacking
     message = f"the macro {here.called} has no parameter {name}{here.declared}"
@@ -86,11 +87,12 @@ def _called_without_macro(here: FailedExpansion) -> list[str]:
     return sorted(called - known)
 
 
-def _without_params(
+def _not_declared(
     here: FailedExpansion, macro: NamedElement, call: Token
 ) -> Problem | None:
-    """Report a macro whose body uses what its calls give, but that lacks params."""
-    given = [attribute.name for attribute in call.attributes]
+    """Report a macro whose body uses what its calls give, and its params lack."""
+    known = parameters(macro.params)
+    given = [each.name for each in call.attributes if each.name not in known]
     source = here.sources.get(macro.place.file)
     tag = here.sources.tag_at(macro.place, "xacro:macro")
     if source is None or tag is None:
@@ -99,11 +101,17 @@ def _without_params(
     uses = re.findall(r"\$\{([^}]*)\}", source.text[tag.end : max(end, tag.end)])
     if not set(given) <= set(re.findall(r"[A-Za-z_]\w*", " ".join(uses))):
         return None
+    lacks = (
+        f"does not declare {_listed(given)}, which its body uses"
+        if known
+        else ("has no params")
+    )
+    verb, params = ("write" if known else "add"), [*macro.params.split(), *given]
     return here.pointing_at(macro.place).error(
         _CODE,
-        f"the macro {macro.name} has no params, but the call on "
+        f"the macro {macro.name} {lacks}, but the call on "
         f"{line_in(here.at, macro.place)} gives {_listed(given)}",
-        f'add params="{" ".join(given)}"',
+        f'{verb} params="{" ".join(params)}"',
     )
 
 
@@ -126,7 +134,9 @@ def _other_parameter(
     if right is not None:
         lost = f", and its {right} is not given" if right in needed else ""
         value = call.get(name) or ""
-        return here.error(_CODE, message + lost, f'write {right}="{value}"')
+        hint = f'write {right}="{value}"'
+        fix = rename_attribute(here.at, name, right, value, hint)
+        return here.error(_CODE, message + lost, fix)
     if needed and len(needed) == len(others):
         lost = f"{message}, and the call lacks {_listed(needed)}"
         return here.error(_CODE, lost, f"write the right one of these for {name}")

@@ -55,6 +55,21 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         CALL,
     ),
     (
+        r"No such file or directory: '?(?:[^'\[\n]*/)?(\$?\(?find ([\w.-]+)\)?)/"
+        r"([^'\[\n]+)",
+        "xacro-substitution",
+        "{0}/{2} is read as the name of a file: xacro finds packages by $(find …) only",
+        'write filename="$(find {1})/{2}"',
+        ELEMENT,
+    ),
+    (
+        r"Xacro conditional \"(\$?\(?(arg|env|optenv|eval) ([^\")]+)\)?)\"",
+        "xacro-condition",
+        "the condition “{0}” is a text: xacro replaces it only in $( and )",
+        'write value="$({1} {2})"',
+        ELEMENT,
+    ),
+    (
         r"No such file or directory: '?[^'\[\n]*?package://([^/'\[\n]+)/(?:[^'\[\n]*/)?"
         r"([^/'\[\n]+)",
         "xacro-include-missing",
@@ -179,10 +194,38 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         EXPRESSION,
     ),
     (
+        r"^SyntaxError.*: '\(' was never closed",
+        "xacro-expression-syntax",
+        "a ( is never closed in ${{{x.expression}}}{x.trail}",
+        "add ) at the end",
+        EXPRESSION,
+    ),
+    (
+        r"^SyntaxError.*: unmatched '\)'",
+        "xacro-expression-syntax",
+        "a ) closes nothing in ${{{x.expression}}}{x.trail}",
+        "delete the ) that is too many",
+        EXPRESSION,
+    ),
+    (
+        r"^SyntaxError.*: invalid (?:decimal|imaginary) literal",
+        "xacro-expression-syntax",
+        "a number is directly before a name in ${{{x.expression}}}{x.trail}",
+        "write * between the number and the name",
+        EXPRESSION,
+    ),
+    (
         r"^SyntaxError",
         "xacro-expression-syntax",
         "the expression ${{{x.expression}}} cannot be read ({x.text}){x.trail}",
         "write one Python expression inside ${{…}}, such as ${{2*radius}}",
+        EXPRESSION,
+    ),
+    (
+        r"^TypeError.*: unsupported operand type\(s\) for \^",
+        "xacro-expression-syntax",
+        "^ is not a power in ${{{x.expression}}}{x.trail}",
+        "write ** for ^",
         EXPRESSION,
     ),
     (

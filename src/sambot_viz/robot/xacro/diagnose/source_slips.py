@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.edits import rename_attribute
+from sambot_viz.edits import rename_attribute, rename_element
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
@@ -146,8 +146,13 @@ def _without_prefix(
     return here.error(
         "xacro-prefix-forgotten",
         f"{token.shown} lacks the prefix xacro:, so xacro does not see it{_seen(here)}",
-        f"write <xacro:{token.name} …>"
-        + (f" and </xacro:{token.name}>" if token.kind == "open" else ""),
+        rename_element(
+            here.at,
+            token.name,
+            f"xacro:{token.name}",
+            f"write <xacro:{token.name} …>"
+            + (f" and </xacro:{token.name}>" if token.kind == "open" else ""),
+        ),
     )
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import Place, Problem, did_you_mean, nearest
+from sambot_viz.edits import Extent, rename_element, source_of, write
+from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
@@ -19,16 +20,15 @@ _BUILT_IN = (
     "int isinf isnan len list log log10 map max min nan pi pow radians range round sin "
     "sinh sqrt str tan tanh tau True False None".split()
 )
+_NO_NUMPY = "xacro has no numpy; write sin, cos, sqrt and pi without a prefix"
 _ELSEWHERE = {
-    "abs": "write python.abs(…): xacro keeps it under python",
-    "np": "xacro has no numpy; write sin, cos, sqrt and pi without a prefix",
-    "numpy": "xacro has no numpy; write sin, cos, sqrt and pi without a prefix",
-    "PI": "write pi",
-    "Pi": "write pi",
-    "M_PI": "write pi",
-    "true": "write True",
-    "false": "write False",
+    "abs": ("python.abs", "write python.abs(…): xacro keeps it under python"),
+    **dict.fromkeys(("np.", "numpy."), ("", _NO_NUMPY)),
+    **dict.fromkeys(("PI", "Pi", "M_PI"), ("pi", "write pi")),
+    "true": ("True", "write True"),
+    "false": ("False", "write False"),
 }
+"""Names of other languages → what xacro has for them, and how that is said."""
 
 
 def undefined_name(failed: FailedExpansion, name: str) -> Problem:
@@ -43,6 +43,9 @@ def undefined_name(failed: FailedExpansion, name: str) -> Problem:
     if unprefixed and not any(p.prefixed for p in known):
         return _prefix_forgotten(here, unprefixed)
     outside = [p for p in known if p.prefixed and not p.inside]
+    without_value = next((p for p in outside if _is_block(here, p)), None)
+    if without_value:
+        return _value_as_text(here, without_value)
     if outside:
         return _defined_after_use(here, outside[0])
     code = "xacro-undefined-name"
@@ -58,24 +61,93 @@ def undefined_name(failed: FailedExpansion, name: str) -> Problem:
     return here.error(code, message, _near_name(here, name))
 
 
-def _near_name(failed: FailedExpansion, name: str) -> str:
-    if name in _ELSEWHERE:
-        return _ELSEWHERE[name]
+def _is_block(failed: FailedExpansion, thing: NamedElement) -> bool:
+    """Tell whether a property has its value as content, and not as value=."""
+    tag = failed.sources.tag_at(thing.place, "xacro:property")
+    return tag is not None and tag.kind == "open" and tag.get("value") is None
+
+
+def _value_as_text(failed: FailedExpansion, thing: NamedElement) -> Problem:
+    """Report <xacro:property name="x">1</xacro:property>, and blocks in ${…}."""
+    source, used = source_of(thing.place.file), line_in(failed.at, thing.place)
+    tag = None if source is None else source.tag(source.offset(thing.place))
+    text = (
+        ""
+        if source is None or tag is None
+        else source.text[slice(*source.text_behind(tag))]
+    )
+    end = None if source is None or tag is None else source.end_of(tag)
+    here, name = failed.pointing_at(thing.place), thing.name
+    message = f"the property {name} has its value as content, so that {used} cannot "
+    message += f'calculate with it: only <xacro:insert_block name="{name}"/> sees it'
+    inner = "" if source is None or tag is None else source.text[tag.end : end]
+    if source is None or tag is None or end is None or inner.count("<") != 1:
+        hint = f'write <xacro:insert_block name="{name}"/> there'
+        return here.error("xacro-attribute-missing", message, hint)
+    whole = Extent(tag.name.start - 1, end)
+    right = f'<xacro:property name="{name}" value="{text}"/>'
+    fix = Fix(f"write {right}", (source.edit(thing.place, whole, right),))
+    return here.error("xacro-attribute-missing", message, fix)
+
+
+def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
+    """Advise what to write for a name that is not defined."""
+
+    def instead(right: str, hint: str, wrong: str = name) -> Fix:
+        return failed.rewrite(rf"(?<![\w.]){re.escape(wrong)}(?!\w)", right, hint)
+
+    for wrong in (name, f"{name}."):
+        if wrong in _ELSEWHERE:
+            right, hint = _ELSEWHERE[wrong]
+            pattern = rf"(?<![\w.]){re.escape(wrong)}" + (r"(?!\w)" if right else "")
+            return failed.rewrite(pattern, right, hint)
     if any(a.name == name for a in failed.named("arg")):
-        return f"{name} is an argument: write $(arg {name}) instead of ${{{name}}}"
+        return failed.rewrite(
+            rf"\$\{{\s*{re.escape(name)}\s*\}}",
+            f"$(arg {name})",
+            f"{name} is an argument: write $(arg {name}) instead of ${{{name}}}",
+        )
+    beside = _beside(failed, name)
+    if beside:
+        return instead(f"({beside})", f"write what {name} is: {beside}")
     things = {p.name: p.place for p in failed.named("property") if p.prefixed}
+    own: list[str] = []
     for macro in failed.named("macro"):
         if any(macro.name == running for running, _ in failed.failure.macros):
+            own += parameters(macro.params)
             things.update({p: macro.place for p in parameters(macro.params)})
-    near = nearest(name, [*things, *_BUILT_IN])
+    alike = [each for each in things if each.lower() == name.lower()]
+    alike += [
+        each
+        for each in own
+        if 1 in (len(each), len(name)) and each[0].lower() == name[0].lower()
+    ]
+    near = next(iter(alike), None) or nearest(name, [*things, *_BUILT_IN])
     if near in things:
         where = line_in(things[near], failed.at)
-        return f"did you mean {near} (defined on {where})?"
+        return instead(near, f"did you mean {near} (defined on {where})?")
     if near:
-        return f"did you mean {near}?"
+        return instead(near, f"did you mean {near}?")
     return f'add <xacro:property name="{name}" value="…"/> before it' + (
         f"; {did_you_mean(name, things)}" if things else ""
     )
+
+
+def _beside(failed: FailedExpansion, name: str) -> str:
+    """Return the expression of the attribute or element beside that has this name."""
+    source = failed.sources.get(failed.at.file)
+    if source is None or not re.fullmatch("i[xyz][xyz]", name):
+        return ""
+    at = source.offset(failed.at.line, failed.at.column or 1)
+    start = max(
+        source.text.rfind("<inertia", 0, at), source.text.rfind("<inertia>", 0, at)
+    )
+    end = source.text.find("</inertial", at)
+    written = source.text[max(start, 0) : end if end >= 0 else at]
+    found = re.search(
+        rf"""<{name}>\s*\$\{{([^}}]*)\}}|\b{name}\s*=\s*["']\$\{{([^}}]*)\}}""", written
+    )
+    return (found[1] or found[2]).strip() if found else ""
 
 
 def _prefix_forgotten(failed: FailedExpansion, thing: NamedElement) -> Problem:
@@ -85,7 +157,12 @@ def _prefix_forgotten(failed: FailedExpansion, thing: NamedElement) -> Problem:
         f"{thing.name} is not defined (used on {line_in(failed.at, thing.place)}): "
         f"{tag} on line {thing.place.line} lacks the prefix xacro:, so xacro does "
         "not see it",
-        f'write <xacro:{thing.kind} name="{thing.name}" …>',
+        rename_element(
+            thing.place,
+            thing.kind,
+            f"xacro:{thing.kind}",
+            f'write <xacro:{thing.kind} name="{thing.name}" …>',
+        ),
     )
 
 
@@ -143,14 +220,15 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
     return here.error("xacro-unknown-macro", message, _near_macro(name, macros, at))
 
 
-def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str:
-    own = meant(name, OWN_TAGS)
+def _near_macro(name: str, macros: list[NamedElement], at: Place) -> str | Fix:
+    tag, own = f"xacro:{name}", meant(name, OWN_TAGS)
     places = {m.name: m.place for m in macros if m.prefixed}
     near = nearest(name, places)
     if near:
-        return f"did you mean {near} ({line_in(places[near], at)})?"
+        hint = f"did you mean {near} ({line_in(places[near], at)})?"
+        return rename_element(at, tag, f"xacro:{near}", hint)
     if own:
-        return f"write <xacro:{own} …>"
+        return rename_element(at, tag, f"xacro:{own}", f"write <xacro:{own} …>")
     if not places:
         return (
             f"no macro is defined in the files that were read: include the file with "
@@ -174,9 +252,10 @@ def undefined_argument(failed: FailedExpansion, name: str) -> Problem:
         return _defined_after_use(here, same)
     near = nearest(name, sorted({a.name for a in known}))
     meant_one = f"did you mean $(arg {near})? If not, " if near else ""
+    hint = f"{meant_one}give it on the command line: {name}:=…, or a default in the "
+    hint += f'file: <xacro:arg name="{name}" default="…"/>'
     return here.error(
         "xacro-argument-missing",
         f"the argument {name} has no value{here.trail}",
-        f"{meant_one}give it on the command line: {name}:=…, or a default in the file: "
-        f'<xacro:arg name="{name}" default="…"/>',
+        write(here.at, name, near, hint=hint) if near else hint,
     )

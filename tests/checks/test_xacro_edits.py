@@ -1,0 +1,108 @@
+"""What stops xacro carries the edit that repairs it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
+
+HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+PROPERTY = '<xacro:property name="radius" value="0.2"/>\n'
+BALL = (
+    '<link name="a"><visual><geometry><sphere radius="{}"/></geometry></visual></link>'
+)
+MACRO = '<xacro:macro name="part" params="{}">\n{}\n</xacro:macro>\n'
+NAMED = BALL.replace('"a"', '"${{name}}"')
+INERTIA = (
+    '<link name="a"><inertial><mass value="1"/><inertia ixx="${{0.4*0.5}}" ixy="0" '
+    'ixz="0" iyy="{}" iyz="0" izz="0.2"/></inertial></link>'
+)
+
+
+def macro(params: str, radius: str, call: str) -> str:
+    """A macro for a link, and its call."""
+    return MACRO.format(params, NAMED.format(radius)) + f"<xacro:part {call}/>"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        (
+            macro("name", "${r}", 'name="a" r="1"'),
+            macro("name r", "${r}", 'name="a" r="1"'),
+        ),
+        (
+            macro("name r", "${R*R}", 'name="a" r="1"'),
+            macro("name r", "${r*r}", 'name="a" r="1"'),
+        ),
+        (
+            macro("name r", "${radius}", 'name="a" r="1"'),
+            macro("name r", "${r}", 'name="a" r="1"'),
+        ),
+        (
+            macro("name r", "${r}", 'nam="a" r="1"'),
+            macro("name r", "${r}", 'name="a" r="1"'),
+        ),
+        (
+            macro("name r", "r", 'name="a" r="1"'),
+            macro("name r", "${r}", 'name="a" r="1"'),
+        ),
+        (
+            '<xacro:property name="radius">0.2</xacro:property>\n'
+            + BALL.format("${radius}"),
+            PROPERTY + BALL.format("${radius}"),
+        ),
+        (PROPERTY + BALL.format("radius"), PROPERTY + BALL.format("${radius}")),
+        (PROPERTY + BALL.format("${raduis}"), PROPERTY + BALL.format("${radius}")),
+        (PROPERTY + BALL.format("${radius^2}"), PROPERTY + BALL.format("${radius**2}")),
+        (PROPERTY + BALL.format("${2*radius"), PROPERTY + BALL.format("${2*radius}")),
+        (
+            PROPERTY + BALL.format("${2*(radius}"),
+            PROPERTY + BALL.format("${2*(radius)}"),
+        ),
+        (PROPERTY + BALL.format("${2*radius)}"), PROPERTY + BALL.format("${2*radius}")),
+        (PROPERTY + BALL.format("${2radius}"), PROPERTY + BALL.format("${2*radius}")),
+        (BALL.format("${PI/2}"), BALL.format("${pi/2}")),
+        (INERTIA.format("${ixx}"), INERTIA.format("${(0.4*0.5)}")),
+        (
+            '<xacro:arg name="r" default="1"/>\n' + BALL.format("${r}"),
+            '<xacro:arg name="r" default="1"/>\n' + BALL.format("$(arg r)"),
+        ),
+        (
+            '<xacro:arg name="r" default="1"/>\n<xacro:if value="(arg r)">\n'
+            + BALL.format("1")
+            + "</xacro:if>",
+            '<xacro:arg name="r" default="1"/>\n<xacro:if value="$(arg r)">\n'
+            + BALL.format("1")
+            + "</xacro:if>",
+        ),
+        (
+            MACRO.format("name", NAMED.format("1")) + '<xacro:prat name="a"/>',
+            MACRO.format("name", NAMED.format("1")) + '<xacro:part name="a"/>',
+        ),
+    ],
+)
+def test_the_edit_of_what_stops_xacro_makes_the_file_right(
+    wrong: str, right: str, tmp_path: Path
+) -> None:
+    model = tmp_path / "r.urdf.xacro"
+    text = f"{HEAD}{wrong}\n</robot>\n"
+    model.write_text(text, "utf-8")
+    (problem,) = check(model)
+    assert apply_edits(problem.edits, text) == f"{HEAD}{right}\n</robot>\n"
+    model.write_text(f"{HEAD}{right}\n</robot>\n", "utf-8")
+    assert check(model) == []
+
+
+def test_a_package_that_is_named_without_a_dollar_is_found_in_its_line(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "r.urdf.xacro"
+    text = f'{HEAD}<xacro:include filename="find arm)/urdf/arm.xacro"/>\n</robot>\n'
+    model.write_text(text, "utf-8")
+    (problem,) = check(model)
+    assert (problem.code, problem.line) == ("xacro-substitution", 2)
+    assert 'filename="$(find arm)/urdf/arm.xacro"' in apply_edits(problem.edits, text)
