@@ -12,6 +12,7 @@ from sambot_viz.checks import check
 from sambot_viz.problems import group_problems
 
 REVEALED = {
+    "sdf-name-taken": {"root-not-unique"},
     "xacro-prefix-missing": {"root-not-unique"},
     "xacro-prefix-undeclared": {"xacro-left-over"},
     "python-syntax": {"launch-code"},
