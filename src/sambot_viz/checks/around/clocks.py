@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag
+from sambot_viz.checks.around.gazebo_starts import starts
+from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Place, Problem
@@ -26,7 +27,7 @@ _WITHOUT_CLOCK = frozenset({"ros_gz_sim", "nav2_bringup", "slam_toolbox"})
 def different_clocks(around: Surroundings) -> Iterator[Problem]:
     """Report nodes without simulated time in a launch file that starts Gazebo."""
     for launch in around.launches:
-        simulators = [start for start in launch.starts if start.simulates]
+        simulators = [start for start in starts(launch) if start.simulates]
         for node in launch.nodes if simulators else ():
             start, fact = simulators[0], node.sim_time
             if fact is None or flag(fact.value) is not False:
@@ -83,7 +84,7 @@ def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:
 def _first_user(around: Surroundings) -> Place | None:
     """Where the first node is told to use simulated time by a file with a bridge."""
     for launch in around.launches:
-        if any(start.generation == "gz" for start in launch.starts):
+        if any(start.generation == "gz" for start in starts(launch)):
             for node in launch.nodes:
                 if node.sim_time is not None and flag(node.sim_time.value):
                     return node.sim_time.place

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import Generation, Plugin
+from sambot_viz.checks.around.gazebo_starts import may_start, starts
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.systems import attributes
@@ -35,14 +36,14 @@ _BUILD_TYPE = re.compile(r"<build_type>\s*(ament_\w+)")
 
 def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
     """Report plugins for the Gazebo that no launch file starts, in one finding."""
-    starts = [start for launch in around.launches for start in launch.starts]
-    started = {kind for launch in around.launches for kind in launch.may_start}
+    first = [start for launch in around.launches for start in starts(launch)]
+    started = {kind for launch in around.launches for kind in may_start(launch)}
     made_for = {plugin.generation: plugin for plugin in reversed(around.plugins)}
     kinds = made_for.keys() - {None}
-    if len(started) != 1 or not starts or not kinds or kinds & started:
+    if len(started) != 1 or not first or not kinds or kinds & started:
         return
     plugin = made_for[next(iter(kinds))]
-    start = next((start for start in starts if start.simulates), starts[0])
+    start = next((start for start in first if start.simulates), first[0])
     other = plugin.generation or "classic"
     yield Problem.at(
         plugin.element.place,
@@ -92,7 +93,7 @@ def started_twice(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         first: dict[Generation, Place] = {}
         whats: dict[Generation, str] = {}
-        for start in launch.starts:
+        for start in starts(launch):
             first.setdefault(start.generation, start.place)
             whats.setdefault(start.generation, start.what)
         if len(first) == 2:

@@ -11,8 +11,8 @@ from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeW
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.installs import Installed, Piece
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.setup_py import DataFiles, SetupFile
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.setup_file import DataFiles, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
@@ -240,7 +240,7 @@ def _by_setup(setup: SetupFile) -> Iterator[Piece]:
     for entry in setup.data_files:
         target = entry.target or ""
         for _, path in entry.files.items:
-            if isinstance(path, str):
+            if path is not None:
                 name = posixpath.basename(path)
                 yield Piece(path, f"{target}/{name}", target, setup.place(entry.node))
 

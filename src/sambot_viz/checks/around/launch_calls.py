@@ -6,8 +6,9 @@ import ast
 import posixpath
 from collections.abc import Iterator, Mapping
 
-from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.launch_values import SHARE, keyword
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
@@ -45,9 +46,9 @@ def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
     table = vocabulary("launch_calls")
     for launch in around.launches:
         for call in launch.calls:
-            name = call_name(call.func)
-            given = {k.arg for k in call.keywords if k.arg}
-            for argument in call.keywords if name in table else ():
+            name = call.name
+            given = {k.arg for k in call.node.keywords if k.arg}
+            for argument in call.node.keywords if name in table else ():
                 wrong = argument.arg or ""
                 near = meant_word(table[name], wrong, _LIKENESS) if wrong else None
                 if near is None or near in given:
@@ -71,13 +72,12 @@ def _renamed(place: Place, wrong: str, right: str) -> Fix:
 def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
     """Report defaults and launch arguments that are no texts, and a table of them."""
     for launch in around.launches:
-        for call in launch.calls:
-            if call_name(call.func) == "DeclareLaunchArgument":
-                default = keyword(call, "default_value", 1)
-                if default is not None:
-                    yield from _no_text(default, "default_value", launch)
-            elif call_name(call.func) == "IncludeLaunchDescription":
-                yield from _no_pairs(keyword(call, "launch_arguments"), launch)
+        for call in launch.nodes_called("DeclareLaunchArgument"):
+            default = call.given("default_value", 1)
+            if default is not None:
+                yield from _no_text(default, "default_value", launch)
+        for call in launch.nodes_called("IncludeLaunchDescription"):
+            yield from _no_pairs(call.given("launch_arguments"), launch)
 
 
 def _no_text(value: ast.expr, name: str, launch: LaunchFile) -> Iterator[Problem]:
@@ -133,9 +133,9 @@ def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
     depends = [e.text.strip() for e in root.children] if root is not None else []
     for launch in around.launches:
         for call in launch.calls:
-            given = keyword(call, "package")
-            package = launch.values.text(given) or ""
-            program = launch.values.text(keyword(call, "executable")) or ""
+            given = call.given("package")
+            package = launch.text(call, "package") or ""
+            program = launch.text(call, "executable") or ""
             near = nearest(package, programs, _ALIKE)
             known = package in programs or package in around.names
             if near is None or known or package in depends or given is None:
@@ -155,11 +155,9 @@ def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
     """Report a slash before a part of a path, where os.path.join begins again."""
     for launch in around.launches:
-        for call in launch.calls:
-            if call_name(call.func) != "join" or not call.args:
-                continue
-            path = launch.values.text(call) or ""
-            for part in call.args[1:]:
+        for call in launch.nodes_called("join"):
+            path = launch.values.text(call.node) or ""
+            for part in call.node.args[1:]:
                 said = part.value if isinstance(part, ast.Constant) else None
                 if not isinstance(said, str) or said[:1] != "/":
                     continue
@@ -211,12 +209,11 @@ def files_without_folder(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
-def _paths(call: ast.Call, launch: LaunchFile) -> Iterator[ast.expr]:
-    name = call_name(call.func)
-    given = keyword(call, _FILES[name]) if name in _FILES else None
+def _paths(call: Call, launch: LaunchFile) -> Iterator[ast.expr]:
+    given = call.given(_FILES[call.name]) if call.name in _FILES else None
     if given is not None:
         yield given
-    if name == "Node":
-        for item in launch.values.items(keyword(call, "parameters")):
-            if isinstance(item, ast.Constant):
-                yield item
+    if call.name == "Node":
+        for _, node in call.listing("parameters").items:
+            if isinstance(node, ast.Constant):
+                yield node

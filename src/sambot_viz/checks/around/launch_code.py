@@ -6,8 +6,8 @@ import ast
 import builtins
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.setup_py import SetupFile
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write, write_between

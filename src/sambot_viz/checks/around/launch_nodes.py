@@ -5,14 +5,13 @@ from __future__ import annotations
 import ast
 import posixpath
 from collections.abc import Iterator
-from itertools import pairwise
-from typing import NamedTuple
 
-from sambot_viz.checks.around.files.launch import NODES, LaunchFile, LaunchNode
-from sambot_viz.checks.around.files.launch_values import SHARE, keyword
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.launch_code import bound_names
+from sambot_viz.checks.around.launch_file import LaunchFile, LaunchNode
 from sambot_viz.checks.around.launch_paths import OWN_NAMES
+from sambot_viz.checks.around.launching.python_parts import Call, Pair, Table
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
@@ -26,56 +25,29 @@ _CONDITIONS = frozenset({"IfCondition", "UnlessCondition"})
 _LIKENESS = 0.8
 
 
-class _Wrong(NamedTuple):
-    """An argument of a node that launch does not take.
-
-    Attributes:
-        argument: its name.
-        kind: the expression.
-        what: what it is called.
-        follows: what happens.
-    """
-
-    argument: str
-    kind: type[ast.expr]
-    what: str
-    follows: str
-
-
-_WRONG = (
-    _Wrong("parameters", ast.Dict, "a dict", "ros2 launch stops with it"),
-    _Wrong("remappings", ast.Dict, "a dict", "ros2 launch stops with it"),
-    _Wrong(
-        "arguments",
-        ast.Constant,
-        "a text",
-        "the program gets each of its letters as an argument",
-    ),
-)
+_LISTS = {
+    "parameters": (Table, "a dict", "ros2 launch stops with it"),
+    "remappings": (Table, "a dict", "ros2 launch stops with it"),
+    "arguments": (str, "a text", "the program gets each of its letters as an argument"),
+}
+"""Argument of a node → what is no list of it, what that is called, what happens."""
 
 
 def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
     """Report parameters, remappings and arguments that are no lists."""
     for launch, call in _nodes(around):
-        for wrong in _WRONG:
-            given = keyword(call, wrong.argument)
-            value = launch.values.resolved(given)
-            if given is None or not isinstance(value, wrong.kind):
+        for argument, (kind, what, follows) in _LISTS.items():
+            given, value = call.given(argument), call.value(argument)
+            if given is None or not isinstance(value, kind):
                 continue
-            if isinstance(value, ast.Constant) and not isinstance(value.value, str):
-                continue
-            pairs = _pairs(given, wrong.argument)
+            pairs = _pairs(given, argument)
             yield Problem.at(
                 launch.place(given),
                 "error",
                 "launch-no-list",
-                f"{wrong.argument} of a node is a list, but this is {wrong.what}: "
-                f"{wrong.follows}",
+                f"{argument} of a node is a list, but this is {what}: {follows}",
                 rewritten(
-                    given,
-                    launch.shown,
-                    f"[{pairs}]",
-                    f"write {wrong.argument}=[{pairs}]",
+                    given, launch.shown, f"[{pairs}]", f"write {argument}=[{pairs}]"
                 ),
             )
 
@@ -94,35 +66,30 @@ def _pairs(given: ast.expr, argument: str) -> str:
 def descriptions(around: Surroundings) -> Iterator[Problem]:
     """Report a robot_state_publisher that does not get the text of a model."""
     for launch, call in _nodes(around):
-        if launch.values.text(keyword(call, "executable")) != _PUBLISHER:
+        if launch.text(call, "executable") != _PUBLISHER:
             continue
-        items = launch.values.items(keyword(call, "parameters"))
-        tables = [item for item in items if isinstance(item, ast.Dict)]
-        keys = {
-            key.value: (key, value)
-            for table in tables
-            for key, value in zip(table.keys, table.values, strict=True)
-            if isinstance(key, ast.Constant) and isinstance(key.value, str)
-        }
+        given = call.listing("parameters")
+        tables = [item for item, _ in given.items if isinstance(item, Table)]
+        keys = {p.key: p for t in tables for p in t.pairs if isinstance(p.key, str)}
         if _DESCRIPTION in keys:
-            yield from _without_text(keys[_DESCRIPTION][1], launch)
+            yield from _without_text(keys[_DESCRIPTION], launch)
             continue
         near = nearest(_DESCRIPTION, keys, _LIKENESS)
-        known = len(tables) == len(items) and all(
-            isinstance(key, ast.Constant) for table in tables for key in table.keys
-        )
+        known = given.complete and len(tables) == len(given.items)
+        pairs = sum(len(t.pairs) for t in tables)
+        known = known and all(t.complete for t in tables) and len(keys) == pairs
         if near is not None:
             yield Problem.at(
-                launch.place(keys[near][0]),
+                launch.place(keys[near].key_node),
                 "error",
                 "launch-description",
                 f"{_PUBLISHER} reads the parameter {_DESCRIPTION}, but this is "
                 f"{near}: it stops without a model",
-                rewritten(keys[near][0], launch.shown, f"'{_DESCRIPTION}'"),
+                rewritten(keys[near].key_node, launch.shown, f"'{_DESCRIPTION}'"),
             )
         elif known and _gets_nothing_else(launch, call):
             yield Problem.at(
-                launch.place(call),
+                call.place,
                 "error",
                 "launch-description",
                 f"{_PUBLISHER} gets no {_DESCRIPTION}: it stops without a model",
@@ -131,29 +98,24 @@ def descriptions(around: Surroundings) -> Iterator[Problem]:
             )
 
 
-def _gets_nothing_else(launch: LaunchFile, call: ast.Call) -> bool:
+def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:
     """True when all parameters are in the call, and there are no arguments."""
-    given = keyword(call, "parameters")
-    listed = given is None or isinstance(
-        launch.values.resolved(given), (ast.List, ast.Tuple)
-    )
     others = {"SetParameter", "SetParametersFromFile", "GroupAction"}
     return (
-        listed
-        and keyword(call, "arguments") is None
-        and all(k.arg for k in call.keywords)
-        and all(call_name(other.func) not in others for other in launch.calls)
+        call.complete
+        and call.given("arguments") is None
+        and all(other.name not in others for other in launch.calls)
     )
 
 
-def _without_text(value: ast.expr, launch: LaunchFile) -> Iterator[Problem]:
+def _without_text(pair: Pair, launch: LaunchFile) -> Iterator[Problem]:
     """Report a path, a file that is not read, and a document that is no text."""
-    given = launch.values.resolved(value)
-    text, bare = launch.values.text(value), ast.unparse(value)
+    text, bare = launch.values.said(pair.value), ast.unparse(pair.node)
+    given = launch.origin(pair.node)
     what = better = None
     if text is not None and text.endswith(_MODELS) and "<" not in text:
         what = f"the path of {posixpath.basename(text)}"
-        better = _command(value, bound_names(launch.tree))
+        better = _command(pair.node, bound_names(launch.tree))
     elif isinstance(given, ast.Call):
         name = call_name(given.func)
         if name == "open":
@@ -165,7 +127,7 @@ def _without_text(value: ast.expr, launch: LaunchFile) -> Iterator[Problem]:
             what, better = f"the function {given.attr}", f"{bare}()"
     if what is not None and better is not None:
         yield Problem.at(
-            launch.place(value),
+            launch.place(pair.node),
             "error",
             "launch-description",
             f"{_DESCRIPTION} is {what}, not the text of the model: {_PUBLISHER} stops",
@@ -188,27 +150,23 @@ def _command(value: ast.expr, bound: set[str]) -> str:
 def rviz_without_option(around: Surroundings) -> Iterator[Problem]:
     """Report a config that is given to rviz2 without -d."""
     for launch, call in _nodes(around):
-        given = launch.values.resolved(keyword(call, "arguments"))
-        items = given.elts if isinstance(given, (ast.List, ast.Tuple)) else []
-        if launch.values.text(keyword(call, "executable")) != "rviz2":
+        if launch.text(call, "executable") != "rviz2":
             continue
-        for before, item in pairwise([None, *items]):
-            text = launch.values.text(item) or ""
-            option = None if before is None else launch.values.text(before)
-            known = before is None or (option is not None and option[:1] != "-")
-            if (
-                item is not None
-                and text.endswith(".rviz")
-                and known
-                and " " not in text
-            ):
+        option: str | None = ""
+        for item, node in call.listing("arguments").items:
+            text = launch.values.said(item)
+            known = option is not None and option[:1] != "-"
+            option = text
+            if text is None or not text.endswith(".rviz"):
+                continue
+            if known and " " not in text:
                 yield Problem.at(
-                    launch.place(item),
+                    launch.place(node),
                     "warning",
                     "launch-rviz-config",
                     f"rviz2 reads a config only after -d: {posixpath.basename(text)} "
                     "is not opened",
-                    f"write '-d', {ast.unparse(item)}",
+                    f"write '-d', {ast.unparse(node)}",
                 )
 
 
@@ -239,14 +197,14 @@ def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
 
 def _gives(launch: LaunchFile, node: LaunchNode, file: YamlFile) -> bool:
     """Tell whether a launch file itself gives a node parameters that a file has."""
-    names = {p.name for p in file.parameters}
+    names = {p.name for p in file.parameters} - {"use_sim_time"}
     return any(
-        launch.values.text(key) in names - {"use_sim_time"}
+        pair.key in names
         for call in launch.calls
-        if launch.place(call) == node.place
-        for item in launch.values.items(keyword(call, "parameters"))
-        if isinstance(item, ast.Dict)
-        for key in item.keys
+        if call.place == node.place
+        for item, _ in call.listing("parameters").items
+        if isinstance(item, Table)
+        for pair in item.pairs
     )
 
 
@@ -258,7 +216,7 @@ def _left_out(
     package: Package,
 ) -> Problem:
     key = next(k for k in file.nodes if k.rpartition("/")[2] == name)
-    share = launch.values.named(f"{SHARE}{package.name}")
+    share = launch.named(f"{SHARE}{package.name}")
     share = share or f"get_package_share_directory('{package.name}')"
     return Problem.at(
         node.place,
@@ -273,98 +231,75 @@ def _left_out(
 def state_publishers(around: Surroundings) -> Iterator[Problem]:
     """Report two publishers of joint states that start together, or not at all."""
     for launch in around.launches:
-        found: dict[str, tuple[ast.Call, ast.Call]] = {}
-        for call in launch.calls:
-            program = launch.values.text(keyword(call, "executable"))
-            condition = launch.values.resolved(keyword(call, "condition"))
-            if call_name(call.func) in NODES and program in _JOINT_PUBLISHERS:
-                if isinstance(condition, ast.Call):
-                    found[program] = call, condition
-        if len(found) < len(_JOINT_PUBLISHERS):
+        found = {
+            launch.text(call, "executable"): call for call in launch.nodes_called()
+        }
+        both = [found[name] for name in _JOINT_PUBLISHERS if name in found]
+        given = [call.given("condition") for call in both]
+        nodes = [launch.origin(node) for node in given if node is not None]
+        conditions = [node for node in nodes if isinstance(node, ast.Call)]
+        if len(conditions) < len(_JOINT_PUBLISHERS):
             continue
-        (first, one), (second, other) = (found[name] for name in _JOINT_PUBLISHERS)
+        one, other = conditions
         if ast.dump(one) != ast.dump(other) or call_name(one.func) not in _CONDITIONS:
             continue
         # One of the two is for the argument, the other one for its opposite.
-        wanted = "IfCondition"
-        wrong = second if call_name(one.func) != wanted else first
-        right = wanted if wrong is second else "UnlessCondition"
-        place = launch.place(wrong)
-        names = _JOINT_PUBLISHERS if wrong is first else _JOINT_PUBLISHERS[::-1]
+        at = 1 if call_name(one.func) == "UnlessCondition" else 0
+        right = "IfCondition" if at else "UnlessCondition"
+        place = both[at].place
         argument = ast.unparse(one.args[0]) if one.args else ""
-        there = where(launch.place(second if wrong is first else first), place)
         yield Problem.at(
-            Place(launch.shown, _line(wrong, "condition")),
+            Place(launch.shown, launch.place(given[at] or one).line),
             "warning",
             "launch-no-joint-states",
-            f"{names[0]} has the same condition as {names[1]} ({there}): either both "
-            "publish joint states or neither does, and the wheels have no transform",
+            f"{_JOINT_PUBLISHERS[at]} has the same condition as "
+            f"{_JOINT_PUBLISHERS[1 - at]} ({where(both[1 - at].place, place)}): either "
+            "both publish joint states or neither does, and the wheels have no "
+            "transform",
             f"write condition={right}({argument})",
         )
-
-
-def _line(call: ast.Call, argument: str) -> int:
-    given = keyword(call, argument)
-    return call.lineno if given is None else given.lineno
 
 
 def namespaces(around: Surroundings) -> Iterator[Problem]:
     """Report a robot_state_publisher that does not hear the joint_state_publisher."""
     for launch in around.launches:
-        if any(
-            call_name(call.func) in ("PushRosNamespace", "PushROSNamespace")
-            for call in launch.calls
-        ):
+        if any(launch.nodes_called("PushRosNamespace", "PushROSNamespace")):
             continue
-        spaces: dict[str, list[tuple[str | None, ast.Call]]] = {}
-        for call in launch.calls:
-            program = launch.values.text(keyword(call, "executable"))
-            if call_name(call.func) in NODES and program:
-                given = keyword(call, "namespace")
-                space = launch.values.text(given) if given is not None else ""
-                if keyword(call, "remappings") is not None:
-                    space = None
-                spaces.setdefault(program, []).append((space, call))
+        spaces: dict[str | None, list[tuple[str | None, Call]]] = {}
+        for call in launch.nodes_called():
+            space = launch.text(call, "namespace")
+            space = "" if call.given("namespace") is None else space
+            if call.given("remappings") is not None or space is None:
+                space = None
+            program = launch.text(call, "executable")
+            spaces.setdefault(program, []).append((space and space.strip("/"), call))
         readers = spaces.get(_PUBLISHER, [])
         writers = [each for name in _JOINT_PUBLISHERS for each in spaces.get(name, [])]
-        if len(readers) != 1 or not writers:
+        others = {space for space, _ in writers}
+        if len(readers) != 1 or len(others) != 1:
             continue
         ((space, reader),) = readers
-        others = {None if other is None else other.strip("/") for other, _ in writers}
-        if space is None or None in others or len(others) != 1:
+        other, writer = writers[0]
+        if space is None or other is None or space == other:
             continue
-        (other,) = others
-        if space.strip("/") == other or other is None:
-            continue
-        odd = reader if space.strip("/") else writers[0][1]
-        place = launch.place(keyword(odd, "namespace") or odd)
-        yield _apart(launch, place, reader, writers[0][1], (space.strip("/"), other))
+        odd = reader if space else writer
+        place = launch.place(odd.given("namespace") or odd.node)
+        read, written = (
+            f"/{s}/joint_states".replace("//", "/") for s in (space, other)
+        )
+        program = launch.text(writer, "executable")
+        yield Problem.at(
+            place,
+            "warning",
+            "launch-namespace",
+            f"{_PUBLISHER} reads {read}, but {program} ({where(writer.place, place)}) "
+            f"publishes {written}: wheels and other joints that move have no transform",
+            "delete the namespace here, or write it for "
+            f"{program if space else _PUBLISHER} too",
+        )
 
 
-def _apart(
-    launch: LaunchFile,
-    place: Place,
-    reader: ast.Call,
-    writer: ast.Call,
-    spaces: tuple[str, str],
-) -> Problem:
-    read, written = (f"/{s}/joint_states".replace("//", "/") for s in spaces)
-    program = launch.values.text(keyword(writer, "executable"))
-    there = where(launch.place(writer), place)
-    return Problem.at(
-        place,
-        "warning",
-        "launch-namespace",
-        f"{_PUBLISHER} reads {read}, but {program} ({there}) publishes {written}: "
-        "wheels and other joints that move have no transform",
-        f"delete the namespace here, or write it for {program} too"
-        if spaces[0]
-        else f"delete the namespace here, or write it for {_PUBLISHER} too",
-    )
-
-
-def _nodes(around: Surroundings) -> Iterator[tuple[LaunchFile, ast.Call]]:
+def _nodes(around: Surroundings) -> Iterator[tuple[LaunchFile, Call]]:
     for launch in around.launches:
-        for call in launch.calls:
-            if call_name(call.func) in NODES:
-                yield launch, call
+        for call in launch.nodes_called():
+            yield launch, call

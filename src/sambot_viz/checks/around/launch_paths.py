@@ -7,15 +7,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.launch import LaunchFile, LaunchNode
-from sambot_viz.checks.around.files.launch_values import keyword
 from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.launch_file import LaunchFile, LaunchNode
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
-from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -74,11 +72,8 @@ def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
 def _makes_files(launch: LaunchFile) -> bool:
     """Tell whether a launch file asks which files there are, or writes some."""
     return any(
-        call_name(call.func) in _ASKING
-        or (
-            call_name(call.func) == "open"
-            and "w" in (launch.values.text(keyword(call, "mode", 1)) or "")
-        )
+        call.name in _ASKING
+        or (call.name == "open" and "w" in (launch.text(call, "mode", 1) or ""))
         for call in launch.calls
     )
 

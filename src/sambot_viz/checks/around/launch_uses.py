@@ -8,11 +8,12 @@ from collections.abc import Iterator
 
 import yaml
 
-from sambot_viz.checks.around.files.launch import NODES, LaunchFile
-from sambot_viz.checks.around.files.launch_values import SHARE, keyword, values_for
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_calls import meant_word
 from sambot_viz.checks.around.launch_code import undefined_names
+from sambot_viz.checks.around.launch_file import NODES, LaunchFile
+from sambot_viz.checks.around.launching.python_parts import Table
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
@@ -34,7 +35,7 @@ _STARTED = frozenset(
         "RosGzBridge",
     }
 )
-_SETTING = frozenset({"SetLaunchConfiguration", "OpaqueFunction", "GroupAction"})
+_SETTING = ("SetLaunchConfiguration", "OpaqueFunction", "GroupAction")
 _TOPIC, _PUBLISHER = "robot_description", "robot_state_publisher"
 
 
@@ -46,9 +47,7 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
     for launch, text in around.launch_texts():
         if undefined_names(launch.tree):
             continue
-        described = next(
-            (c for c in launch.calls if call_name(c.func) == "LaunchDescription"), None
-        )
+        described = next(launch.nodes_called("LaunchDescription"), None)
         for name, call in _assigned(launch) if described is not None else ():
             if described is None or launch.uses(name):
                 continue
@@ -66,7 +65,7 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
                 "warning",
                 "launch-node-unused",
                 f"{name} is built here, but it is not in the LaunchDescription "
-                f"({where(launch.place(described), launch.shown)}): {follows}",
+                f"({where(described.place, launch.shown)}): {follows}",
                 f"add {name} to that list",
             )
 
@@ -88,30 +87,25 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
     """Report arguments that are used under another name than they are declared."""
     every = {text for launch in around.launches for text in _set(launch)}
     for launch in around.launches:
-        text = launch.values.text
         declared = {
-            text(keyword(call, "name", 0)) or "": launch.place(call)
-            for call in launch.calls
-            if call_name(call.func) == "DeclareLaunchArgument"
+            launch.text(call, "name", 0) or "": call.place
+            for call in launch.nodes_called("DeclareLaunchArgument")
         }
-        if "" in declared or any(call_name(c.func) in _SETTING for c in launch.calls):
+        if "" in declared or any(launch.nodes_called(*_SETTING)):
             continue
-        for call in launch.calls:
-            name = text(keyword(call, "variable_name", 0)) or ""
-            if call_name(call.func) != "LaunchConfiguration" or name in declared:
+        for call in launch.nodes_called("LaunchConfiguration"):
+            name = launch.text(call, "variable_name", 0) or ""
+            near = nearest(name, declared, 0.65) if name not in declared else None
+            if near is None or name in every or call.given("default", 1) is not None:
                 continue
-            near = nearest(name, declared, 0.65)
-            if near is None or name in every or keyword(call, "default", 1) is not None:
-                continue
-            place = launch.place(call)
             instead = f"write LaunchConfiguration('{near}')"
             yield Problem.at(
-                place,
+                call.place,
                 "error",
                 "launch-argument-unknown",
                 f"the launch argument {name} is not declared; {near} is "
-                f"({where(declared[near], place)}): ros2 launch stops with it",
-                write(place, name, near, hint=instead)
+                f"({where(declared[near], call.place)}): ros2 launch stops with it",
+                write(call.place, name, near, hint=instead)
                 if is_misspelt(name, near) or near.endswith(f"_{name}")
                 else f"declare {name}, or {instead}",
             )
@@ -119,27 +113,26 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
 
 def _set(launch: LaunchFile) -> Iterator[str]:
     """The names of arguments that a launch file gives to others, or declares."""
-    for call in launch.calls:
-        if call_name(call.func) == "DeclareLaunchArgument":
-            yield launch.values.text(keyword(call, "name", 0)) or ""
-        elif call_name(call.func) == "IncludeLaunchDescription":
-            given = keyword(call, "launch_arguments")
-            for node in ast.walk(given) if given is not None else ():
-                if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                    yield node.value
+    for call in launch.nodes_called("DeclareLaunchArgument"):
+        yield launch.text(call, "name", 0) or ""
+    for call in launch.nodes_called("IncludeLaunchDescription"):
+        given = call.given("launch_arguments")
+        for node in ast.walk(given) if given is not None else ():
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
 
 
 def unknown_programs(around: Surroundings) -> Iterator[Problem]:
     """Report programs that a well-known package does not have."""
     for launch in around.launches:
-        for call in launch.actions:
-            package = launch.values.text(keyword(call, "package")) or ""
-            given = keyword(call, "executable")
-            program = launch.values.text(given)
+        for call in launch.certain:
+            package = launch.text(call, "package") or ""
+            program = launch.text(call, "executable")
             here = next((p for p in around.packages if p.name == package), None)
             own = None if here is None else _own_programs(here)
             every = vocabulary("launch_programs").get(package, ())
             known = every if own is None else tuple(own)
+            given = call.given("executable")
             if given is None or program is None or program in known:
                 continue
             near = meant_word(known, program, 0.6)
@@ -170,7 +163,7 @@ def _own_programs(package: Package) -> dict[str, Place] | None:
     setup = package.setup if package.cmake is None else None
     if setup is None or not setup.installs_only_known or setup.given("scripts"):
         return None
-    if not setup.scripts.known or len(setup.programs) != len(setup.scripts.items):
+    if setup.scripts.known is None or len(setup.programs) != len(setup.scripts.items):
         return None
     if any((entry.target or "").startswith("lib/") for entry in setup.data_files):
         return None
@@ -185,38 +178,33 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
         if isinstance(file.root, yaml.SequenceNode)
     }
     for launch in around.launches:
-        for call in launch.actions:
-            if launch.values.text(keyword(call, "executable")) != "parameter_bridge":
+        for call in launch.certain:
+            if launch.text(call, "executable") != "parameter_bridge":
                 continue
-            given = keyword(call, "parameters")
-            for item in given.elts if isinstance(given, (ast.List, ast.Tuple)) else ():
-                given_path = launch.values.text(item) or ""
+            for item, node in call.listing("parameters").items:
+                given_path = launch.values.said(item) or ""
                 path = given_path.removeprefix(SHARE).partition("/")[2]
                 if around.shown(given_path) in lists:
                     yield Problem.at(
-                        launch.place(item),
+                        launch.place(node),
                         "error",
                         "launch-bridge-config",
                         f"{path} is a list of topics and no parameters: "
                         "parameter_bridge stops with an error",
-                        f"write {{'config_file': {ast.unparse(item)}}}",
+                        f"write {{'config_file': {ast.unparse(node)}}}",
                     )
 
 
 def joined_words(around: Surroundings) -> Iterator[Problem]:
     """Report a Command whose program and file are one word."""
     for launch in around.launches:
-        for call in launch.calls:
-            words = call.args[0] if call.args else None
-            if call_name(call.func) != "Command" or not isinstance(words, ast.List):
+        for call in launch.nodes_called("Command"):
+            words = call.listing("command", 0).items
+            if len(words) < 2 or words[0][0] != "xacro":
                 continue
-            first, second = (*words.elts[:2], None, None)[:2]
-            program = launch.values.text(first)
+            first, text = words[0][1], launch.values.said(words[1][0])
             is_text = isinstance(first, ast.Constant)
-            if not is_text or program != "xacro" or second is None:
-                continue
-            text = launch.values.text(second)
-            if text is None or not text[:1].isspace():
+            if is_text and (text is None or not text[:1].isspace()):
                 yield Problem.at(
                     launch.place(first),
                     "error",
@@ -235,16 +223,14 @@ def joined_words(around: Surroundings) -> Iterator[Problem]:
 def times_as_text(around: Surroundings) -> Iterator[Problem]:
     """Report use_sim_time that is given to a node as a text."""
     for launch in around.launches:
-        for call in launch.actions:
-            if call_name(call.func) not in NODES:
-                continue
-            for item in launch.values.items(keyword(call, "parameters")):
-                if isinstance(item, ast.Dict):
+        for call in launch.certain:
+            for item, _ in call.listing("parameters").items:
+                if call.name in NODES and isinstance(item, Table):
                     yield from _time_as_text(item, launch)
 
 
-def _time_as_text(given: ast.Dict, launch: LaunchFile) -> Iterator[Problem]:
-    for value in values_for(given, "use_sim_time"):
+def _time_as_text(given: Table, launch: LaunchFile) -> Iterator[Problem]:
+    for value in (pair.node for pair in given.pairs if pair.key == "use_sim_time"):
         text = value.value if isinstance(value, ast.Constant) else None
         truth = flag(text) if isinstance(text, str) else None
         if truth is not None:
@@ -291,14 +277,12 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
 def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
     """The topics on which the model is published; None for one that is not certain."""
     for launch in around.launches:
-        names = {call_name(call.func) for call in launch.calls}
-        pushed = not names.isdisjoint({"PushRosNamespace", "PushROSNamespace"})
-        for call in launch.calls:
-            program = launch.values.text(keyword(call, "executable"))
-            if call_name(call.func) in NODES and program == _PUBLISHER:
-                given = keyword(call, "namespace")
-                space = "" if given is None else launch.values.text(given)
+        pushed = any(launch.nodes_called("PushRosNamespace", "PushROSNamespace"))
+        for call in launch.nodes_called():
+            if launch.text(call, "executable") == _PUBLISHER:
+                space = launch.text(call, "namespace")
+                space = "" if call.given("namespace") is None else space
                 known = space is not None and not pushed
-                known = known and keyword(call, "remappings") is None
+                known = known and call.given("remappings") is None
                 topic = f"/{space}/{_TOPIC}".replace("//", "/") if known else None
-                yield topic, launch.place(call)
+                yield topic, call.place

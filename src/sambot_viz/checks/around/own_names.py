@@ -7,7 +7,7 @@ import difflib
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.launch import LaunchFile
+from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write
@@ -97,9 +97,9 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
 def _asked(launch: LaunchFile) -> Iterator[tuple[str, Place]]:
     """Give the packages whose share folders a launch file asks for."""
     for call in launch.calls:
-        text = _text(call.args[0]) if call.args else None
-        if text is not None and call_name(call.func) in _SHARE_CALLS:
-            yield text, launch.place(call)
+        text = _text(call.node.args[0]) if call.node.args else None
+        if text is not None and call.name in _SHARE_CALLS:
+            yield text, call.place
 
 
 def _dependencies(manifest: Element | None) -> set[str]:

@@ -6,10 +6,10 @@ import configparser
 import posixpath
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.setup_py import DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.launch_code import PREDEFINED, bound_names
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.setup_file import DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.checks.rule import listed
@@ -68,7 +68,7 @@ def joined_scripts(around: Surroundings) -> Iterator[Problem]:
     """Report two programs of console_scripts that are one text."""
     setup = around.setup
     for node, text in setup.scripts.items if setup is not None else ():
-        if setup is not None and isinstance(text, str) and text.count("=") > 1:
+        if setup is not None and text is not None and text.count("=") > 1:
             second = node.end_lineno if node.end_lineno != node.lineno else None
             yield Problem.at(
                 setup.place(node),
@@ -115,9 +115,9 @@ def _fault(
     file = next((f for f in files if (around.files.folder / f).is_file()), None)
     if file is None:
         return _no_module(program, path, around)
-    packages = setup.values.items(setup.given("packages"))
+    packages = setup.values.listed(setup.values.of(setup.given("packages"))).known
     above = posixpath.dirname(path).replace("/", ".")
-    if packages.known and above and above not in packages.texts:
+    if packages is not None and above and above not in packages:
         at = where(setup.place(setup.given("packages")), setup.shown)
         return (
             f"packages ({at}) does not list {above}, so it is not installed",

@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.python_values import Items
-from sambot_viz.checks.around.files.setup_py import SetupFile
+from sambot_viz.checks.around.launching.python_parts import Listing
 from sambot_viz.checks.around.place import rewritten
+from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
@@ -57,9 +57,9 @@ def texts_for_lists(around: Surroundings) -> Iterator[Problem]:
     """Report entries of data_files whose files are one text and no list."""
     setup = around.setup
     entries = setup.values.items(setup.given("data_files")).items if setup else ()
-    for _, value in entries:
-        pair = value.items if isinstance(value, Items) else ()
-        node, text = pair[1] if len(pair) == 2 else (None, None)
+    for value, _ in entries:
+        pair = value.items if isinstance(value, Listing) else ()
+        text, node = pair[1] if len(pair) == 2 else (None, None)
         if setup is None or node is None or not isinstance(text, str):
             continue
         yield Problem.at(
@@ -86,7 +86,7 @@ def entry_points_without_colon(around: Surroundings) -> Iterator[Problem]:
     """Report programs whose module and function are joined by a dot."""
     setup = around.setup
     for node, text in setup.scripts.items if setup is not None else ():
-        match = _DOTTED.fullmatch(text) if isinstance(text, str) else None
+        match = _DOTTED.fullmatch(text) if text is not None else None
         if setup is None or match is None:
             continue
         name, module, function = match.groups()

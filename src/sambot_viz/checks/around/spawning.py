@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 from itertools import pairwise
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.launch_values import keyword, values_for
-from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.python_parts import Call, PythonValue, Table
 
 _SPAWNS = "gz_spawn_model.launch.py"
 _PROGRAMS = {"create": "ros_gz_sim", "spawn_entity.py": "gazebo_ros"}
@@ -23,38 +21,31 @@ def spawned_with(launch: LaunchFile, option: str) -> Iterator[Fact]:
         launch: the launch file.
         option: "world" or "topic".
     """
-    for call in launch.actions:
-        source = launch.values.text(keyword(call, "launch_description_source", 0))
-        if call_name(call.func) == "IncludeLaunchDescription":
+    for call in launch.certain:
+        if call.name == "IncludeLaunchDescription":
+            source = launch.text(call, "launch_description_source", 0)
             if source is not None and source.endswith(_SPAWNS):
-                given = keyword(call, "launch_arguments")
-                yield from _in_table(launch, given, option)
+                yield from _in_table(launch, call.value("launch_arguments"), option)
         else:
             yield from _of_program(launch, call, option)
 
 
-def _of_program(launch: LaunchFile, call: ast.Call, option: str) -> Iterator[Fact]:
+def _of_program(launch: LaunchFile, call: Call, option: str) -> Iterator[Fact]:
     """What a node is told, in arguments or parameters."""
-    text, items = launch.values.text, launch.values.items
-    program = text(keyword(call, "executable")) or ""
-    if text(keyword(call, "package")) != _PROGRAMS.get(program, ""):
+    said = launch.values.said
+    program = launch.text(call, "executable") or ""
+    if launch.text(call, "package") != _PROGRAMS.get(program, ""):
         return
-    for name, value in pairwise(items(keyword(call, "arguments"))):
-        said = text(value)
-        if text(name) == f"-{option}" and said:
-            yield Fact(said, launch.place(value))
-    for item in items(keyword(call, "parameters")):
+    for (name, _), (value, node) in pairwise(call.listing("arguments").items):
+        text = said(value)
+        if said(name) == f"-{option}" and text:
+            yield Fact(text, launch.place(node))
+    for item, _ in call.listing("parameters").items:
         yield from _in_table(launch, item, option)
 
 
-def _in_table(
-    launch: LaunchFile, given: ast.expr | None, option: str
-) -> Iterator[Fact]:
-    inner = given.func if isinstance(given, ast.Call) else None
-    table = inner.value if isinstance(inner, ast.Attribute) else given
-    if not isinstance(table, ast.Dict):
-        return
-    for value in values_for(table, option):
-        text = launch.values.text(value)
+def _in_table(launch: LaunchFile, table: PythonValue, option: str) -> Iterator[Fact]:
+    for pair in table.pairs if isinstance(table, Table) else ():
+        text = launch.values.said(pair.value) if pair.key == option else None
         if text:
-            yield Fact(text, launch.place(value))
+            yield Fact(text, launch.place(pair.node))

@@ -9,15 +9,16 @@ from functools import cached_property
 
 from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
-from sambot_viz.checks.around.files.launch import LaunchFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
-from sambot_viz.checks.around.files.setup_py import SetupFile
+from sambot_viz.checks.around.gazebo_starts import may_start
+from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
 from sambot_viz.checks.around.running.endpoints import entries_of
 from sambot_viz.checks.around.running.simulated import simulated
 from sambot_viz.checks.around.running.system import RunningSystem
+from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
@@ -91,7 +92,7 @@ class Surroundings:
     @property
     def simulates_only_known(self) -> bool:
         """True when Gazebo is started, and nothing whose topics are not known."""
-        simulates = any(launch.may_start for launch in self.launches)
+        simulates = any(may_start(launch) for launch in self.launches)
         return simulates and self.running.is_known
 
     def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
@@ -145,7 +146,9 @@ class Surroundings:
         return any(
             not marks.isdisjoint(launch.strings)
             or any(
-                "namespace" in (k.arg or "") for c in launch.calls for k in c.keywords
+                "namespace" in (k.arg or "")
+                for c in launch.calls
+                for k in c.node.keywords
             )
             for launch in self.launches
         )

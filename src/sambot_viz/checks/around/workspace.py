@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.checks.around.files.cmake import CMakeFile
-from sambot_viz.checks.around.files.launch import LaunchFile, read_launch
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
-from sambot_viz.checks.around.files.setup_py import SetupFile, read_setup
+from sambot_viz.checks.around.launch_file import LaunchFile, read_launch
+from sambot_viz.checks.around.setup_file import SetupFile, read_setup
 from sambot_viz.files import is_below, read_limited
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.packages.resolve import FileResolver, inside_package
@@ -144,10 +144,14 @@ class Package:
             # The import is late: many packages have no launch files.
             from sambot_viz.checks.around.launching.read import read_actions
 
-            read = {f.path: f.tree for f in self.launches}.get(path)
+            launch = next((f for f in self.launches if f.path == path), None)
             file = next((f for f in self.yaml_files if f.path == path), None)
             text, shown = self.text(path) or "", self.shown(path)
-            self._actions[path] = read_actions(text, path, shown, read or file)
+            self._actions[path] = (
+                read_actions(text, path, shown, file)
+                if launch is None
+                else launch.values.actions
+            )
         return self._actions[path]
 
     @cached_property

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import ast
 import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from sambot_viz.checks.around.files.launch import LaunchFile
-from sambot_viz.checks.around.files.launch_values import SHARE, keyword
+from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.actions import LaunchArgument
+from sambot_viz.checks.around.launching.python_parts import PythonValue, Table
 from sambot_viz.checks.around.workspace import Package
-from sambot_viz.checks.launch_files import call_name
 
 _UNKNOWN = "\0"
 
@@ -27,7 +27,7 @@ def xacro_arguments(
     found: dict[str, str] = {}
     unknown: dict[str, str] = {}
     launches = [file for package in packages for file in package.launches]
-    defaults = {k: v for file in launches for k, v in file.values.defaults()}
+    defaults = {k: v for file in launches for k, v in file.values.defaults.items()}
     opening = (f for f in launches if any(model.name in text for text in f.strings))
     for launch in opening:
         for name, value in _given(launch):
@@ -46,16 +46,16 @@ def xacro_arguments(
 def _given(launch: LaunchFile) -> Iterator[tuple[str, str]]:
     choices = dict(_choices(launch))
     for call in launch.calls:
-        if call_name(call.func) == "Command" and call.args:
-            words = launch.values.items(call.args[0])
-            command = "".join(_text(launch, word, choices) for word in words)
+        if call.name == "Command" and call.node.args:
+            words = call.listing("command", 0).items
+            command = "".join(_text(launch, word, choices) for word, _ in words)
             yield from _arguments(command)
-        elif call_name(call.func) == "process_file":
-            given = launch.values.resolved(keyword(call, "mappings"))
-            for key, value in _items(given):
-                name, text = launch.values.text(key), _text(launch, value, choices)
+        elif call.name == "process_file":
+            given = call.value("mappings")
+            for pair in given.pairs if isinstance(given, Table) else ():
+                name = launch.values.said(pair.key)
                 if name:
-                    yield name, text
+                    yield name, _text(launch, pair.value, choices)
 
 
 def _arguments(command: str) -> Iterator[tuple[str, str]]:
@@ -70,27 +70,20 @@ def _arguments(command: str) -> Iterator[tuple[str, str]]:
             yield name, value
 
 
-def _items(node: ast.expr | None) -> Iterator[tuple[ast.expr | None, ast.expr]]:
-    if isinstance(node, ast.Dict):
-        yield from zip(node.keys, node.values, strict=True)
-
-
 def _choices(launch: LaunchFile) -> Iterator[tuple[str, str]]:
     """Give the launch arguments with a list of values, and the first of them."""
     for call in launch.calls:
-        if call_name(call.func) == "DeclareLaunchArgument":
-            name = launch.values.text(keyword(call, "name", 0))
-            first = next(launch.values.texts(keyword(call, "choices")), None)
-            if name and first:
-                yield name, first
+        if call.name == "DeclareLaunchArgument":
+            name = launch.text(call, "name", 0)
+            texts = launch.values.texts(call.given("choices"))
+            if name and texts:
+                yield name, texts[0]
 
 
-def _text(launch: LaunchFile, node: ast.expr, choices: dict[str, str]) -> str:
-    text = launch.values.text(node)
-    if text is None and isinstance(node, ast.Call):
-        argument = launch.values.text(keyword(node, "variable_name", 0))
-        if call_name(node.func) == "LaunchConfiguration" and argument:
-            text = choices.get(argument)
+def _text(launch: LaunchFile, value: PythonValue, choices: dict[str, str]) -> str:
+    text = launch.values.said(value)
+    if text is None and isinstance(value, LaunchArgument):
+        text = choices.get(launch.values.said(value.name) or "")
     return _UNKNOWN if text is None else text
 
 

@@ -31,19 +31,8 @@ from sambot_viz.checks.around.launching.python_parts import (
     Table,
     as_text,
 )
-from sambot_viz.checks.around.launching.python_reader import PythonReader
 
 Made = Callable[[Call], PythonValue]
-
-
-def read_python(tree: ast.Module, shown: str) -> tuple[Action, ...]:
-    """Return the actions of a Python launch file.
-
-    Args:
-        tree: the file.
-        shown: its path, as the user would write it.
-    """
-    return PythonReader(tree, shown, CALLS).read()
 
 
 def _first(*names: str) -> Made:
@@ -86,7 +75,7 @@ def _differs(call: Call) -> PythonValue:
 
 
 def _node(call: Call) -> PythonValue:
-    given, known = _parameters(call.listing("parameters"))
+    given, known = _parameters(call)
     remappings, all_known = _remappings(call.listing("remappings"))
     arguments = call.listing("arguments")
     return StartNode(
@@ -103,30 +92,30 @@ def _node(call: Call) -> PythonValue:
     )
 
 
-def _parameters(listing: Listing) -> tuple[tuple[Given, ...], bool]:
+def _parameters(call: Call) -> tuple[tuple[Given, ...], bool]:
     found: list[Given] = []
+    listing = call.listing("parameters")
     complete = listing.complete
-    for item, place in listing.items:
+    for item, node in listing.items:
         if isinstance(item, Table):
-            values = list(_values(item, ""))
+            found += _values(call, item, "")
             complete = complete and item.complete
-            found += values
         elif isinstance(item, FromFile):
             found.append(item)
         elif isinstance(item, (Listing, Action, ast.FunctionDef)) or item is None:
             complete = False
         else:
-            found.append(FromFile(item, place))
+            found.append(FromFile(item, call.place_of(node)))
     return tuple(found), complete
 
 
-def _values(table: Table, above: str) -> list[WrittenValue]:
+def _values(call: Call, table: Table, above: str) -> list[WrittenValue]:
     found: list[WrittenValue] = []
-    for key, value, place in table.pairs:
-        name = Joined((above, key)) if above else key
+    for key, value, _, node in table.pairs:
+        name, place = Joined((above, key)) if above else key, call.place_of(node)
         if isinstance(value, Table):
             if isinstance(key, str):
-                found += _values(value, f"{above}{key}.")
+                found += _values(call, value, f"{above}{key}.")
             else:
                 found.append(WrittenValue(None, None, place))
         elif isinstance(value, Listing) and value.complete:
@@ -186,7 +175,7 @@ def _include(call: Call) -> PythonValue:
     given = call.value("launch_arguments")
     pairs: list[tuple[Expression, Expression]] = []
     if isinstance(given, Table):
-        pairs += [(key, as_text(value)) for key, value, _ in given.pairs]
+        pairs += [(pair.key, as_text(pair.value)) for pair in given.pairs]
     elif isinstance(given, Listing):
         pairs += _remappings(given)[0]
     path = call.text("launch_description_source", 0, None)

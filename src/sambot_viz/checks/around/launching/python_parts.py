@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.checks.around.launching.actions import (
@@ -15,6 +16,7 @@ from sambot_viz.checks.around.launching.actions import (
     Joined,
     UnknownAction,
 )
+from sambot_viz.checks.launch_files import call_name
 from sambot_viz.errors import Place
 
 
@@ -23,12 +25,28 @@ class Listing:
     """A list or tuple of a launch file, or a LaunchDescription.
 
     Attributes:
-        items: the items with their places.
+        items: the items, each with its expression; those of a glob share one.
         complete: False when there may be others.
     """
 
-    items: tuple[tuple[PythonValue, Place], ...]
+    items: tuple[tuple[PythonValue, ast.expr], ...]
     complete: bool = True
+
+
+class Pair(NamedTuple):
+    """A key of a dict with its value.
+
+    Attributes:
+        key: the key.
+        value: the value.
+        key_node: the expression of the key.
+        node: the expression of the value.
+    """
+
+    key: Expression
+    value: PythonValue
+    key_node: ast.expr
+    node: ast.expr
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +54,11 @@ class Table:
     """A dict of a launch file.
 
     Attributes:
-        pairs: the keys and values, with the places of the values.
+        pairs: the keys and values.
         complete: False when there may be others.
     """
 
-    pairs: tuple[tuple[Expression, PythonValue, Place], ...]
+    pairs: tuple[Pair, ...]
     complete: bool = True
 
 
@@ -63,15 +81,30 @@ def as_text(value: PythonValue) -> Expression:
     return value
 
 
-def as_actions(value: PythonValue, place: Place) -> tuple[Action, ...]:
-    """Return the actions in a list; what is not known is an unknown action."""
-    items = value.items if isinstance(value, Listing) else ((value, place),)
+def place_in(file: str, node: ast.expr | ast.stmt) -> Place:
+    """Return the place of an expression in a file."""
+    return Place(file, node.lineno, node.col_offset + 1)
+
+
+def as_actions(
+    value: PythonValue, file: str, node: ast.expr | ast.stmt
+) -> tuple[Action, ...]:
+    """Return the actions in a list; what is not known is an unknown action.
+
+    Args:
+        value: the list, or one action.
+        file: of the launch file.
+        node: the expression that has this value.
+    """
+    items = value.items if isinstance(value, Listing) else ((value, node),)
     found = [
-        item if isinstance(item, Action) else UnknownAction(where, "true", "an action")
+        item
+        if isinstance(item, Action)
+        else UnknownAction(place_in(file, where), "true", "an action")
         for item, where in items
     ]
     if isinstance(value, Listing) and not value.complete:
-        found.append(UnknownAction(place, "true", "a list"))
+        found.append(UnknownAction(place_in(file, node), "true", "a list"))
     return tuple(found)
 
 
@@ -98,6 +131,17 @@ def added(one: PythonValue, other: PythonValue) -> PythonValue:
     return Listing(items, left.complete and right.complete)
 
 
+def formatted(text: PythonValue, values: PythonValue) -> PythonValue:
+    """Return a text with a value for each %s in it."""
+    items = values.items if isinstance(values, Listing) else ((values, None),)
+    parts = text.split("%s") if isinstance(text, str) else []
+    if len(parts) != len(items) + 1 or "%" in "".join(parts):
+        return None
+    both = zip(parts, items, strict=False)
+    joined = [each for part, (value, _) in both for each in (part, as_text(value))]
+    return Joined((*joined, parts[-1]))
+
+
 def either(one: PythonValue, other: PythonValue) -> PythonValue:
     """Return what is one of two values."""
     if one is other or one == other:
@@ -109,7 +153,7 @@ def either(one: PythonValue, other: PythonValue) -> PythonValue:
                 break
             same += 1
         rest = (*one.items[same:], *other.items[same:])
-        items = tuple((_doubtful(value), place) for value, place in rest)
+        items = tuple((_doubtful(value), node) for value, node in rest)
         both = one.complete and other.complete
         return Listing((*one.items[:same], *items), both)
     actions = [value for value in (one, other) if isinstance(value, Action)]
@@ -133,10 +177,34 @@ def assign(target: ast.expr, value: PythonValue, names: Names) -> None:
 def item_of(value: PythonValue, key: PythonValue) -> PythonValue:
     """Return what a list or a table has for a key."""
     if isinstance(value, Table) and isinstance(key, str):
-        return next((v for k, v, _ in reversed(value.pairs) if k == key), None)
+        pairs = reversed(value.pairs)
+        return next((pair.value for pair in pairs if pair.key == key), None)
     if isinstance(value, Listing) and isinstance(key, str) and key.isdigit():
         return value.items[int(key)][0] if int(key) < len(value.items) else None
     return None
+
+
+def truth_of(
+    node: ast.expr, value: Callable[[ast.expr | None], PythonValue]
+) -> bool | None:
+    """Return whether an expression is true; None when it is not known.
+
+    Args:
+        node: the expression.
+        value: works out an expression in it.
+    """
+    match node:
+        case ast.Constant(value=constant):
+            return bool(constant)
+        case ast.UnaryOp(op=ast.Not(), operand=inner):
+            truth = truth_of(inner, value)
+            return None if truth is None else not truth
+        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[right]):
+            texts = value(left), value(right)
+            known = [text for text in texts if isinstance(text, str)]
+            return known[0] == known[1] if len(known) == len(texts) else None
+        case _:
+            return None
 
 
 class Call:
@@ -147,6 +215,12 @@ class Call:
         file: of the launch file, for places.
         value: works out an expression.
         result: returns what a function of the file returns.
+
+    Attributes:
+        node: the call.
+        name: of what is called: "Node" in ``actions.Node(…)``.
+        place: of the call.
+        complete: all its arguments are written here.
     """
 
     def __init__(
@@ -156,54 +230,57 @@ class Call:
         value: Callable[[ast.expr | None], PythonValue],
         result: Callable[[ast.FunctionDef], PythonValue],
     ) -> None:
-        self._node, self._file = node, file
+        self.node, self._file = node, file
         self._value, self._result = value, result
-        self.place = self._place(node)
+        self.name = call_name(node.func)
+        self.place = place_in(file, node)
         self.complete = all(k.arg for k in node.keywords)
 
-    def _place(self, node: ast.expr) -> Place:
-        return Place(self._file, node.lineno, node.col_offset + 1)
-
-    def _given(self, name: str, position: int | None = None) -> ast.expr | None:
-        given = next((k.value for k in self._node.keywords if k.arg == name), None)
-        if given is None and position is not None and position < len(self._node.args):
-            given = self._node.args[position]
+    def given(self, name: str, position: int | None = None) -> ast.expr | None:
+        """Return the expression of an argument; None where it is not given."""
+        given = next((k.value for k in self.node.keywords if k.arg == name), None)
+        if given is None and position is not None and position < len(self.node.args):
+            given = self.node.args[position]
         is_none = isinstance(given, ast.Constant) and given.value is None
         return None if is_none else given
 
     def value(self, name: str, position: int | None = None) -> PythonValue:
         """Return the value of an argument."""
-        return self._value(self._given(name, position))
+        return self._value(self.given(name, position))
 
     def text(
         self, name: str, position: int | None = None, default: Expression = ""
     ) -> Expression:
         """Return an argument as a text, and the default where it is not given."""
-        node = self._given(name, position)
+        node = self.given(name, position)
         return default if node is None else as_text(self._value(node))
 
     def texts(self) -> tuple[Expression, ...]:
         """Return all arguments without a name as texts."""
-        return tuple(as_text(self._value(node)) for node in self._node.args)
+        return tuple(as_text(self._value(node)) for node in self.node.args)
 
     def listing(self, name: str, position: int | None = None) -> Listing:
         """Return an argument as a list; an empty one where it is not given."""
-        node = self._given(name, position)
+        node = self.given(name, position)
         value = self._value(node)
         if node is None or isinstance(value, Listing):
             return value if isinstance(value, Listing) else Listing(())
-        items = ((value, self._place(node)),) if value is not None else ()
+        items = ((value, node),) if value is not None else ()
         return Listing(items, complete=value is not None)
 
     def actions(self, name: str, position: int | None = None) -> tuple[Action, ...]:
         """Return an argument as actions; a function stands for what it returns."""
-        node = self._given(name, position)
+        node = self.given(name, position)
         value = self._value(node)
         if isinstance(value, ast.FunctionDef):
             value = self._result(value)
-        return () if node is None else as_actions(value, self.place)
+        return () if node is None else as_actions(value, self._file, self.node)
 
     @property
     def condition(self) -> Expression:
         """The text that has to be true for an action."""
         return self.text("condition", default="true")
+
+    def place_of(self, node: ast.expr) -> Place:
+        """Return the place of an expression in it."""
+        return place_in(self._file, node)

@@ -7,11 +7,17 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from sambot_viz import limits
-from sambot_viz.checks.around.launching.actions import Action, Joined, ShareFolder
+from sambot_viz.checks.around.launching.actions import (
+    Action,
+    Joined,
+    ShareFolder,
+    UnknownAction,
+)
 from sambot_viz.checks.around.launching.python_parts import (
     Call,
     Listing,
     Names,
+    Pair,
     PythonValue,
     Table,
     added,
@@ -19,7 +25,9 @@ from sambot_viz.checks.around.launching.python_parts import (
     as_text,
     assign,
     either,
+    formatted,
     item_of,
+    truth_of,
 )
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.errors import Place
@@ -27,6 +35,8 @@ from sambot_viz.errors import Place
 _ENTRY = "generate_launch_description"
 _SAME = frozenset("as_posix copy items perform read resolve toprettyxml toxml".split())
 """Methods whose result stands for the same."""
+_OF_MODULES = ("join", "glob", "iglob")
+"""Functions of modules; methods of texts and paths with these names are others."""
 _ADDING = ("add_action", "append")
 
 
@@ -37,6 +47,9 @@ class PythonReader:
         tree: the file.
         shown: its path, for places.
         calls: what makes the result of a call, by its name.
+
+    Attributes:
+        values: the id of an expression → its value, None where it has several.
     """
 
     def __init__(
@@ -48,10 +61,8 @@ class PythonReader:
         self._tree, self._shown, self._calls = tree, shown, calls
         self._left = limits.LAUNCH_STEPS.value
         self._depth = 0
-
-    def place(self, node: ast.expr | ast.stmt) -> Place:
-        """Return the place of an expression."""
-        return Place(self._shown, node.lineno, node.col_offset + 1)
+        self._followed: set[int] = set()
+        self.values: dict[int, PythonValue] = {}
 
     def read(self) -> tuple[Action, ...]:
         """Return the actions of the launch file."""
@@ -59,18 +70,23 @@ class PythonReader:
         names: Names = {"__file__": Joined((ShareFolder(""), "launch.py"), True)}
         self._run(self._tree.body, names, [])
         entry = names.get(_ENTRY)
-        place = Place(self._shown, 1)
-        found: PythonValue = None
         if isinstance(entry, ast.FunctionDef):
-            place = self.place(entry)
-            found = self.result_of(entry, names)
+            found = as_actions(self.result_of(entry, names), self._shown, entry)
         else:
             # What is wrong with such a file is a finding; what it names is still meant.
             bare = [s.value for s in self._tree.body if isinstance(s, ast.Expr)]
-            items = [(self.value(call, names), self.place(call)) for call in bare]
-            acting = [item for item in items if isinstance(item[0], Action)]
-            found = Listing(tuple(acting)) if acting else None
-        return as_actions(found, place)
+            made = [self.value(call, names) for call in bare]
+            found = tuple(each for each in made if isinstance(each, Action))
+            place = Place(self._shown, 1)
+            found = found or (UnknownAction(place, "true", "an action"),)
+        self._read_the_rest(names)
+        return found
+
+    def _read_the_rest(self, names: Names) -> None:
+        """Follow the functions that nothing calls, for the values in them."""
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.FunctionDef) and id(node) not in self._followed:
+                self.result_of(node, names)
 
     def result_of(self, function: ast.FunctionDef, names: Names) -> PythonValue:
         """Return what a function returns that is called with unknown arguments."""
@@ -81,6 +97,7 @@ class PythonReader:
     ) -> PythonValue:
         if self._depth > limits.YAML_DEPTH.value:
             return None
+        self._followed.add(id(function))
         inner: Names = dict(names)
         for at, argument in enumerate(function.args.args):
             inner[argument.arg] = given[at] if at < len(given) else None
@@ -116,6 +133,8 @@ class PythonReader:
                 names[name] = added(names.get(name), self.value(value, names))
             case ast.Expr(value=ast.Call() as call):
                 self._change(call, names)
+            case ast.Expr(value=value):
+                self.value(value, names)
             case ast.If(test=test, body=body, orelse=orelse):
                 return self._branch(test, (body, orelse), names, results)
             case ast.For(target=target, iter=over, body=body):
@@ -139,7 +158,7 @@ class PythonReader:
         names: Names,
         results: list[PythonValue],
     ) -> bool:
-        known = self._truth(test, names)
+        known = truth_of(test, partial(self.value, names=names))
         if known is not None:
             return self._run(branches[0 if known else 1], names, results)
         one, other = dict(names), dict(names)
@@ -180,33 +199,25 @@ class PythonReader:
             case ast.Attribute(value=ast.Name(id=name), attr=method) if call.args:
                 more = self.value(call.args[0], names)
                 if method in _ADDING:
-                    more = Listing(((more, self.place(call.args[0])),))
+                    more = Listing(((more, call.args[0]),))
                 elif method not in ("extend", "update"):
+                    self.value(call, names)
                     return
                 names[name] = added(names.get(name), more)
             case _:
-                pass
-
-    def _truth(self, node: ast.expr, names: Names) -> bool | None:
-        """Return whether an expression is true; None when it is not known."""
-        match node:
-            case ast.Constant(value=value):
-                return bool(value)
-            case ast.UnaryOp(op=ast.Not(), operand=inner):
-                truth = self._truth(inner, names)
-                return None if truth is None else not truth
-            case ast.Compare(left=left, ops=[ast.Eq()], comparators=[right]):
-                texts = self.value(left, names), self.value(right, names)
-                known = [text for text in texts if isinstance(text, str)]
-                return known[0] == known[1] if len(known) == len(texts) else None
-            case _:
-                return None
+                self.value(call, names)
 
     def value(self, node: ast.expr | None, names: Names) -> PythonValue:
         """Return the value of an expression."""
         self._left -= 1
         if node is None or self._left < 0:
             return None
+        value = self._value(node, names)
+        known = self.values.setdefault(id(node), value)
+        self.values[id(node)] = either(known, value)
+        return value
+
+    def _value(self, node: ast.expr, names: Names) -> PythonValue:
         match node:
             case ast.Constant(value=str() | bool() | int() | float() as value):
                 return str(value)
@@ -227,8 +238,10 @@ class PythonReader:
             case ast.BinOp(left=left, op=ast.Div(), right=right):
                 both = (self.value(left, names), self.value(right, names))
                 return Joined(tuple(as_text(each) for each in both), is_path=True)
+            case ast.BinOp(left=left, op=ast.Mod(), right=right):
+                return formatted(self.value(left, names), self.value(right, names))
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                known = self._truth(test, names)
+                known = truth_of(test, partial(self.value, names=names))
                 both = [self.value(each, names) for each in (body, orelse)]
                 return either(*both) if known is None else both[0 if known else 1]
             case ast.ListComp(elt=inner, generators=[loop]):
@@ -247,7 +260,7 @@ class PythonReader:
                 more = added(found, self.value(part.value, names))
                 found = more if isinstance(more, Listing) else found
             else:
-                item = (self.value(part, names), self.place(part))
+                item = (self.value(part, names), part)
                 found = Listing((*found.items, item), found.complete)
         return found
 
@@ -257,8 +270,8 @@ class PythonReader:
             value = self.value(inner, names)
             if key is not None:
                 name = as_text(self.value(key, names))
-                pairs = (*found.pairs, (name, value, self.place(inner)))
-                found = Table(pairs, found.complete)
+                pair = Pair(name, value, key, inner)
+                found = Table((*found.pairs, pair), found.complete)
             elif isinstance(value, Table):
                 found = Table((*found.pairs, *value.pairs), found.complete)
             else:
@@ -271,29 +284,29 @@ class PythonReader:
         over = self.value(loop.iter, names)
         if not isinstance(over, Listing) or not over.complete or loop.ifs:
             return Listing((), complete=False)
-        items: list[tuple[PythonValue, Place]] = []
+        items: list[tuple[PythonValue, ast.expr]] = []
         for item, _ in over.items:
             local = dict(names)
             assign(loop.target, item, local)
-            items.append((self.value(inner, local), self.place(inner)))
+            items.append((self.value(inner, local), inner))
         return Listing(tuple(items))
 
     def _call(self, call: ast.Call, names: Names) -> PythonValue:
         name = call_name(call.func)
+        given = [*call.args, *(each.value for each in call.keywords)]
+        values = {id(node): self.value(node, names) for node in given}
         if isinstance(call.func, ast.Attribute):
             owner = self.value(call.func.value, names)
             if name in _SAME:
                 return owner
+            if name in _OF_MODULES and isinstance(owner, (str, Joined)):
+                return None
             if name == "find" and isinstance(owner, ShareFolder) and call.args:
-                return ShareFolder(as_text(self.value(call.args[0], names)))
+                return ShareFolder(as_text(values[id(call.args[0])]))
         elif isinstance(known := names.get(name), ast.FunctionDef):
-            given = [self.value(argument, names) for argument in call.args]
-            return self._result(known, names, given)
+            return self._result(known, names, [values[id(each)] for each in call.args])
         build = self._calls.get(name)
         if build is None:
             return None
-        value, result = (
-            partial(self.value, names=names),
-            partial(self.result_of, names=names),
-        )
-        return build(Call(call, self._shown, value, result))
+        result = partial(self.result_of, names=names)
+        return build(Call(call, self._shown, lambda node: values.get(id(node)), result))

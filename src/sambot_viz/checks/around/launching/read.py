@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import ast
-
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
 from sambot_viz.checks.around.launching.actions import Action
 from sambot_viz.checks.around.launching.frontend_reader import (
     element_of,
     read_frontend,
 )
-from sambot_viz.checks.around.launching.python_calls import read_python
+from sambot_viz.checks.around.launching.python_calls import CALLS
+from sambot_viz.checks.around.launching.python_reader import PythonReader
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import parse_xml
 
 
 def read_actions(
-    text: str, path: str, shown: str, read: ast.Module | YamlFile | None
+    text: str, path: str, shown: str, read: YamlFile | None
 ) -> tuple[Action, ...] | None:
     """Return what a launch file does; None for one that is not readable.
 
@@ -25,13 +24,13 @@ def read_actions(
         text: the file.
         path: relative to the package.
         shown: the path as the user would write it.
-        read: the file, where it was read for other reasons.
+        read: a YAML file, where it was read for other reasons.
     """
     if path.endswith(".py"):
-        tree = read if isinstance(read, ast.Module) else parse_python(text)
-        return None if tree is None else read_python(tree, shown)
+        tree = parse_python(text)
+        return None if tree is None else PythonReader(tree, shown, CALLS).read()
     if path.endswith((".yaml", ".yml")):
-        file = read if isinstance(read, YamlFile) else read_yaml(text, path, shown)
+        file = read or read_yaml(text, path, shown)
         return None if file is None else read_frontend(element_of(file))
     try:
         return read_frontend(parse_xml(text, shown))

@@ -22,6 +22,7 @@ from sambot_viz.checks.around.launching.actions import (
     StartProcess,
     UnknownAction,
 )
+from sambot_viz.checks.around.launching.texts import LaunchTexts
 from sambot_viz.checks.around.running.includes import (
     actions_of_known,
     launch_file_of,
@@ -38,7 +39,6 @@ from sambot_viz.checks.around.running.system import (
     Starts,
     UnknownStart,
 )
-from sambot_viz.checks.around.running.texts import LaunchTexts
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.errors import Place
 

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 import ast
+import glob
+import os
 import posixpath
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import islice
 from pathlib import Path
 
-from sambot_viz.checks.around.files.python_values import Items, PythonValues
+from sambot_viz import limits
+from sambot_viz.checks.around.launching.python_calls import CALLS
+from sambot_viz.checks.around.launching.python_parts import (
+    Call,
+    Listing,
+    PythonValue,
+    Table,
+)
+from sambot_viz.checks.around.launching.texts import LaunchTexts
+from sambot_viz.checks.around.python_values import PythonValues, Texts
 from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.errors import Place
 
@@ -19,6 +31,7 @@ _WRITING = frozenset(
     "open call check_call check_output copy copy2 copytree generate_distutils_setup "
     "makedirs mkdir Popen run symlink system touch write write_text".split()
 )
+_GLOBS = ("glob", "iglob")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,14 +47,14 @@ class DataFiles:
 
     node: ast.expr
     target: str | None
-    files: Items
+    files: Texts
     paths: ast.expr | None
 
     @property
     def globs(self) -> Iterator[ast.Call]:
         """The calls of glob that give its files."""
         for node in ast.walk(self.paths) if self.paths is not None else ():
-            if isinstance(node, ast.Call) and call_name(node.func) in ("glob", "iglob"):
+            if isinstance(node, ast.Call) and call_name(node.func) in _GLOBS:
                 yield node
 
 
@@ -88,7 +101,9 @@ class SetupFile:
     @cached_property
     def values(self) -> PythonValues:
         """The texts and lists of the file."""
-        return PythonValues(self.tree, self.folder if self.trusted else None)
+        globs = dict.fromkeys(_GLOBS, partial(_glob, self.folder))
+        calls = {**CALLS, **(globs if self.trusted else {})}
+        return PythonValues(self.tree, self.shown, calls)
 
     @cached_property
     def call(self) -> ast.Call | None:
@@ -118,12 +133,14 @@ class SetupFile:
     def share(self, package: str, below: str) -> str:
         """Write a folder of the share folder of a package as this file would."""
         tail = f"/{below}" if below else ""
-        if self.values.variable("package_name") == package:
-            return (
-                f"'share/' + package_name + '{tail}'"
-                if tail
-                else ("'share/' + package_name")
-            )
+        for step in self.tree.body:
+            match step:
+                case ast.Assign(targets=[ast.Name(id="package_name")], value=value):
+                    if self.values.text(value) == package:
+                        more = f" + '{tail}'" if tail else ""
+                        return f"'share/' + package_name{more}"
+                case _:
+                    pass
         return f"'share/{package}{tail}'"
 
     def globbed(self, pattern: str) -> str | None:
@@ -143,15 +160,12 @@ class SetupFile:
         return tuple(self._data_files())
 
     def _data_files(self) -> Iterator[DataFiles]:
-        for node, value in self.values.items(self.given("data_files")).items:
-            if isinstance(value, Items) and value.complete and len(value.items) == 2:
-                (_, target), (paths, files) = value.items
-                yield DataFiles(
-                    node,
-                    target.rstrip("/") if isinstance(target, str) else None,
-                    files if isinstance(files, Items) else Items((), complete=False),
-                    paths,
-                )
+        for value, node in self.values.items(self.given("data_files")).items:
+            if isinstance(value, Listing) and value.complete and len(value.items) == 2:
+                (first, _), (files, paths) = value.items
+                target = self.values.said(first)
+                target = None if target is None else target.rstrip("/")
+                yield DataFiles(node, target, self.values.listed(files), paths)
 
     @cached_property
     def not_files(self) -> tuple[tuple[DataFiles, ast.expr, str], ...]:
@@ -164,7 +178,7 @@ class SetupFile:
         return tuple(
             (entry, node, path)
             for entry, node, path in listed
-            if isinstance(path, str)
+            if path is not None
             and not posixpath.isabs(path)
             and ".." not in path.split("/")
             and not (self.folder / path).is_file()
@@ -180,18 +194,18 @@ class SetupFile:
             and not self.not_files
             and all_.complete
             and len(pairs) == len(all_.items)
-            and all(p.target is not None and p.files.known for p in pairs)
+            and all(p.target and p.files.known is not None for p in pairs)
         )
 
     @cached_property
-    def scripts(self) -> Items:
+    def scripts(self) -> Texts:
         """The items of console_scripts."""
-        table = self.given("entry_points")
-        if isinstance(table, ast.Dict):
-            for key, value in zip(table.keys, table.values, strict=True):
-                if isinstance(key, ast.Constant) and key.value == "console_scripts":
-                    return self.values.items(value)
-        return Items((), complete=table is None)
+        given = self.given("entry_points")
+        table = self.values.of(given)
+        for pair in table.pairs if isinstance(table, Table) else ():
+            if pair.key == "console_scripts":
+                return self.values.listed(pair.value)
+        return Texts((), complete=given is None)
 
     @cached_property
     def programs(self) -> tuple[EntryPoint, ...]:
@@ -199,7 +213,7 @@ class SetupFile:
         matches = (
             (node, _ENTRY.fullmatch(text))
             for node, text in self.scripts.items
-            if isinstance(text, str)
+            if text is not None
         )
         return tuple(EntryPoint(m[1], m[2], m[3], n) for n, m in matches if m)
 
@@ -210,3 +224,20 @@ def read_setup(
     """Read a setup.py; None when it is not Python."""
     tree = parse_python(text)
     return None if tree is None else SetupFile(tree, shown, folder, trusted)
+
+
+def _glob(folder: Path, call: Call) -> PythonValue:
+    """Return what a glob finds; None when that is not certain."""
+    pattern = LaunchTexts().text(call.text("pathname", 0, None))
+    if pattern is None or os.path.isabs(pattern) or ".." in pattern.split("/"):
+        return None
+    deep = call.given("recursive") is not None
+    found = glob.iglob(pattern, root_dir=folder, recursive=deep)
+    most = limits.LAUNCH_VALUE.value
+    try:
+        paths = sorted(islice(found, most + 1))
+    except OSError:
+        return None
+    slashed = (posixpath.normpath(path.replace(os.sep, "/")) for path in paths)
+    listing = Listing(tuple((path, call.node) for path in slashed))
+    return listing if len(paths) <= most else None
