@@ -85,7 +85,7 @@ def test_below_a_namespace_names_are_not_the_final_ones(copied: Copied) -> None:
     edit(
         package / LAUNCH,
         'executable="ekf_node",',
-        'executable="ekf_node",\n        namespace="cart1",',
+        'executable="ekf_node",\n        namespace=LaunchConfiguration("name"),',
     )
     assert codes(package) == []
 

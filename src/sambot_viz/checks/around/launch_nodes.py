@@ -6,15 +6,11 @@ import ast
 import posixpath
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.launch_code import bound_names
-from sambot_viz.checks.around.launch_file import LaunchFile, LaunchNode
-from sambot_viz.checks.around.launch_paths import OWN_NAMES
+from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call, Pair, Table
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -168,64 +164,6 @@ def rviz_without_option(around: Surroundings) -> Iterator[Problem]:
                     "is not opened",
                     f"write '-d', {ast.unparse(node)}",
                 )
-
-
-def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
-    """Report a node that does not get the file with its parameters."""
-    used = {
-        around.shown(fact.value) for launch in around.launches for fact in launch.paths
-    }
-    said = {text for launch in around.launches for text in launch.strings}
-    for launch in around.launches:
-        for node in launch.nodes:
-            name = node.name or OWN_NAMES.get(node.executable)
-            if not name or node.files or not node.complete or node.arguments:
-                continue
-            files = [
-                (package, file)
-                for package in around.packages
-                for file in package.yaml_files
-                if name in {key.rpartition("/")[2] for key in file.nodes}
-            ]
-            if len(files) != 1:
-                continue
-            ((package, file),) = files
-            unsaid = not any(posixpath.basename(file.path) in text for text in said)
-            if file.shown not in used and unsaid and not _gives(launch, node, file):
-                yield _left_out(launch, node, name, file, package)
-
-
-def _gives(launch: LaunchFile, node: LaunchNode, file: YamlFile) -> bool:
-    """Tell whether a launch file itself gives a node parameters that a file has."""
-    names = {p.name for p in file.parameters} - {"use_sim_time"}
-    return any(
-        pair.key in names
-        for call in launch.calls
-        if call.place == node.place
-        for item, _ in call.listing("parameters").items
-        if isinstance(item, Table)
-        for pair in item.pairs
-    )
-
-
-def _left_out(
-    launch: LaunchFile,
-    node: LaunchNode,
-    name: str,
-    file: YamlFile,
-    package: Package,
-) -> Problem:
-    key = next(k for k in file.nodes if k.rpartition("/")[2] == name)
-    share = launch.named(f"{SHARE}{package.name}")
-    share = share or f"get_package_share_directory('{package.name}')"
-    return Problem.at(
-        node.place,
-        "warning",
-        "launch-parameters-missing",
-        f"no node is given the parameters for {name} "
-        f"({where(file.nodes[key], node.place)}): it runs with its defaults",
-        f"add os.path.join({share}, '{file.path}') to its parameters",
-    )
 
 
 def state_publishers(around: Surroundings) -> Iterator[Problem]:

@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import YamlFile
-from sambot_viz.checks.around.launch_file import LaunchFile, LaunchNode
+from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
@@ -127,40 +127,9 @@ def _near(below: str, paths: Sequence[str]) -> str | None:
     return nearest(below, sorted({*beside} & {*alike}), likeness=0.0)
 
 
-def unread_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report parameter files in which a node does not find its name."""
-    files = {file.shown: file for file in around.yaml_files}
-    for launch in around.launches:
-        for node in launch.nodes:
-            name = node.name or OWN_NAMES.get(node.executable)
-            for given in node.files if node.complete and name else ():
-                file = files.get(around.shown(given.value) or "")
-                if file is not None and name and not _has(file, name):
-                    yield _unread(node, name, given, file)
-
-
 def _has(file: YamlFile, name: str) -> bool:
     parts = {part for key in file.nodes for part in key.split("/")}
     return not parts or name in parts or any("*" in part for part in parts)
-
-
-def _unread(node: LaunchNode, name: str, given: Fact, file: YamlFile) -> Problem:
-    near = nearest(name, file.nodes, likeness=0.0) or next(iter(file.nodes))
-    place = file.nodes[near]
-    bare = near.rpartition("/")[2]
-    return Problem.at(
-        given.place,
-        "warning",
-        "launch-parameters-unread",
-        f"the node {name} reads none of these parameters: they are for {near} "
-        f"({where(place, given.place)})",
-        write(
-            node.place,
-            name,
-            bare,
-            hint=f"write name='{bare}' for the node, or {name}: in the file",
-        ),
-    )
 
 
 def world_names(around: Surroundings) -> Iterator[Problem]:

@@ -15,14 +15,24 @@ from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
 
 _FILTERED = "odometry/filtered"
+_COMMANDS = frozenset({"Twist", "TwistStamped"})
+"""Who sends these is often started by hand."""
 
 
 class Published(NamedTuple):
-    """A topic in ROS: its name with its place, its type, and who publishes it."""
+    """A topic in ROS.
+
+    Attributes:
+        topic: its name, with its place.
+        kind: its type, without the package.
+        what: who publishes it.
+        is_simulated: it comes from Gazebo, not from a node that reads others.
+    """
 
     topic: Fact
     kind: str
     what: str
+    is_simulated: bool
 
 
 class ReadTopic(NamedTuple):
@@ -61,7 +71,7 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
             # What a node publishes itself it does not read.
             if p.kind == kind and p.what != one.reader
         }
-        if not known or is_open(name) or name == _FILTERED:
+        if not known or is_open(name) or name == _FILTERED or kind in _COMMANDS:
             continue
         if any(other.name in known for other in used if _same(other, one)):
             # Another file fits this simulation; this one is for another robot.
@@ -93,7 +103,7 @@ def _unknown(read: ReadTopic, source: Published) -> Problem:
 def _only(known: Mapping[str, Published], around: Surroundings) -> str | None:
     """The one topic of a type, when nobody else can publish another."""
     alone = len(known) == 1 and around.simulates_only_known
-    return next(iter(known)) if alone else None
+    return next((k for k, p in known.items() if alone and p.is_simulated), None)
 
 
 def _renamed(
@@ -146,7 +156,8 @@ def _meant(name: str, known: dict[str, Published]) -> str | None:
     """The topic that is meant: the same below another name, or a similar one."""
     last = name.rpartition("/")[2]
     same = [k for k in known if k.rpartition("/")[2] == last]
-    return same[0] if same else nearest(name, known)
+    below = [k for k in known if k.startswith(f"{name}/")]
+    return next(iter((*same, *below)), None) or nearest(name, known)
 
 
 def used_topics(around: Surroundings) -> list[ReadTopic]:
@@ -181,8 +192,10 @@ def published_topics(around: Surroundings) -> Iterator[Published]:
     plugins = {plugin.filename for plugin in around.plugins}
     for node in around.running.started:
         what = node.path.strip("/")
-        if node.is_bridge or node.executable in plugins:
+        is_simulated = node.is_bridge or node.executable in plugins
+        if is_simulated:
             what = "the bridge" if node.is_bridge else f"the plugin {node.executable}"
         for end in node.endpoints if _is_placed(around, node) else ():
             if end.publishes and not end.in_gazebo:
-                yield Published(Fact(end.topic, end.place), end.message, what)
+                topic = Fact(end.topic, end.place)
+                yield Published(topic, end.message, what, is_simulated)

@@ -31,6 +31,10 @@ from sambot_viz.checks.around.build_file import (
     unreadable_cmake,
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.controllers import (
+    undeclared_controllers,
+    unknown_controllers,
+)
 from sambot_viz.checks.around.drives import (
     misspelt_elements,
     wrong_sides,
@@ -77,13 +81,11 @@ from sambot_viz.checks.around.launch_nodes import (
     arguments_without_list,
     descriptions,
     namespaces,
-    parameters_left_out,
     rviz_without_option,
     state_publishers,
 )
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
-    unread_parameters,
     world_names,
 )
 from sambot_viz.checks.around.launch_uses import (
@@ -113,6 +115,10 @@ from sambot_viz.checks.around.nav2_sections import (
     unknown_plugins,
     unknown_sections,
     unread_sections,
+)
+from sambot_viz.checks.around.node_parameters import (
+    parameters_left_out,
+    unread_parameters,
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
 from sambot_viz.checks.around.own_names import setup_name, unknown_packages
@@ -262,6 +268,8 @@ OF_FILES: tuple[Check, ...] = (
     started_twice,
     missing_files,
     unread_parameters,
+    undeclared_controllers,
+    unknown_controllers,
     world_names,
     unreadable_worlds,
     plugins_of_worlds,

@@ -11,7 +11,6 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
-from sambot_viz.checks.around.gazebo_starts import may_start
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
@@ -92,8 +91,7 @@ class Surroundings:
     @property
     def simulates_only_known(self) -> bool:
         """True when Gazebo is started, and nothing whose topics are not known."""
-        simulates = any(may_start(launch) for launch in self.launches)
-        return simulates and self.running.is_known
+        return self.running.simulates and self.running.is_known
 
     def launch_texts(self) -> Iterator[tuple[LaunchFile, str]]:
         """Give the Python launch files with their texts."""

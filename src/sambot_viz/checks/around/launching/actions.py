@@ -152,6 +152,7 @@ class StartNode(Action):
         remappings: topic, and what it becomes.
         arguments: its arguments.
         complete: its parameters and arguments are all known.
+        argument_places: the place of each of the arguments, where these have their own.
     """
 
     package: Expression
@@ -162,6 +163,7 @@ class StartNode(Action):
     remappings: tuple[tuple[Expression, Expression], ...] = ()
     arguments: tuple[Expression, ...] = ()
     complete: bool = True
+    argument_places: tuple[Place, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,6 +89,7 @@ def _node(call: Call) -> PythonValue:
         remappings,
         tuple(as_text(item) for item, _ in arguments.items),
         known and all_known and arguments.complete and call.complete,
+        tuple(call.place_of(node) for _, node in arguments.items),
     )
 
 

@@ -90,17 +90,17 @@ def entries_of_file(file: YamlFile) -> Iterator[BridgeEntry]:
 
 
 def entries_in(
-    arguments: Iterable[str | None], remappings: Iterable[tuple[str, str]], place: Place
+    arguments: Iterable[tuple[str | None, Place]],
+    remappings: Iterable[tuple[str, str]],
 ) -> Iterator[BridgeEntry]:
     """Give the entries in the arguments of a bridge.
 
     Args:
-        arguments: its arguments.
+        arguments: its arguments with their places.
         remappings: topic → topic.
-        place: of the node.
     """
     names = list(remappings)
-    for argument in arguments:
+    for argument, place in arguments:
         found = _BRIDGED.fullmatch(argument or "")
         if found is not None:
             topic, ros_type, arrow, gz_type = found.groups()

@@ -95,6 +95,7 @@ def with_endpoints(
         transforms=tuple(_transforms(node, known)),
         needs=tuple(_needs(node, known)),
         endpoints_known=True,
+        is_simulator=known.does("simulator"),
     )
 
 
@@ -204,7 +205,7 @@ def entries_of(
         node: the bridge.
         find: returns a package that is here by its name.
     """
-    yield from entries_in(node.arguments, node.remappings, node.place)
+    yield from entries_in(node.placed_arguments, node.remappings)
     given = node.parameter("config_file")
     path = given.value if given is not None else None
     name, _, below = (path or "").removeprefix(SHARE).partition("/")

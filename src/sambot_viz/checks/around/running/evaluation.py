@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 
 from sambot_viz import limits
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -13,27 +12,25 @@ from sambot_viz.checks.around.launching.actions import (
     ActionGroup,
     Expression,
     ForNodes,
-    FromFile,
     Given,
     IncludeFile,
-    RobotText,
     SetArgument,
     StartNode,
     StartProcess,
     UnknownAction,
 )
 from sambot_viz.checks.around.launching.texts import LaunchTexts
+from sambot_viz.checks.around.running.given import NodeParameters, given_to
 from sambot_viz.checks.around.running.includes import (
     actions_of_known,
-    launch_file_of,
+    installed_as,
 )
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.running.parameter_files import (
-    located,
     options_in,
-    parameters_for,
 )
 from sambot_viz.checks.around.running.system import (
+    GivenFile,
     GivenParameter,
     RunningNode,
     Starts,
@@ -120,7 +117,7 @@ class LaunchEvaluation:
                 self._node(action)
             case StartProcess():
                 self._process(action)
-            case IncludeFile() if self._starts != "no":
+            case IncludeFile():
                 self._include(action)
             case ActionGroup(actions=actions, scoped=True):
                 with self._scope():
@@ -129,8 +126,8 @@ class LaunchEvaluation:
                 self._all(actions)
             case ForNodes() if self._starts != "no":
                 self._for_nodes(action)
-            case UnknownAction(what=what) if self._starts != "no":
-                self.unknown.append(UnknownStart(what, action.place))
+            case UnknownAction(what=what):
+                self._not_known(what, action.place)
             case _:
                 pass
 
@@ -158,8 +155,8 @@ class LaunchEvaluation:
         if action.namespace != "":
             below = self._below(action.namespace)
             self._namespace = below if certain else None
-        values, _ = self._parameters(action.given, "", None)
-        self._given = (*self._given, *values)
+        given = self._parameters(action.given, "", None)
+        self._given = (*self._given, *given.values)
         self._remappings = (*self._pairs(action.remappings), *self._remappings)
 
     def _below(self, name: Expression) -> str | None:
@@ -183,24 +180,29 @@ class LaunchEvaluation:
         }
         name, _, below = (path or "").removeprefix(SHARE).partition("/")
         if path is None or not path.startswith(SHARE):
-            self.unknown.append(UnknownStart("a launch file", action.place))
+            self._not_known("a launch file", action.place)
             return
         package = self._find(name)
-        file = None if package is None else launch_file_of(package, below)
+        file = None if package is None else installed_as(package, below)
         known = known_nodes().launches.get((name, below.rpartition("/")[2]))
         self._texts.arguments |= given
         chain = self._chain
         self._chain = (*chain, action.place)
         if package is not None and file is not None:
-            self.included.add((package, file))
-            if (package, file) not in self._files:
-                self.run(package, file)
+            if self._starts != "no":
+                self.included.add((package, file))
+                if (package, file) not in self._files:
+                    self.run(package, file)
         elif known is not None:
             self._all(actions_of_known(known, action.place))
         elif package is not None or name not in known_nodes().packages:
             what = f"{below.rpartition('/')[2]} of {name}"
-            self.unknown.append(UnknownStart(what, action.place))
+            self._not_known(what, action.place)
         self._chain = chain
+
+    def _not_known(self, what: str, place: Place) -> None:
+        if self._starts != "no":
+            self.unknown.append(UnknownStart(what, place))
 
     def _process(self, action: StartProcess) -> None:
         words = " ".join(self._texts.text(word) or "" for word in action.words).split()
@@ -223,7 +225,7 @@ class LaunchEvaluation:
         namespace = self._below(action.namespace)
         moved = [new for old, new in options["remap"] if old == "__ns"]
         namespace = moved[-1] if moved else namespace
-        values, complete = self._parameters(action.given, name or "", namespace)
+        given = self._parameters(action.given, name or "", namespace)
         in_words = (
             GivenParameter(old, (new,), action.place) for old, new in options["value"]
         )
@@ -238,10 +240,12 @@ class LaunchEvaluation:
             name or "",
             action.place,
             namespace=namespace or "",
-            parameters=(*self._given, *values, *in_words),
-            known=complete and action.complete and not options["file"],
+            parameters=(*self._given, *given.values, *in_words),
+            files=given.files,
+            known=given.complete and action.complete and not options["file"],
             remappings=remappings,
             arguments=words,
+            argument_places=action.argument_places,
         )
 
     def _add(
@@ -256,6 +260,8 @@ class LaunchEvaluation:
         known: bool = True,
         remappings: Pairs = (),
         arguments: tuple[str | None, ...] = (),
+        argument_places: tuple[Place, ...] = (),
+        files: tuple[GivenFile, ...] = (),
     ) -> None:
         self.nodes.append(
             RunningNode(
@@ -270,6 +276,8 @@ class LaunchEvaluation:
                 arguments,
                 place,
                 self._chain,
+                argument_places=argument_places,
+                files=files,
             )
         )
 
@@ -282,55 +290,9 @@ class LaunchEvaluation:
 
     def _parameters(
         self, given: Iterable[Given], name: str, namespace: str | None
-    ) -> tuple[list[GivenParameter], bool]:
-        """Return parameters, and whether they are all."""
-        found: list[GivenParameter] = []
-        complete = True
-        for each in given:
-            if isinstance(each, FromFile):
-                read = self._from_file(each, name, namespace)
-                complete = complete and read is not None and not each.rewritten
-                found += read or ()
-                continue
-            key = self._texts.text(each.name)
-            if key is None:
-                complete = False
-                continue
-            settled = [self._texts.settled(value) for value in each.values or ()]
-            robot = settled[0] if settled else None
-            texts = (value for value in settled if isinstance(value, str))
-            values = tuple(located(self._files[-1][0], value) for value in texts)
-            whole = each.values is not None and len(values) == len(settled)
-            source = robot.source if isinstance(robot, RobotText) else None
-            found.append(
-                GivenParameter(
-                    key,
-                    values if whole else None,
-                    each.place,
-                    robot=source if isinstance(source, str) else "",
-                    is_robot=isinstance(robot, RobotText),
-                )
-            )
-        return found, complete
-
-    def _from_file(
-        self, given: FromFile, name: str, namespace: str | None
-    ) -> list[GivenParameter] | None:
-        path = located(self._files[-1][0], self._texts.text(given.path) or "")
-        if not path.startswith(SHARE):
-            return None
-        package = self._find(path.removeprefix(SHARE).partition("/")[0])
-        if package is None:
-            return None
-        below = path.removeprefix(SHARE).partition("/")[2]
-        file = next((f for f in package.yaml_files if f.path == below), None)
-        if file is None:
-            return None
-        space = None if given.rewritten else namespace
-        return [
-            replace(each, given_at=given.place)
-            for each in parameters_for(file, name, space)
-        ]
+    ) -> NodeParameters:
+        package = self._files[-1][0]
+        return given_to(given, self._texts, package, self._find, name, namespace)
 
 
 def _both(around: Starts, truth: bool | None) -> Starts:

@@ -15,8 +15,8 @@ from sambot_viz.checks.around.workspace import Package
 from sambot_viz.errors import Place
 
 
-def launch_file_of(package: Package, below: str) -> str | None:
-    """Return the launch file that a path means; it may be installed elsewhere."""
+def installed_as(package: Package, below: str) -> str | None:
+    """Return the file that a path means; it may be installed in another folder."""
     if below in package.paths:
         return below
     last = below.rpartition("/")[2]

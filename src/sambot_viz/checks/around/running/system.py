@@ -106,6 +106,21 @@ class GivenParameter:
 
 
 @dataclass(frozen=True, slots=True)
+class GivenFile:
+    """A file with parameters that a node is given.
+
+    Attributes:
+        shown: the file, as the user would write it.
+        place: where the launch file names it.
+        is_read: it has parameters for this node.
+    """
+
+    shown: str
+    place: Place
+    is_read: bool
+
+
+@dataclass(frozen=True, slots=True)
 class RunningNode:
     """A node that launch files start, or Gazebo.
 
@@ -126,6 +141,9 @@ class RunningNode:
         transforms: the transforms it publishes, as far as is known.
         needs: the frames that it needs.
         endpoints_known: it has no other topics and transforms.
+        is_simulator: it is Gazebo itself.
+        argument_places: the place of each of its arguments, where these have their own.
+        files: the files with parameters that it is given, as far as they are here.
     """
 
     package: str
@@ -143,6 +161,15 @@ class RunningNode:
     transforms: tuple[PublishedTransform, ...] = ()
     needs: tuple[NeededFrame, ...] = ()
     endpoints_known: bool = False
+    is_simulator: bool = False
+    argument_places: tuple[Place, ...] = ()
+    files: tuple[GivenFile, ...] = ()
+
+    @property
+    def placed_arguments(self) -> tuple[tuple[str | None, Place], ...]:
+        """The arguments, each with its place."""
+        places = self.argument_places or (self.place,) * len(self.arguments)
+        return tuple(zip(self.arguments, places, strict=False))
 
     @property
     def path(self) -> str:
@@ -198,6 +225,11 @@ class RunningSystem:
     def started(self) -> tuple[RunningNode, ...]:
         """The nodes that start, or may."""
         return tuple(node for node in self.nodes if node.starts != "no")
+
+    @property
+    def simulates(self) -> bool:
+        """True when Gazebo starts, or may."""
+        return any(node.is_simulator for node in self.started)
 
     @property
     def is_known(self) -> bool:

@@ -1,0 +1,114 @@
+"""Controllers of ros2_control: their names and classes, and who asks for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.known import known_nodes
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.edits import write
+from sambot_viz.errors import Problem, nearest
+
+_MANAGER, _TYPE = "controller_manager", ".type"
+_WITH_VALUE = frozenset(
+    """
+    -c --controller-manager -p --param-file -t --controller-type -n --namespace
+    --controller-manager-timeout --switch-timeout --service-call-timeout
+    --controller-ros-args
+    """.split()
+)
+"""Options of the spawner that have a value."""
+_LIKENESS, _LIKE_CLASS = 0.75, 0.5
+
+
+def _declared(around: Surroundings) -> dict[str, Parameter]:
+    """Return the controllers that a controller manager knows, by their names."""
+    return {
+        parameter.name.removesuffix(_TYPE): parameter
+        for parameter in around.parameters
+        if parameter.node.rpartition("/")[2] == _MANAGER
+        and parameter.name.endswith(_TYPE)
+    }
+
+
+def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report controllers that are started, or have parameters, under another name."""
+    declared = _declared(around)
+    if not declared:
+        return
+    known = known_nodes().nodes
+    for node in around.running.started:
+        program = known.get((node.package, node.executable))
+        if program is None or not program.does("spawns"):
+            continue
+        words = [word for word, _ in node.placed_arguments]
+        if any(word in (None, "-p", "--param-file", "-t") for word in words):
+            # What it brings itself is not known.
+            continue
+        before = ""
+        for word, place in node.placed_arguments:
+            name, option, before = word or "", before, word or ""
+            if name.startswith("-") or option in _WITH_VALUE:
+                continue
+            near = nearest(name, declared, _LIKENESS) if name not in declared else None
+            if near is not None:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "controller-unknown",
+                    f"the spawner asks for the controller {name}, but the controller "
+                    f"manager knows {near} ({where(declared[near].place, place)}): it "
+                    "waits, and the controller does not start",
+                    write(place, name, near),
+                )
+    yield from _unread_sections(around, declared)
+
+
+def _unread_sections(
+    around: Surroundings, declared: dict[str, Parameter]
+) -> Iterator[Problem]:
+    """Report parameters for a controller that no controller manager knows."""
+    for file in around.yaml_files:
+        own = {n: p for n, p in declared.items() if p.place.file == file.shown}
+        sections = {key.rpartition("/")[2] for key in file.nodes}
+        free = [name for name in own if name not in sections]
+        for key in file.nodes:
+            name = key.rpartition("/")[2]
+            if name in own or name == _MANAGER or "*" in name:
+                continue
+            near = nearest(name, free, _LIKENESS)
+            place = file.keys.get(key, file.nodes[key])
+            if near is not None:
+                yield Problem.at(
+                    place,
+                    "warning",
+                    "controller-unknown",
+                    f"no controller is called {name}: the controller manager knows "
+                    f"{near} ({where(own[near].place, place)}), which has no "
+                    "parameters then",
+                    write(place, name, near),
+                )
+
+
+def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
+    """Report classes of controllers that their package does not have."""
+    classes = vocabulary("controllers")
+    packages = {name.partition("/")[0] for name in classes}
+    for parameter in _declared(around).values():
+        kind = parameter.fact.value
+        package = kind.partition("/")[0]
+        right = package if package in packages else nearest(package, packages, 0.8)
+        alike = [name for name in classes if name.startswith(f"{right}/")]
+        near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None
+        if near is not None:
+            yield Problem.at(
+                parameter.value_place,
+                "warning",
+                "controller-unknown",
+                f"{right} has no controller {kind}: the controller manager cannot "
+                "load it",
+                write(parameter.value_place, kind, near),
+            )

@@ -1,0 +1,121 @@
+"""Parameters in files that the node they are for does not get, or does not read."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.files.gazebo import facts
+from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.includes import installed_as
+from sambot_viz.checks.around.running.known import known_nodes
+from sambot_viz.checks.around.running.system import GivenFile, RunningNode
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
+from sambot_viz.edits import write
+from sambot_viz.errors import Place, Problem, nearest
+
+
+def unread_parameters(around: Surroundings) -> Iterator[Problem]:
+    """Report parameter files in which none of the nodes that get them is named."""
+    files = {file.shown: file for file in around.yaml_files}
+    given: dict[tuple[str, Place], list[tuple[RunningNode, GivenFile]]] = {}
+    for node in around.running.nodes:
+        for each in node.files:
+            given.setdefault((each.shown, each.place), []).append((node, each))
+    for (shown, place), users in given.items():
+        file = files.get(shown)
+        if file is None or not file.nodes or any(each.is_read for _, each in users):
+            continue
+        if len({node.path for node, _ in users}) == 1 and users[0][0].name:
+            yield _unread(users[0][0], place, file)
+
+
+def _unread(node: RunningNode, given: Place, file: YamlFile) -> Problem:
+    own = [key for key in file.nodes if key.rpartition("/")[2] == node.name]
+    near = next(iter(own), None) or nearest(node.name, file.nodes, likeness=0.0)
+    key = near or next(iter(file.nodes))
+    bare, written = key.rpartition("/")[2], file.keys.get(key, file.nodes[key])
+    name = node.path.removeprefix("/")
+    # A launch file of another package starts it, under this name.
+    if own or node.place == given:
+        return Problem.at(
+            written,
+            "warning",
+            "launch-parameters-unread",
+            f"the node {name}, which is given this file ({where(given, written)}), "
+            f"reads none of its parameters: they are for {key}",
+            write(written, bare, f"/**/{bare}" if own else node.name),
+        )
+    hint = f"write name='{bare}' for the node, or {node.name}: in the file"
+    return Problem.at(
+        given,
+        "warning",
+        "launch-parameters-unread",
+        f"the node {name} reads none of these parameters: they are for {key} "
+        f"({where(file.nodes[key], given)})",
+        write(node.place, node.name, bare, hint=hint),
+    )
+
+
+def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
+    """Report a node that does not get the file with its parameters."""
+    running = around.running
+    used = {each.shown for node in running.started for each in node.files}
+    said = {text for launch in around.launches for text in launch.strings}
+    plugins = {
+        fact.value for p in around.plugins for fact in facts(p.element, "parameters")
+    }
+    known = known_nodes()
+    for node in running.started:
+        if node.files or not node.parameters_known or node.starts != "yes":
+            continue
+        if not node.name or (node.arguments and node.name not in known.names):
+            continue
+        files = [
+            (package, file)
+            for package in around.packages
+            for file in package.yaml_files
+            if node.name in {key.rpartition("/")[2] for key in file.nodes}
+        ]
+        if len(files) != 1:
+            continue
+        ((package, file),) = files
+        name = posixpath.basename(file.path)
+        is_said = any(name in text for text in (*said, *plugins))
+        if is_said and not running.is_whole:
+            continue
+        if file.shown in used or any(name in text for text in plugins):
+            continue
+        if not _gives(node, file):
+            yield _left_out(around, node, file, package)
+
+
+def _gives(node: RunningNode, file: YamlFile) -> bool:
+    """Tell whether a launch file itself gives a node what a file has for it."""
+    keys = (key for key in file.nodes if key.rpartition("/")[2] == node.name)
+    names = {name for key in keys for name in file.of(key)} - {"use_sim_time"}
+    given = {each.name for each in node.parameters if not each.given_at}
+    return not names or not names.isdisjoint(given)
+
+
+def _left_out(
+    around: Surroundings, node: RunningNode, file: YamlFile, package: Package
+) -> Problem:
+    key = next(k for k in file.nodes if k.rpartition("/")[2] == node.name)
+    launches = (one for one in around.launches if one.shown == node.place.file)
+    launch = next(launches, None)
+    share = launch.named(f"package://{package.name}") if launch is not None else None
+    share = share or f"get_package_share_directory('{package.name}')"
+    named = (around.named(f.value) for one in around.launches for f in one.paths)
+    paths = (each[1] for each in named if each is not None and each[0] is package)
+    fitting = (path for path in paths if installed_as(package, path) == file.path)
+    return Problem.at(
+        node.place,
+        "warning",
+        "launch-parameters-missing",
+        f"no node is given the parameters for {node.name} "
+        f"({where(file.nodes[key], node.place)}): it runs with its defaults",
+        f"add os.path.join({share}, '{next(fitting, file.path)}') to its parameters",
+    )
