@@ -42,6 +42,9 @@ def test_the_edits_of_a_sample_leave_nothing_of_its_problem(tmp_path: Path) -> N
         after = {problem.code for problem in check(model, trusted=sample.trusted)}
         assert sample.code not in after, sample.code
         known = {problem.code for problem in before} | REVEALED.get(sample.code, set())
+        if sample.code.startswith("xml-"):
+            # What is not XML hides all else.
+            known |= {code for code in after if not code.startswith("xml-")}
         assert after <= known, sample.code
 
 

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from sambot_viz import limits
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.diagnose.lexer import (
+    ATTRIBUTE,
     CURLY,
     LexicalError,
     LexicalErrorKind,
     Token,
 )
 from sambot_viz.robot.xml.diagnose.prolog import other_file_problem, prolog_problems
-from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.robot.xml.diagnose.source_text import Change, SourceText
 from sambot_viz.robot.xml.diagnose.structure import structure_problems
 
 _MOST = 12
@@ -169,18 +171,26 @@ def _prefix_misspelt(
     hint = f"write <{right} …>" if name == token.name else f"write {right}"
     if name == token.name and token.kind == "open":
         hint += f" and </{right}>"
+    changes: list[Change] = []
+    if name == token.name:
+        spans = [(token.start + 1, token.start + 1 + len(name))]
+        closing = source.text.find(f"</{name}>", token.end)
+        if token.kind == "open":
+            spans.append((closing + 2, closing + 2 + len(name)))
+        changes = [(*span, right) for span in spans]
     return source.error(
         file,
         "xml-prefix-undeclared",
         token.start,
         f"the prefix of {name} is not declared; did you mean {near}:?",
         hint,
+        changes,
     )
 
 
 _ROWS: dict[LexicalErrorKind, tuple[str, str]] = {
     "ampersand": ("a bare & is not allowed in XML", "write &amp; instead of &"),
-    "attribute-twice": ("<{tag}> has the attribute {text} twice", "keep one {text}"),
+    "attribute-twice": ("<{tag}> has the attribute {text} twice{lacks}", "{keep}"),
     "attributes-run-together": (
         "in <{tag}> the attribute {text} comes directly after the value before it",
         "put a blank before {text}",
@@ -247,8 +257,80 @@ def lexical_problem(source: SourceText, file: str, error: LexicalError) -> Probl
         "first_line": error.text.partition("\n")[0][:60],
         "single_hyphens": _single_hyphens(error.text),
     }
+    other = _other_attribute(source, error)
+    facts["lacks"] = f", and no {other}" if other else ""
+    facts["keep"] = f"write {other} for one {name}" if other else f"keep one {name}"
     message, hint = (part.format_map(facts) for part in _ROWS[error.kind])
-    return source.error(file, f"xml-{error.kind}", offset, message, hint)
+    changes = [*_repair(source, error, value.strip(CURLY), hint, other)]
+    return source.error(file, f"xml-{error.kind}", offset, message, hint, changes)
+
+
+_ALL_OF = {
+    "cylinder": "radius length",
+    "inertia": "ixx ixy ixz iyy iyz izz",
+    "joint": "name type",
+    "limit": "lower upper effort velocity",
+    "origin": "xyz rpy",
+}
+"""Element of URDF → the attributes that it usually has, in their order."""
+
+
+def _attributes_at(source: SourceText, offset: int) -> list[re.Match[str]]:
+    """Return the attributes of the tag around an offset, those that are twice too."""
+    tag = next(t for t in source.tags if t.start < offset < t.end)
+    return [*ATTRIBUTE.finditer(source.text, tag.start, tag.end)]
+
+
+def _other_attribute(source: SourceText, error: LexicalError) -> str:
+    """Return the attribute that one of two equal ones was meant to be, or ""."""
+    if error.kind != "attribute-twice":
+        return ""
+    names = [each[1] for each in _attributes_at(source, error.offset)]
+    missing = [n for n in _ALL_OF.get(error.tag, "").split() if n not in names]
+    return missing[0] if len(missing) == 1 else ""
+
+
+def _repair(
+    source: SourceText, error: LexicalError, value: str, hint: str, other: str
+) -> Iterator[Change]:
+    """Yield what makes XML of a text with a lexical error."""
+    text, at, end = source.text, error.offset, error.end
+    match error.kind:
+        case "ampersand" | "less-than":
+            yield at, at + 1, "&amp;" if error.kind == "ampersand" else "&lt;"
+        case "attributes-run-together":
+            yield at, at, " "
+        case "quotes-curly" | "quotes-missing":
+            yield at, end, f'"{value}"'
+        case "quote-not-closed":
+            yield end, end, text[at]
+        case "tag-not-ended" if text[end - 1] == "/":
+            yield end, end, ">"
+        case "tag-not-ended":
+            following = re.compile(rf"<(/?){re.escape(error.tag)}[\s/>]").search(
+                text, end
+            )
+            yield end, end, ">" if following and following[1] else "/>"
+        case "comment-double-hyphen" if hint.startswith("write <!--"):
+            yield text.rindex("<!--", 0, at), end, hint.removeprefix("write ")
+        case "attribute-twice":
+            yield from _one_of_two(source, error, other)
+        case _:
+            pass
+
+
+def _one_of_two(
+    source: SourceText, error: LexicalError, other: str
+) -> Iterator[Change]:
+    """Yield the other name for one of two equal attributes, or delete a copy."""
+    found = _attributes_at(source, error.offset)
+    same = [n for n, each in enumerate(found) if each[1] == error.text]
+    if other:
+        place = _ALL_OF[error.tag].split().index(other)
+        wrong = found[min(reversed(same), key=lambda number: abs(number - place))]
+        yield *wrong.span(1), other
+    elif len({found[number][0].split("=")[1] for number in same}) == 1:
+        yield *found[same[-1]].span(), ""
 
 
 def _single_hyphens(comment: str) -> str:

@@ -35,7 +35,7 @@ MOST_ERRORS = 50
 
 _NAME_PATTERN = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
 _NAME = re.compile(_NAME_PATTERN)
-_ATTRIBUTE = re.compile(rf"\s+({_NAME_PATTERN})\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')")
+ATTRIBUTE = re.compile(rf"\s+({_NAME_PATTERN})\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')")
 _GOOD_TAG = re.compile(
     rf"<({_NAME_PATTERN})((?:\s+{_NAME_PATTERN}\s*=\s*(?:\"[^\"<]*\"|'[^'<]*'))*)"
     r"\s*(/?)>"
@@ -97,12 +97,16 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class LexicalError:
-    """A lexical error: its offset, the text it concerns, and the tag it is in."""
+    """A lexical error: its offset, the text it concerns, and the tag it is in.
+
+    `end` is behind what is replaced; what is missing is added there.
+    """
 
     kind: LexicalErrorKind
     offset: int
     text: str = ""
     tag: str = ""
+    end: int = -1
 
 
 @dataclass
@@ -151,11 +155,16 @@ class _Tokenizer(Reading):
         self.complete = True
 
     def _note_error(
-        self, kind: LexicalErrorKind, offset: int, text: str = "", tag: str = ""
+        self,
+        kind: LexicalErrorKind,
+        offset: int,
+        text: str = "",
+        tag: str = "",
+        end: int = -1,
     ) -> None:
         if len(self.errors) >= MOST_ERRORS:
             raise _UnknownError
-        self.errors.append(LexicalError(kind, offset, text, tag))
+        self.errors.append(LexicalError(kind, offset, text, tag, end))
 
     def _token(self, kind: TokenKind, start: int, end: int) -> int:
         self.tokens.append(Token(kind, start, end))
@@ -182,7 +191,7 @@ class _Tokenizer(Reading):
         text = self.text
         good = _GOOD_TAG.match(text, start)
         if good:
-            pieces = _ATTRIBUTE.finditer(text, good.start(2), good.end(2))
+            pieces = ATTRIBUTE.finditer(text, good.start(2), good.end(2))
             found = [Attribute(p[1], p[2] or p[3] or "", p.start(1)) for p in pieces]
             self._ampersands(good.start(2), good.end(2))
             kind = "empty" if good[3] else "open"
@@ -225,7 +234,10 @@ class _Tokenizer(Reading):
             self._note_error("comment-nested", start + 4 + nested)
         elif hyphens >= 0 or inner.endswith("-"):
             at = hyphens if hyphens >= 0 else len(inner) - 1
-            self._note_error("comment-double-hyphen", start + 4 + at, inner.strip())
+            end = close + 3
+            self._note_error(
+                "comment-double-hyphen", start + 4 + at, inner.strip(), "", end
+            )
         return self._token("comment", start, close + 3)
 
     def _loose_tag(self, start: int, tag: str, position: int) -> int:
@@ -239,7 +251,8 @@ class _Tokenizer(Reading):
             end = self._after_space(position + 1) if is_slash else position
             if text[end : end + 1] in ("", "<"):
                 written = text[start : position + is_slash].strip()
-                self._note_error("tag-not-ended", start, written, tag)
+                behind = start + len(written)
+                self._note_error("tag-not-ended", start, written, tag, behind)
                 kind = "empty" if is_slash else "open"
                 return self._tag(kind, start, end, tag, found)
             if text.startswith("/>", position):
@@ -266,12 +279,12 @@ class _Tokenizer(Reading):
             closing = _CURLY_END.search(text, start + 1)
             end = closing.start() if closing else len(text)
             value = text[start + 1 : end]
-            self._note_error("quotes-curly", start, f"{name[0]}={value}", tag)
             end += closing is not None and closing[0] not in "<>\n"
+            self._note_error("quotes-curly", start, f"{name[0]}={value}", tag, end)
         else:
             unquoted = _UNQUOTED.match(text, start)
             value, end = (unquoted[0], unquoted.end()) if unquoted else ("", start)
-            self._note_error("quotes-missing", position, f"{name[0]}={value}", tag)
+            self._note_error("quotes-missing", start, f"{name[0]}={value}", tag, end)
         found.append(Attribute(name[0], value, position))
         return end
 
@@ -282,11 +295,13 @@ class _Tokenizer(Reading):
         value = text[start + 1 : close] if close >= 0 else text[start + 1 :]
         swallowed = _NEXT_ATTRIBUTE.search(value)
         if close < 0 or swallowed or ("<" in value and "\n" in value):
-            self._note_error("quote-not-closed", start, f"{name}={quote}", tag)
-            if swallowed and not re.search(r"[<\n]", value):
-                return value[: swallowed.start()], start + 1 + swallowed.start()
             stop = _VALUE_END.search(text, start + 1)
             end = stop.start() if stop else len(text)
+            if swallowed and not re.search(r"[<\n]", value):
+                end = start + 1 + swallowed.start()
+            behind = start + len(text[start:end].rstrip())
+            said = f"{name}={quote}"
+            self._note_error("quote-not-closed", start, said, tag, behind)
             return text[start + 1 : end], end
         self._ampersands(start, close)
         for found in re.finditer("<", value):

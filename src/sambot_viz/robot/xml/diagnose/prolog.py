@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from sambot_viz.errors import Problem
-from sambot_viz.robot.xml.diagnose.source_text import ROOTS, SourceText
+from sambot_viz.robot.xml.diagnose.source_text import ROOTS, Change, SourceText
 
 _DECLARATION = re.compile(r"<\?xml(?=[\s?]).*?\?>", re.DOTALL)
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
@@ -71,7 +71,12 @@ def prolog_problems(source: SourceText, file: str) -> list[Problem]:
         message = f"this is an invisible control character (U+{ord(control[0]):04X})"
         problems.append(
             source.error(
-                file, "xml-control-character", control.start(), message, "delete it"
+                file,
+                "xml-control-character",
+                control.start(),
+                message,
+                "delete it",
+                [(control.start(), control.end(), "")],
             )
         )
     return problems + _declaration_not_first(source, file)
@@ -84,14 +89,16 @@ def _declaration_not_first(source: SourceText, file: str) -> list[Problem]:
     if found is None or found.start() == start or source.in_comment(found.start()):
         return []
     at, before = found.start(), text[start : found.start()]
-    line = source.line(at)
+    line, changes = source.line(at), list[Change]()
     if any(tag.name in ROOTS and tag.start < at for tag in source.tags):
         message = f"there is a second <?xml …?> on line {line}, inside the file"
         hint = "delete it: two files were joined here"
+        changes = [(at, found.end(), "")]
     elif not before.strip():
         blank = "an empty line" if "\n" in before else "a blank"
         message = f"{blank} is before <?xml …?>, which must be the very first thing"
         hint = "delete it: <?xml …?> begins at line 1, column 1"
+        changes = [(start, at, "")]
     else:
         what = "the comment" if before.lstrip().startswith("<!--") else "the text"
         message = (
@@ -99,4 +106,5 @@ def _declaration_not_first(source: SourceText, file: str) -> list[Problem]:
             "first thing in the file"
         )
         hint = f"put {what} after it, or delete <?xml …?>"
-    return [source.error(file, "xml-declaration-not-first", at, message, hint)]
+    code = "xml-declaration-not-first"
+    return [source.error(file, code, at, message, hint, changes)]

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import bisect
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-from sambot_viz.errors import Problem
+from sambot_viz.edits import together, write_between
+from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.diagnose.lexer import Reading, Token, tokenize
+
+Change = tuple[int, int, str]
+"""Where a piece of the text begins and ends, and what is written for it."""
 
 ROOTS = ("robot", "sdf")
 """The tags of the root elements of models."""
@@ -37,11 +42,22 @@ class SourceText:
         return self._starts[min(line, len(self._starts)) - 1] + column - 1
 
     def error(
-        self, file: str, code: str, offset: int, message: str, hint: str
+        self,
+        file: str,
+        code: str,
+        offset: int,
+        message: str,
+        hint: str,
+        changes: Iterable[Change] = (),
     ) -> Problem:
-        """Make a problem of severity "error" at an offset."""
-        line, column = self.line(offset), self.column(offset)
-        return Problem("error", code, message, hint, file, line, column)
+        """Make a problem of severity "error" at an offset, with what repairs it."""
+
+        def place(at: int) -> Place:
+            return Place(file, self.line(at), self.column(at))
+
+        fixes = [write_between(place(a), place(b), new, hint) for a, b, new in changes]
+        fix = together(hint, *fixes)
+        return Problem.at(place(offset), "error", code, message, fix)
 
     def starts_line(self, offset: int) -> bool:
         """Tell whether only blanks precede an offset in its line."""

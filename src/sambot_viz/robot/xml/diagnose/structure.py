@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from sambot_viz.errors import Problem
 from sambot_viz.robot.xml.diagnose.lexer import Token
-from sambot_viz.robot.xml.diagnose.source_text import ROOTS, SourceText
+from sambot_viz.robot.xml.diagnose.source_text import ROOTS, Change, SourceText
 
 _LEAVES = frozenset(
     "axis box calibration capsule child color cylinder dynamics inertia limit mass "
@@ -85,8 +85,11 @@ class _Walk:
         if self.stack:
             self._end_of_file()
 
-    def _add(self, code: str, at: int, message: str, hint: str) -> None:
-        self.problems.append(self.source.error(self.file, code, at, message, hint))
+    def _add(
+        self, code: str, at: int, message: str, hint: str, *changes: Change
+    ) -> None:
+        problem = self.source.error(self.file, code, at, message, hint, changes)
+        self.problems.append(problem)
 
     def _line(self, token: Token) -> int:
         return self.source.line(token.start)
@@ -129,7 +132,8 @@ class _Walk:
         if opened.name.lower() != closed.name.lower():
             message = f"<{opened.name}> opened on line {first} {ends}"
             code, hint = "xml-closing-tag-misspelt", f"write </{opened.name}>"
-            self._add(code, closed.start, message, hint)
+            change = (closed.start, closed.end, f"</{opened.name}>")
+            self._add(code, closed.start, message, hint, change)
             return
         wrong = closed if opened.name.islower() else opened
         right = opened.name if opened.name.islower() else opened.name.lower()
@@ -138,7 +142,11 @@ class _Walk:
             "letters from small ones"
         )
         hint = f"write <{right}> and </{right}>"
-        self._add("xml-tag-case", wrong.start, message, hint)
+        changes = [
+            (start, start + len(right), right)
+            for start in (opened.start + 1, closed.start + 2)
+        ]
+        self._add("xml-tag-case", wrong.start, message, hint, *changes)
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
@@ -150,6 +158,7 @@ class _Walk:
                 opened.start,
                 f"{shown} on line {line} is opened but never closed",
                 f"end it with a slash: {shown[:-1]}/>",
+                (opened.end - 1, opened.end - 1, "/"),
             )
             return
         at = self._place_to_close(entry, closed)
@@ -161,7 +170,14 @@ class _Walk:
             f"{shown} opened on line {line} is never closed",
             f"add </{opened.name}> after {named} on line "
             f"{self.source.line(before.end - 1)}",
+            (before.end, before.end, self._new_line(opened) + f"</{opened.name}>"),
         )
+
+    def _new_line(self, opened: Token) -> str:
+        """Return the line break and the blanks before a tag that begins its line."""
+        if not self.source.starts_line(opened.start):
+            return ""
+        return "\n" + " " * (self.source.column(opened.start) - 1)
 
     def _place_to_close(self, entry: _Open, closed: Token | None) -> int:
         """Offset before which the missing closing tag belongs; 0 when unknown."""
@@ -194,12 +210,14 @@ class _Walk:
             f"with {behind[0].shown} on line {self._line(behind[0])}",
             f"delete </{name}> on line {end}; the one on line {self._line(right)} is "
             "the right one",
+            (early.start, early.end, ""),
         )
         return True
 
     def _surplus(self, token: Token) -> None:
         """A closing tag that nothing opened."""
         line = self._line(token)
+        changes: list[Change] = []
         before = [t for t in self.source.tags if t.end <= token.start]
         twin = next((t for t in reversed(before) if t.name == token.name), None)
         if twin is not None and twin.kind == "empty":
@@ -211,6 +229,7 @@ class _Walk:
                 f"delete the slash on line {self._line(twin)} if something belongs "
                 f"inside, or delete </{token.name}>"
             )
+            changes = [(token.start, token.end, "")]
         else:
             inner = self.stack[-1].token if self.stack else None
             within = (
@@ -218,7 +237,7 @@ class _Walk:
             )
             message = f"</{token.name}> on line {line}{within} closes nothing"
             hint = f"delete it, or write the <{token.name}> that is missing before it"
-        self._add("xml-closing-tag-surplus", token.start, message, hint)
+        self._add("xml-closing-tag-surplus", token.start, message, hint, *changes)
 
     def _after_root(self, root: Token, root_end: Token, rest: list[Token]) -> None:
         """Report tags after the end of the root element."""
@@ -242,21 +261,31 @@ class _Walk:
                 f"</{token.name}> on line {line} closes nothing: </{name}> on line "
                 f"{end} has already closed the root element",
                 f"delete </{token.name}> on line {line}",
+                (token.start, token.end, ""),
             )
             return
+        deleted, at_end = (root_end.start, root_end.end, ""), self._at_end(f"</{name}>")
+        changes = [deleted, at_end]
         begins = f"the content that starts with {token.shown} on line {line}"
         message = f"line {end} closes </{name}> too early, before {begins}"
         if root_end.kind == "empty":
             message = f"<{name} …/> on line {end} is closed by its slash, before "
             message += begins
             hint = f"write > instead of /> on line {end} and </{name}> as the last line"
+            changes = [(root_end.end - 2, root_end.end, ">"), at_end]
         elif last.closes and last.name == name:
             right = f"the one on line {self._line(last)} is the right one"
             hint = f"delete </{name}> on line {end}; {right}"
+            changes = [deleted]
         else:
             hint = f"move </{name}> from line {end} to the last line of the file"
         # The place is the early tag, because that is what has to be changed.
-        self._add("xml-root-closed-early", root_end.start, message, hint)
+        self._add("xml-root-closed-early", root_end.start, message, hint, *changes)
+
+    def _at_end(self, written: str) -> Change:
+        """Return the change that adds a line to the file."""
+        end = len(self.source.text.rstrip())
+        return (end, end, f"\n{written}")
 
     def _end_of_file(self) -> None:
         """The text ends with tags open: one was forgotten, or the file is cut off."""
@@ -277,4 +306,5 @@ class _Walk:
             f"file ends on line {self.source.line(at)}{inner}",
             f"add {ends} at the end"
             + ("; the file may be cut off" if names[1:] else ""),
+            *([] if names[1:] else [self._at_end(ends)]),
         )
