@@ -26,12 +26,14 @@ _ELEMENT = re.compile(
     rf"(?:, (?:or|here or) [^…]*| with [^…]*)?{_END}"
 )
 _WORDS = re.compile("> [a-z]")
-_NUMBERS = re.compile(rf"write ([+-]?[\d.]+(?:e[+-]?\d+)?(?: [+-]?[\d.e+-]+)*){_END}")
+_NUMBERS = re.compile(
+    rf"write (\w+(?=$)|[+-]?[\d.]+(?:e[+-]?\d+)?(?: [+-]?[\d.e+-]+)*){_END}"
+)
 _DELETE = re.compile(r"delete (?:(it)|<([\w:]+)>|(?:the )?([\w:]+))(?=$|: )")
 _OPENS = re.compile(r"<(?=[^\s<>/=\"'!?])")
 _BLANKS = re.compile(r"[ \t]*")
 
-_DOUBTFUL = frozenset({"launch-world-name", "sdf-joint-to-frame"})
+_DOUBTFUL = frozenset({"frame-unknown", "launch-world-name", "sdf-joint-to-frame"})
 """Codes whose hint is one of several ways: another file, or another meaning."""
 
 Changes = list[tuple[Extent, str]]
@@ -120,6 +122,14 @@ def _element(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
         values = ((name, written[slice(*at)]) for name, at in first.values.items())
         owner = tag if same else _around(source, tag, _name(new, first))
         return [] if owner is None else _set(source, owner, values)
+    inner = [source.tag(at) for at in _inside(source, tag, written)]
+    if inner and all(inner) and not where:
+        texts = re.findall(r">([^<]+)</", written)
+        return [
+            (source.text_behind(child), text)
+            for child, text in zip(inner, texts, strict=True)
+            if child is not None
+        ]
     if where or (said[0].startswith("add") and not same):
         return _put_into(source, tag, written)
     end = source.end_of(tag)
@@ -133,6 +143,22 @@ def _element(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
     if "$" in old and "$" not in written:
         return []
     return [(Extent(tag.name.start - 1, end), written)]
+
+
+def _inside(source: SourceFile, tag: Tag, written: str) -> list[int]:
+    """Return where an element has each of the written ones, in it and once; or none."""
+    end = source.end_of(tag) or tag.end
+    places: list[int] = []
+    for name in re.findall(r"<(\w+)>[^<$]+</", written):
+        found = [
+            match.start()
+            for match in re.finditer(rf"<{name}>[^<$]+</", source.text)
+            if tag.end <= match.start() < end
+        ]
+        if len(found) != 1:
+            return []
+        places += found
+    return places
 
 
 def _around(source: SourceFile, tag: Tag, name: str) -> Tag | None:

@@ -31,6 +31,7 @@ from sambot_viz.checks.physics import (
 )
 from sambot_viz.checks.proportion import lengths_out_of_proportion
 from sambot_viz.checks.rule import Rule, Subject
+from sambot_viz.checks.sensor_words import sensor_words
 from sambot_viz.checks.slips import (
     invisible_materials,
     limits_in_degrees,
@@ -69,6 +70,7 @@ RULES: tuple[Rule, ...] = (
     zero_mass,
     masses_in_grams,
     invisible_materials,
+    sensor_words,
 )
 """The rules about the model itself, in the order in which they run."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings, tag_text
 from sambot_viz.robot.sdf import values
 from sambot_viz.robot.sdf.elements import ElementType, Values, model_type
@@ -110,7 +110,7 @@ class _ElementChecker:
             self._findings.reject(
                 "sdf-value",
                 f"{shown} in {described(element)} {bad.reason}; {REFUSED}",
-                bad.hint,
+                f'write {name}="{bad.right}"' if bad.right else bad.hint,
                 element,
                 name,
             )
@@ -341,7 +341,15 @@ def _check_word(text: str, wanted: Values) -> None:
     near = "" if wanted.lenient else _unlike(text, wanted)
     if near:
         words = ", ".join(wanted.words)
-        raise BadValue(f"is not known ({near})", f"write one of {words}")
+        right = meant_word(text, wanted) or ""
+        raise BadValue(f"is not known ({near})", f"write one of {words}", right)
+
+
+def meant_word(text: str, wanted: Values) -> str | None:
+    """Return which of the known words was meant by another one, or None."""
+    plain = {re.sub("[_ -]", "", word).lower(): word for word in wanted.words}
+    same = plain.get(re.sub("[_ -]", "", trimmed(text)).lower())
+    return same or nearest(trimmed(text), wanted.words)
 
 
 def _unlike(text: str, wanted: Values) -> str:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sambot_viz.edits import write, write_attribute
-from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.sdf.fields import text_in
 from sambot_viz.robot.sdf.scopes import Frame, Scope
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
 from sambot_viz.robot.slips.blanks import written_with_blank
+from sambot_viz.robot.slips.near_links import near_link, one_name
 from sambot_viz.robot.xml.element import Element
 
 
@@ -92,12 +93,12 @@ def _refuse_unknown(
     other = text_in(joint.element, "child" if tag == "parent" else "parent")
     taken = {text_in(j, "child") for j in joints} if tag == "child" else set[str]()
     possible = [link for link in links if link != other and link not in taken]
-    near = nearest(name, possible)
+    near = near_link(name, possible)
     findings.reject(
         f"joint-{tag}-unknown",
         f"joint {joint.name} names the {tag} link '{name}', which does not exist "
-        f"({did_you_mean(name, possible or links)}); {REFUSED}",
-        write(element.place, name, near, hint=f"write <{tag}>{near}</{tag}>")
+        f"({did_you_mean(near or name, possible or links)}); {REFUSED}",
+        one_name(element, name, scope.frames[near].element)
         if near
         else f'correct the name, or add <link name="{name}"/>',
         element,

@@ -18,6 +18,7 @@ from sambot_viz.robot.sdf.scopes import Frame
 from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, and_list
+from sambot_viz.robot.urdf.joints import meant_type
 from sambot_viz.robot.xml.element import Element
 
 TYPES: dict[str, JointType] = {
@@ -98,13 +99,14 @@ class MotionReader:
             return kind
         if written:
             known = written.lower() in ("floating", "planar")
-            near = did_you_mean(written.lower(), TYPES)
+            meant = meant_type(joint.element, written, TYPES)
+            near = did_you_mean(meant or written.lower(), TYPES)
             why = "a type of URDF that SDF does not have" if known else near
             self._findings.reject(
                 "joint-type-unknown",
                 f"joint {joint.name} has the unknown type '{written}' ({why}); "
                 f"{REFUSED}",
-                f"use {', '.join(TYPES)}",
+                f'write type="{meant}"' if meant else f"use {', '.join(TYPES)}",
                 joint.element,
                 "type",
             )

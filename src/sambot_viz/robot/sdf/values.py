@@ -44,12 +44,14 @@ class BadValue(ValueError):
     Attributes:
         reason: what is wrong, worded to follow the text itself.
         hint: what to write.
+        right: the right value, where it is certain.
     """
 
-    def __init__(self, reason: str, hint: str) -> None:
+    def __init__(self, reason: str, hint: str, right: str = "") -> None:
         super().__init__(reason)
         self.reason = reason
-        self.hint = hint
+        self.hint = f"write {right}" if right else hint
+        self.right = right
 
 
 @dataclass(frozen=True, slots=True)

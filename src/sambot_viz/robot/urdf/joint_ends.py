@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
 from sambot_viz.edits import write_attribute
-from sambot_viz.errors import Fix, did_you_mean, nearest
+from sambot_viz.errors import Fix, did_you_mean
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint
 from sambot_viz.robot.slips.blanks import written_with_blank
+from sambot_viz.robot.slips.near_links import near_link, one_name
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 from sambot_viz.robot.xml.element import Element
 
@@ -86,26 +86,25 @@ def _report_unknown(
         possible = [name for name in parts.links if name and name != other]
         if tag == "child":
             possible = [name for name in possible if name not in children]
-        near = f" ({did_you_mean(link, possible)})" if possible else ""
+        meant = near_link(link, possible)
+        near = f" ({did_you_mean(meant or link, possible)})" if possible else ""
+        if meant in parts.link_elements:
+            line = parts.link_elements[meant].place.line
+            near = f" (did you mean '{meant}', on line {line}?)"
         findings.reject(
             f"joint-{tag}-unknown",
             f"joint {joint.name} names the {tag} link '{link}', which does not exist"
             f"{near}; ROS refuses the model",
-            _advice(end, link, tag, possible, is_whole),
+            _advice(end, link, parts.link_elements.get(meant or ""), is_whole),
             end,
             "link",
             cause=f"link {link}",
         )
 
 
-def _advice(
-    end: Element, link: str, tag: str, possible: Iterable[str], is_whole: bool
-) -> str | Fix:
-    near = nearest(link, possible)
-    ways = [f'write link="{near}"' if near else "correct the name"]
-    if is_whole:
-        ways.append(f'add <link name="{link}"/>')
-    elif not near:
-        return f"name a link of this robot as the {tag}"
-    hint = ", or ".join(ways)
-    return write_attribute(end.place, "link", link, near, hint=hint) if near else hint
+def _advice(end: Element, link: str, near: Element | None, is_whole: bool) -> str | Fix:
+    add = f', or add <link name="{link}"/>' if is_whole else ""
+    if near is not None:
+        return one_name(end, link, near, add)
+    named = f"name a link of this robot as the {end.tag}"
+    return f"correct the name{add}" if add else named

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import get_args
 
 from sambot_viz.edits import write_attribute
@@ -77,9 +77,7 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         why = "ROS compares letter by letter, blanks and capitals count"
         hint: str | Fix = write_attribute(element.place, "type", text, plain)
     else:
-        near = _MEANT.get(plain) or nearest(text, JOINT_TYPES)
-        if near == "revolute" and element.find("limit") is None:
-            near = "continuous"
+        near = meant_type(element, text, JOINT_TYPES)
         why = did_you_mean(near or text, JOINT_TYPES)
         hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
         if near is not None:
@@ -92,6 +90,15 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         "type",
     )
     return None
+
+
+def meant_type(element: Element, text: str, types: Iterable[str]) -> str | None:
+    """Return the type that was meant by a word that is none of the types, or None."""
+    known = list(types)
+    near = _MEANT.get(text.strip().lower()) or nearest(text.lower(), known)
+    if near == "revolute" and not any(each.tag == "limit" for each in element.iter()):
+        near = "continuous"
+    return near if near in known else None
 
 
 def _usual(element: Element) -> JointType:

@@ -113,6 +113,20 @@ def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
     hints = {problem.hint for problem in group}
     if len(hints) < 2 and not any(_NO_DOLLAR.search(p.message) for p in group):
         return None
+    bare = next(filter(_lacks_dollar, document.iter()), None)
+    if bare is not None:
+        place, name = bare.place, bare.get("name") or ""
+        right = _NO_DOLLAR.sub(r"${\1}", name)
+        return replace(
+            first,
+            message=f"the name {name} is a text: xacro replaces it only in ${{ and }}; "
+            + first.message.partition(" (")[0],
+            hint=f'write name="{right}"',
+            file=place.file,
+            line=place.line,
+            column=place.column,
+            edits=(),
+        )
     for element in _at(first, document):
         macro = _macro_around(element)
         if macro is None or any("${" in v for v in element.attributes.values()):
@@ -141,6 +155,14 @@ def _with_expression(group: Sequence[Problem], document: Element) -> Problem | N
             before, after = first.hint[:start], first.hint[len(first.hint) - end :]
             return replace(first, hint=f"{before}{given[0]}{after}")
     return None
+
+
+def _lacks_dollar(element: Element) -> bool:
+    """Tell whether a name has a parameter of its macro without the $."""
+    macro, bare = _macro_around(element), _NO_DOLLAR.search(element.get("name") or "")
+    if macro is None or bare is None:
+        return False
+    return bare[1] in parameters(macro.get("params") or "")
 
 
 def _common(hints: Sequence[str], hint: str) -> int:

@@ -229,7 +229,10 @@ class _Walk:
                 f"delete the slash on line {self._line(twin)} if something belongs "
                 f"inside, or delete </{token.name}>"
             )
+            inside = any(twin.end <= tag.start for tag in before)
             changes = [(token.start, token.end, "")]
+            if inside:
+                changes = [(twin.end - 2, twin.end, ">")]
         else:
             inner = self.stack[-1].token if self.stack else None
             within = (

@@ -1,0 +1,90 @@
+"""Elements and words of sensors that Gazebo does not know, as it says them itself.
+
+ROS does not read sensors, and Gazebo leaves out what it does not know.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.rule import Subject
+from sambot_viz.edits import rename_element
+from sambot_viz.errors import Problem
+from sambot_viz.robot.findings import tag_text
+from sambot_viz.robot.sdf.check_elements import meant_word
+from sambot_viz.robot.sdf.elements import ElementType, model_type
+from sambot_viz.robot.xml.element import Element
+
+_SYNONYMS = {
+    "topicname": "topic",
+    "rate": "update_rate",
+    "frequency": "update_rate",
+    "framename": "gz_frame_id",
+    "frameid": "gz_frame_id",
+}
+_BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
+"""Elements that Gazebo reads in a sensor, and the table of SDF does not have."""
+
+
+def sensor_words(subject: Subject) -> Iterator[Problem]:
+    """Report elements of sensors in other letters, and words that are no choice."""
+    known = model_type().children["link"].children["sensor"]
+    for part in subject.robot.gazebo:
+        for sensor in part.find_all("sensor"):
+            stack = [(sensor, known)]
+            while stack:
+                element, kind = stack.pop()
+                yield from _misspelt(element, kind, sensor)
+                if subject.robot.language == "urdf":
+                    # In SDF ROS itself refuses such a word.
+                    yield from _unknown_word(element, kind, sensor)
+                stack += [
+                    (child, kind.children[child.tag])
+                    for child in element.children
+                    if child.tag in kind.children
+                ]
+
+
+def _plain(name: str) -> str:
+    return re.sub("[_-]", "", name).lower()
+
+
+def _misspelt(
+    element: Element, kind: ElementType, sensor: Element
+) -> Iterator[Problem]:
+    present = {child.tag for child in element.children}
+    tags = {_plain(tag): tag for tag in (*kind.children, *_BESIDE)}
+    for child in element.children if not kind.open else ():
+        if child.tag in kind.children or child.tag in _BESIDE or ":" in child.tag:
+            continue
+        right = tags.get(_plain(child.tag))
+        if element is sensor:
+            right = right or _SYNONYMS.get(_plain(child.tag))
+        if right is None or right in present:
+            continue
+        yield Problem.at(
+            child.place,
+            "warning",
+            "element-misspelt",
+            f"<{child.tag}> of {tag_text(sensor)} is not known; did you mean "
+            f"<{right}>? Gazebo ignores it",
+            rename_element(child.place, child.tag, right, f"write <{right}>"),
+        )
+
+
+def _unknown_word(
+    element: Element, kind: ElementType, sensor: Element
+) -> Iterator[Problem]:
+    text, wanted = element.text.strip(), kind.text
+    if not text or not wanted.words or wanted.lenient or text in wanted.words:
+        return
+    right = meant_word(text, wanted)
+    yield Problem.at(
+        element.place,
+        "warning",
+        "sdf-value",
+        f"<{element.tag}>{text}</{element.tag}> of {tag_text(sensor)} is none of the "
+        "words that Gazebo knows",
+        f"write {right}" if right else f"write one of {', '.join(wanted.words)}",
+    )

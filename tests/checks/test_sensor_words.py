@@ -1,0 +1,79 @@
+"""Sensors with elements and words that Gazebo does not know."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
+
+SENSOR = """<sensor name="cam" type="camera">
+<update_rate>10</update_rate>
+<topic>image</topic>
+<gz_frame_id>a</gz_frame_id>
+<camera><horizontal_fov>1</horizontal_fov><image><width>4</width><height>4</height>
+<format>R8G8B8</format></image></camera>
+</sensor>"""
+URDF = '<robot name="r">\n<link name="a"/>\n<gazebo reference="a">{}</gazebo>\n</robot>'
+SDF = '<sdf version="1.8"><model name="r">\n<link name="a">{}</link>\n</model></sdf>'
+
+
+@pytest.mark.parametrize("model", [URDF, SDF], ids=["URDF", "SDF"])
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("update_rate", "updateRate"),
+        ("topic", "topicName"),
+        ("gz_frame_id", "gzFrameId"),
+        ("R8G8B8", "RGB8"),
+        ("R8G8B8", "r8g8b8"),
+    ],
+)
+def test_what_gazebo_does_not_know_in_a_sensor_has_the_right_word(
+    right: str, wrong: str, model: str, tmp_path: Path
+) -> None:
+    text = model.format(SENSOR)
+    file = tmp_path / ("r.sdf" if model is SDF else "r.urdf")
+    file.write_text(text.replace(right, wrong), "utf-8")
+    (problem,) = [one for one in check(file) if one.severity != "info"]
+    assert apply_edits(problem.edits, text.replace(right, wrong)) == text
+    file.write_text(text, "utf-8")
+    assert all(one.severity == "info" for one in check(file))
+
+
+def test_a_link_and_the_joint_get_the_name_that_more_elements_use(
+    tmp_path: Path,
+) -> None:
+    text = (
+        '<robot name="r">\n<link name="base"/>\n<link name="imu"/>\n'
+        '<joint name="j" type="fixed">\n<parent link="base"/>\n'
+        '<child link="imu_link"/>\n</joint>\n{}\n</robot>'
+    )
+    file = tmp_path / "r.urdf"
+    for more, wrong, right in (
+        ("", 'link="imu_link"', 'link="imu"'),
+        ('<gazebo reference="imu_link"/>', 'name="imu"', 'name="imu_link"'),
+    ):
+        written = text.format(more)
+        file.write_text(written, "utf-8")
+        (problem,) = check(file)
+        assert "'imu', on line 3" in problem.message
+        assert apply_edits(problem.edits, written) == written.replace(wrong, right)
+
+
+def test_a_name_without_its_dollar_is_named_where_it_is(tmp_path: Path) -> None:
+    text = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        '<xacro:macro name="part" params="name">\n<link name="{name}_link"/>\n'
+        '<joint name="${name}_joint" type="fixed"><parent link="base"/>'
+        '<child link="${name}_link"/></joint>\n</xacro:macro>\n'
+        '<link name="base"/>\n<xacro:part name="arm"/>\n</robot>'
+    )
+    file = tmp_path / "r.urdf.xacro"
+    file.write_text(text, "utf-8")
+    (problem,) = check(file)
+    assert problem.line == 3
+    right = text.replace('"{name}', '"${name}')
+    assert apply_edits(problem.edits, text) == right
