@@ -137,7 +137,7 @@ def test_every_view_looks_the_same_in_a_file_and_has_its_mouse(
     open_viewer: Open, open_file: Open, tmp_path: Path
 ) -> None:
     with Visualizer(port=0, panels=False) as viz:
-        live = open_viewer(viz.url, width=800, height=600, resolution=1)
+        live = open_viewer(viz.url, width=800, height=600)
         live.expects_errors = True
         live.wait_for_nodes(node_of(viz, LEFT_LINK))
         session = session_of(viz)

@@ -38,35 +38,35 @@ _HAS_SCENE = (
 )
 # viser draws for a quarter of a second after each message. Where nobody looks, most of
 # these pictures are left out, as on a slow machine; the last one never is.
-_DRAW_SELDOM = f"""(() => {{
-  const {{ gl, camera, invalidate }} = __viserMutable.scene.__r3f.root.getState();
+_DRAW_SELDOM = """(() => {
+  const { gl, camera, invalidate } = __viserMutable.scene.__r3f.root.getState();
   const draw = gl.render;
   let last = -Infinity;
   let pause = 0;
   let later = null;
   gl.hurry = 0;
   gl.asleep = false;
-  gl.render = (scene, eye) => {{
+  gl.render = (scene, eye) => {
     // A picture that was asked for has a camera of its own.
-    const coarse = gl.getPixelRatio() <= {COARSE} && eye === camera;
-    if (gl.asleep && eye === camera) return;
+    const own = eye === camera;
+    if (gl.asleep && own) return;
     const left = last + pause - performance.now();
-    if (coarse && gl.hurry === 0 && left > 0) {{
-      later ??= setTimeout(() => {{
+    if (own && gl.hurry === 0 && left > 0) {
+      later ??= setTimeout(() => {
         later = null;
         last = -Infinity;
         invalidate();
-      }}, left);
+      }, left);
       return;
-    }}
+    }
     last = performance.now();
     draw.call(gl, scene, eye);
     // Software draws a long time after this call, the longer the more it was told.
     // One that took a second is not followed by none for half a minute: until the next
     // picture, viser shows what the page's scripts hide.
     pause = Math.min(2000, Math.max(400, 30 * (performance.now() - last)));
-  }};
-}})()"""
+  };
+})()"""
 _TWO_FRAMES = """new Promise(done => {
   const { gl } = __viserMutable.scene.__r3f.root.getState();
   gl.hurry += 1;

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from inside import session_of
+from lower_limit import lower
 from made_messages import Make, write_messages
 
 from sambot_viz import Visualizer, limits
@@ -104,9 +106,12 @@ def transforms(first: int, count: int) -> Make:
     return make
 
 
-def test_a_page_gets_no_more_and_says_so(tmp_path: Path) -> None:
+def test_a_page_gets_no_more_and_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "many.mcap"
-    write_messages(path, *(transforms(1000 * n, 1000) for n in range(5)))
+    lower(monkeypatch, "FRAMES", 100)
+    write_messages(path, *(transforms(50 * n, 50) for n in range(5)))
     with Visualizer(source=f"bag:{path}", port=0) as viz:
         viz.player.jump(viz.player.duration)
         session = session_of(viz)
