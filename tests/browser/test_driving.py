@@ -40,14 +40,18 @@ def drive(viz: Visualizer) -> Drive:
     return session_of(viz).drive
 
 
-def drive_by_keys(viewer: ViewerPage, drive: Drive, times: int = 3) -> None:
-    """Press the key for more speed, and see the robot drive longer than alone."""
+def drive_by_keys(viewer: ViewerPage, drive: Drive, times: int) -> None:
+    """Press the key for more speed."""
     user, before = viewer.user, drive.v
     user.click("tab", "Drive")
     user.keys(*["8"] * times)
     user.until(lambda: drive.v == pytest.approx(before + 0.1 * times))
+
+
+def drives_on(drive: Drive) -> None:
+    """Wait until the robot has driven longer than it does alone."""
     there = drive.pose.x
-    user.until(lambda: drive.pose.x - there > 1.1 * KEEP * drive.v, 20.0)
+    until(lambda: drive.pose.x - there > 1.1 * KEEP * drive.v, 20.0)
 
 
 def hide(viewer: ViewerPage) -> None:
@@ -62,10 +66,7 @@ def load_again(viewer: ViewerPage) -> None:
     viewer.page.goto(viewer.url)
 
 
-LEAVING = pytest.mark.parametrize("leave", [hide, close, load_again])
-
-
-@LEAVING
+@pytest.mark.parametrize("leave", [hide, close, load_again])
 def test_a_robot_stops_when_the_page_that_drives_it_goes(
     viz: Visualizer,
     drive: Drive,
@@ -73,13 +74,14 @@ def test_a_robot_stops_when_the_page_that_drives_it_goes(
     leave: Callable[[ViewerPage], None],
 ) -> None:
     viewer, other = open_viewer(viz.url), open_viewer(viz.url)
-    drive_by_keys(viewer, drive)
+    drive_by_keys(viewer, drive, times=3)
+    drives_on(drive)
     leave(viewer)
     until(lambda: not drive.moving)
     other.user.reads(STOPPED)
 
 
-@LEAVING
+@pytest.mark.parametrize("leave", [hide, close])
 def test_another_page_that_drives_keeps_the_robot_going(
     viz: Visualizer,
     drive: Drive,
@@ -90,8 +92,7 @@ def test_another_page_that_drives_keeps_the_robot_going(
     drive_by_keys(viewer, drive, times=2)
     drive_by_keys(other, drive, times=1)
     leave(viewer)
-    there = drive.pose.x
-    until(lambda: drive.pose.x - there > 1.5 * KEEP * drive.v, 20.0)
+    drives_on(drive)
     other.user.keys("5")
     until(lambda: not drive.moving)
 
@@ -103,6 +104,7 @@ def test_who_comes_back_sees_the_robot(
     session = session_of(viz)
     viewer = open_viewer(viz.url)
     drive_by_keys(viewer, drive, times=10)
+    drives_on(drive)
     close(viewer)
     # It drives on for a while, out of the picture of a page that is back sooner.
     until(lambda: not drive.moving)

@@ -21,14 +21,14 @@ NOTCH = 100.0
 SLOW = """(() => {
   const work = () => {
     if (!window.slow) return;
-    const end = performance.now() + 300;
+    const end = performance.now() + 100;
     while (performance.now() < end);
     requestAnimationFrame(work);
   };
   window.slow = true;
   requestAnimationFrame(work);
 })()"""
-"""Work that leaves the page about three pictures a second."""
+"""Work that leaves the page at most ten pictures a second."""
 
 WATCH_NAMES = """(() => {
   const { scene, nodeRefFromName } = __viserMutable;
