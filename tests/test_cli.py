@@ -13,8 +13,7 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
-from patience import patience
-from program import address, running, serving
+from program import address, rest_of, running, serving
 
 from sambot_viz import Visualizer, bundled, load_robot
 from sambot_viz.cli import main
@@ -31,7 +30,7 @@ def test_it_prints_one_line_with_the_address_and_serves_the_page(
         with urlopen(url) as page:
             assert page.status == 200
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=patience(20.0))
+        out, err = rest_of(process)
         assert process.returncode == 0
         assert (out, err) == ("", "")
 
@@ -164,7 +163,7 @@ def test_a_half_open_connection_leaves_no_traceback(tmp_path: Path) -> None:
         with urlopen(f"http://127.0.0.1:{port}") as page:
             assert page.status == 200
         process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=patience(10.0))
+        _, err = rest_of(process)
         assert err == ""
 
 
@@ -192,7 +191,7 @@ def test_a_snapshot_that_is_ended_removes_what_its_browser_wrote(
         started.read_text()
         assert list(folder.iterdir())
         process.send_signal(number)
-        _, err = process.communicate(timeout=patience(20.0))
+        _, err = rest_of(process)
         assert (process.returncode, err) == (code, "")
     assert list(folder.iterdir()) == []
 

@@ -21,8 +21,7 @@ import numpy as np
 import pytest
 import rich
 from hostile_texts import FORGED, HOSTILE, PLACES, write_hostile_bag
-from patience import patience
-from program import address, running
+from program import address, rest_of, running
 from protocol_client import ProtocolClient
 
 from sambot_viz import Visualizer, outlet
@@ -175,7 +174,7 @@ def test_the_log_of_a_server_is_clean(tmp_path: Path) -> None:
         with urlopen(url) as page:
             assert page.status == 200
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=patience(20.0))
+        out, err = rest_of(process)
     assert "error[" in said
     assert unclean(out) == unclean(said + err) == set()
 

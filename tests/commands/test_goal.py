@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from live_peers import WAIT, FoxglovePeer, eventually
 from navigator_peer import GOAL, NavigatorPeer
+from patience import patience
 from rosbridge_peer import RosbridgePeer, Topic
 
 from sambot_viz.cli import main
@@ -20,8 +21,14 @@ Capture = pytest.CaptureFixture[str]
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
 
 
+@pytest.fixture(autouse=True)
+def slow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a robot may not say at all is waited for longer on a slow machine."""
+    monkeypatch.setattr(goal_sender, "FOUND_WITHIN", patience(goal_sender.FOUND_WITHIN))
+
+
 @pytest.fixture
-def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+def patient(monkeypatch: pytest.MonkeyPatch, slow: None) -> None:
     """What a robot says is waited for as long as it takes."""
     monkeypatch.setattr(goal_sender, "FOUND_WITHIN", WAIT)
 

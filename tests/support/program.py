@@ -125,6 +125,14 @@ def serving(*words: str, cwd: Path) -> Iterator[Serving]:
         os.chdir(here)
 
 
+def rest_of(process: subprocess.Popen[str]) -> tuple[str, str]:
+    """Wait until a process has ended; what was not read yet of its two streams.
+
+    A signal may come while the process imports, which a busy machine does for long.
+    """
+    return process.communicate(timeout=patience(60.0))
+
+
 def address(process: subprocess.Popen[str] | Serving) -> str:
     """The address that the program prints when its page can be opened.
 
