@@ -59,7 +59,6 @@ _PLACES = """(() => {
         this.faults.push(`${what} moves ${said(one)} and ${moved.length - 1} others:`
           + ` ${before} to ${box(one)}`);
       }
-      this.remember();
     },
     before(i) {
       const one = this.all[i], at = middle(one);
