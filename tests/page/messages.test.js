@@ -236,3 +236,15 @@ test("points of a node that is made or read anew are viser's", async () => {
   assert.equal(node.center.array[0], 0);
   assert.equal(nodes["/p"].center.array[0], 3);
 });
+
+test("a page without a view does not wait for one", async () => {
+  const { setInterval, location } = globalThis;
+  let begun = 0;
+  const count = () => (begun += 1);
+  for (const search of ["?token=a", "?view=none"]) {
+    Object.assign(globalThis, { location: { search }, setInterval: count });
+    await import(`../../src/sambot_viz/page/view/messages.js${search}`);
+  }
+  Object.assign(globalThis, { setInterval, location });
+  assert.equal(begun, 1);
+});

@@ -248,11 +248,13 @@ export function drawTogether(scene) {
   internal?.subscribe({ current: end }, SECOND, store);
 }
 
-const timerOfStart = globalThis.window
-  ? setInterval(() => {
-      const viser = page();
-      if (!viser?.messageQueue) return;
-      clearInterval(timerOfStart);
-      follow(viser);
-    }, 20)
-  : 0;
+const hasView = new URLSearchParams(globalThis.location?.search).get("view") !== "none";
+const timerOfStart =
+  globalThis.window && hasView
+    ? setInterval(() => {
+        const viser = page();
+        if (!viser?.messageQueue) return;
+        clearInterval(timerOfStart);
+        follow(viser);
+      }, 20)
+    : 0;
