@@ -35,10 +35,39 @@ def test_a_node_says_where_it_is_started_and_that_is_copied(user: User) -> None:
 
 def test_arrow_keys_go_from_node_to_node(user: User) -> None:
     user.click("button", "node /listener")
-    user.keys("ArrowDown")
+    user.keys("ArrowRight")
     user.until(lambda: user.find("button", "node /talker").state("focused"))
-    user.keys("ArrowUp")
+    user.keys("ArrowLeft")
     user.until(lambda: user.find("button", "node /listener").state("focused"))
+
+
+_PUBLISHER = """<node pkg="robot_state_publisher" exec="robot_state_publisher"
+  namespace="robot{}"/>"""
+_LETTERS = """(() => {
+  const texts = [...document.querySelectorAll(".ros-graph text")];
+  return Math.min(...texts.map(one => one.getBoundingClientRect().height));
+})()"""
+
+
+def test_the_names_of_a_large_graph_can_be_read_without_enlarging_it(
+    open_viewer: Callable[..., ViewerPage], tmp_path: Path
+) -> None:
+    package = launch_package(tmp_path)
+    nodes = "".join(_PUBLISHER.format(i) for i in range(16))
+    launch = f"<launch>{nodes}</launch>"
+    (package / "launch" / "large.launch.xml").write_text(launch, "utf-8")
+    with Visualizer(package, port=0, look="rviz") as viz:
+        user = open_viewer(viz.url, width=1400, height=900).user
+        user.click_on(user.find("tab", "Graph"))
+        user.find("button", "node /robot0/robot_state_publisher")
+        readable = user.page.evaluate(_LETTERS)
+        assert readable > 9
+        # Of topics that one node has only those are drawn that nobody publishes.
+        assert not user.there("button", "topic /robot0/robot_description")
+        user.click("checkbox", "Details")
+        user.find("button", "topic /robot0/robot_description")
+        user.click("button", "Fit")
+        user.until(lambda: user.page.evaluate(_LETTERS) < readable)
 
 
 def test_the_graph_is_shown_large_and_closed(user: User) -> None:

@@ -84,6 +84,40 @@ def test_a_namespace_with_nodes_has_a_box_around_them() -> None:
     assert 0 < space.y and space.y + space.height < placed.height
 
 
+def test_without_details_names_are_left_and_topics_that_nodes_share() -> None:
+    graph = node_graph(
+        [GraphNode("/talker", package="demo")],
+        [GraphTopic("/bad", problem=WRONG), GraphTopic("/b", types=(ODOMETRY,))],
+        [
+            GraphEdge("/talker", "/a", "publishes"),
+            GraphEdge("/talker", "/bad", "publishes"),
+            GraphEdge("/talker", "/b", "publishes"),
+            GraphEdge("/listener", "/b", "subscribes"),
+            GraphEdge("/listener", "/unwritten", "subscribes"),
+        ],
+    )
+    lines = {part.name: part.lines for part in place_graph(graph, details=False).parts}
+    assert lines == {
+        "/listener": ("/listener",),
+        "/talker": ("/talker",),
+        "/b": ("/b",),
+        "/bad": ("/bad", "error: topic-unknown"),
+        "/unwritten": ("/unwritten",),
+    }
+
+
+def test_what_nothing_leads_to_is_in_rows_below_the_rest() -> None:
+    single = [GraphNode(f"/single_{i:02}") for i in range(20)]
+    edges = [GraphEdge("/a", "/b", "publishes")]
+    placed = place_graph(node_graph(single, (), edges))
+    of = {part.name: part for part in placed.parts}
+    rows = {of[node.name].y for node in single}
+    assert 1 < len(rows) < 10 and min(rows) > max(of["/a"].y, of["/b"].y)
+    for part in placed.parts:
+        assert 0 < part.x - part.width / 2 < part.x + part.width / 2 < placed.width
+        assert 0 < part.y - part.height / 2 < part.y + part.height / 2 < placed.height
+
+
 def test_the_picture_leads_to_launch_files_and_says_what_is_remapped() -> None:
     drawn = graph_svg(small_graph(), Path("pictures"))
     root = ElementTree.fromstring(drawn)

@@ -55,7 +55,7 @@ def test_a_model_without_launch_files_has_no_graph(
 
 def test_the_graph_is_made_once_somebody_looks(session: Session) -> None:
     panel = panel_of(GraphPanel, session)
-    assert [*rows_of(panel)] == ["graph/wait"]
+    assert [*rows_of(panel)] == ["graph/details", "graph/wait"]
     assert parts(panel, session) == {}
     edit(panel, "graph/show", [True])
     until_drawn(panel, session, "/listener", "/talker")

@@ -37,10 +37,12 @@ def look_of(
         yield "unwritten" if graph.is_whole else "uncertain"
 
 
-def lines_of(one: GraphNode | GraphTopic) -> Iterator[str]:
+def lines_of(one: GraphNode | GraphTopic, details: bool) -> Iterator[str]:
     """Yield the name, and the lines in small letters below it."""
     yield text(one.name, _LONGEST)
-    if isinstance(one, GraphNode):
+    if not details:
+        pass
+    elif isinstance(one, GraphNode):
         if started := _started(one):
             yield text(started, _LONGEST)
     else:

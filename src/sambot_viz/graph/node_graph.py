@@ -119,6 +119,28 @@ class NodeGraph:
         edges = [e for e in self.edges if e.node in nodes and e.topic in topics]
         return replace(self, nodes=nodes, topics=topics, edges=tuple(edges))
 
+    def without_leaves(self) -> NodeGraph:
+        """Leave out topics with one node, as rqt_graph does, if nothing is amiss.
+
+        What has a finding, is read without a publisher, or is not there as its node
+        is, stays.
+        """
+        ends: dict[str, list[GraphEdge]] = {}
+        for edge in self.edges:
+            ends.setdefault(edge.topic, []).append(edge)
+        said = self.unwritten() if self.is_whole else frozenset[str]()
+        leaves = {
+            name
+            for name, of in ends.items()
+            if len(of) == 1
+            and name not in said
+            and self.topics[name].problem is None
+            and self.topics[name].presence == self.nodes[of[0].node].presence
+        }
+        topics = {t: one for t, one in self.topics.items() if t not in leaves}
+        edges = tuple(edge for edge in self.edges if edge.topic in topics)
+        return replace(self, topics=topics, edges=edges)
+
 
 def compared(expected: NodeGraph, running: NodeGraph) -> NodeGraph:
     """Join what launch files would start with what runs, by the names of both.

@@ -10,19 +10,22 @@ from typing import Literal
 from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.graph.labels import lines_of, look_of, said_of, said_of_edge
-from sambot_viz.graph.layered import Arc, Point, Vertex, layered
+from sambot_viz.graph.layered import Arc, LaidOut, Point, Vertex, layered
 from sambot_viz.graph.node_graph import (
     GraphEdge,
     GraphNode,
     GraphTopic,
     NodeGraph,
 )
+from sambot_viz.graph.shelves import shelves
 from sambot_viz.text import columns, text
 
 MARGIN = 36.0
 LINE, SMALL_LINE = 16.0, 13.0
 _CHARACTER, _SMALL_CHARACTER = 7.4, 6.5
 _SPACE = 14.0
+_SINGLE_GAP, _SINGLE_WIDTH = 48.0, 600.0
+"""Above parts that nothing leads to, and the least width of their rows [px]."""
 Kind = Literal["node", "topic"]
 
 
@@ -100,18 +103,29 @@ class PlacedGraph:
     notes: tuple[str, ...]
 
 
-def place_graph(graph: NodeGraph) -> PlacedGraph:
-    """Lay a graph out from left to right, with a box around each namespace."""
-    return _PlacesOfGraph(graph).placed()
+def place_graph(graph: NodeGraph, details: bool = True) -> PlacedGraph:
+    """Lay a graph out from left to right, with a box around each namespace.
+
+    Args:
+        graph: nodes and topics.
+        details: draw types and packages, and topics that one node has alone.
+    """
+    shown = graph if details else graph.without_leaves()
+    return _PlacesOfGraph(shown, details).placed()
 
 
 class _PlacesOfGraph:
-    def __init__(self, graph: NodeGraph) -> None:
+    def __init__(self, graph: NodeGraph, details: bool) -> None:
         most = limits.GRAPH_PARTS.value
         every = [*graph.nodes.values(), *graph.topics.values()]
         self._graph = graph
         self._unwritten = graph.unwritten()
-        self._drawn: list[GraphNode | GraphTopic] = every[:most]
+        used = {n for e in graph.edges for n in (("node", e.node), ("topic", e.topic))}
+        drawn: list[GraphNode | GraphTopic] = every[:most]
+        # Those of a namespace are in its box.
+        inner = [one for one in drawn if _space(one.name) or _key(one) in used]
+        self._drawn = [*inner, *(one for one in drawn if one not in inner)]
+        self._single = len(inner)
         self._numbers = {_key(one): i for i, one in enumerate(self._drawn)}
         ends = (
             edge
@@ -122,7 +136,7 @@ class _PlacesOfGraph:
         self._edges = list(islice(ends, limits.GRAPH_EDGES.value))
         # What runs is drawn over what does not, where both are on one way.
         self._edges.sort(key=lambda edge: edge.presence != "expected")
-        self._lines = [tuple(lines_of(one)) for one in self._drawn]
+        self._lines = [tuple(lines_of(one, details)) for one in self._drawn]
         self._lanes = _lanes(self._drawn)
         self._left_out = (
             len(every) - len(self._drawn),
@@ -134,11 +148,12 @@ class _PlacesOfGraph:
             Vertex(*_size(one, lines), self._lanes.get(_space(one.name), 0))
             for one, lines in zip(self._drawn, self._lines, strict=True)
         ]
-        layout = layered(vertices, [self._arc(edge) for edge in self._edges])
+        layout = layered(vertices[: self._single], [*map(self._arc, self._edges)])
+        centres = [*layout.centres, *self._shelved(vertices, layout)]
         parts = tuple(
             self._part(one, lines, vertex, centre)
             for one, lines, vertex, centre in zip(
-                self._drawn, self._lines, vertices, layout.centres, strict=True
+                self._drawn, self._lines, vertices, centres, strict=True
             )
         )
         edges = tuple(
@@ -146,9 +161,18 @@ class _PlacesOfGraph:
             for edge, path in zip(self._edges, layout.paths, strict=True)
         )
         spaces = tuple(self._spaces(parts))
-        width = layout.width + 2 * MARGIN
-        height = layout.height + 2 * MARGIN
-        return PlacedGraph(parts, edges, spaces, width, height, self._notes())
+        right = max((part.x + part.width / 2 for part in parts), default=MARGIN)
+        bottom = max((part.y + part.height / 2 for part in parts), default=MARGIN)
+        return PlacedGraph(
+            parts, edges, spaces, right + MARGIN, bottom + MARGIN, self._notes()
+        )
+
+    def _shelved(self, vertices: Sequence[Vertex], layout: LaidOut) -> Iterator[Point]:
+        """Yield the centres of what nothing leads to: in rows below the rest."""
+        top = layout.height + _SINGLE_GAP if self._single else 0.0
+        width = max(layout.width, _SINGLE_WIDTH)
+        for x, y in shelves(vertices[self._single :], width):
+            yield x, top + y
 
     def _arc(self, edge: GraphEdge) -> Arc:
         node = self._numbers["node", edge.node]

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from sambot_viz.graph.running import RunningNodes
     from sambot_viz.sources.source import Source
 
+SMALL = 40
+"""With more nodes and topics, details are left out at first."""
 PAUSE = 3.0
 """A robot is looked at so often while somebody sees the graph [s]."""
 
@@ -41,6 +43,7 @@ class _GraphInputs:
         problems: what check says.
         launch: name of the launch file; "" for the one that starts most.
         running: what a robot says.
+        details: whether they are drawn; None draws them in small graphs.
     """
 
     package: Path | None
@@ -48,6 +51,7 @@ class _GraphInputs:
     problems: tuple[Problem, ...]
     launch: str
     running: NodeGraph | None
+    details: bool | None
 
 
 class SessionGraph:
@@ -68,6 +72,7 @@ class SessionGraph:
         changed: told when there is another graph.
         facts: told when there may be something to draw, or nothing any longer.
         launch: name of the launch file to draw; "" for the one that starts most.
+        has_details: whether types, packages and topics of one node are drawn.
     """
 
     def __init__(
@@ -81,6 +86,8 @@ class SessionGraph:
     ) -> None:
         self.changed = Signal(change, None)
         self.launch = ""
+        self.has_details = True
+        self._details: bool | None = None
         self._robot, self._problems, self._sources = robot, problems, sources
         self._worker = worker
         self._options = options
@@ -90,7 +97,7 @@ class SessionGraph:
         self._asked: _GraphInputs | None = None
         self._read: tuple[object, tuple[StartedLaunch, ...]] = (None, ())
         self._nodes: tuple[Source, RunningNodes] | None = None
-        self._drawn: tuple[NodeGraph | None, PlacedGraph | None] = (None, None)
+        self._drawn: tuple[object, PlacedGraph | None] = ((None, True), None)
         self._placed: PlacedGraph | None = None
         self._is_looking = False
         self.facts = (robot.changed, sources.replaced)
@@ -125,6 +132,11 @@ class SessionGraph:
         self.launch = launch
         self._look()
 
+    def draw_details(self, on: bool) -> None:
+        """Draw types, packages and topics of one node, or leave them out."""
+        self._details = on
+        self._look()
+
     @property
     def _package(self) -> Path | None:
         """The folder of the model's package, where that has launch files."""
@@ -146,7 +158,9 @@ class SessionGraph:
             return
         robot, problems = self._robot.model, self._problems.shown.value.listed
         package, running = self._package, self._running()
-        given = _GraphInputs(package, id(robot), problems, self.launch, running)
+        given = _GraphInputs(
+            package, id(robot), problems, self.launch, running, self._details
+        )
         if given != self._asked:
             self._asked = given
             self._background.do(self, partial(self._make, given))
@@ -160,16 +174,24 @@ class SessionGraph:
             expected, launches = self._expected(given)
             found = [one for one in (expected, given.running) if one is not None]
             graph = compared(*found) if len(found) == 2 else next(iter(found), None)
-            if graph != self._drawn[0]:
-                self._drawn = graph, None if graph is None else place_graph(graph)
+            details = given.details
+            if details is None:
+                details = graph is None or len(graph.nodes) + len(graph.topics) <= SMALL
+            if (graph, details) != self._drawn[0]:
+                placed = None if graph is None else place_graph(graph, details)
+                self._drawn = (graph, details), placed
         except Exception as error:
             self._worker.post(partial(self._worker.report, error))
             return
-        self._worker.post(partial(self._take, self._drawn[1], launches))
+        self._worker.post(partial(self._take, self._drawn[1], launches, details))
 
     def _take(
-        self, placed: PlacedGraph | None, launches: tuple[StartedLaunch, ...]
+        self,
+        placed: PlacedGraph | None,
+        launches: tuple[StartedLaunch, ...],
+        details: bool,
     ) -> None:
+        self.has_details = details
         if placed is not self._placed or launches is not self._launches:
             self._placed, self._launches = placed, launches
             self.changed.touch()

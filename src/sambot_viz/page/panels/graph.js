@@ -17,9 +17,11 @@ import { nearestPart } from "./graph_steps.js";
  */
 
 const LINE = 13;
-/** How large the picture is drawn; 0 fits its width. @type {Cell<number>} */
+/** How large the picture is drawn; 0 fits its width as far as it can be read.
+ * @type {Cell<number>} */
 const zoom = new Cell(0, "graph-zoom");
-const [SMALLEST, LARGEST, STEP] = [0.2, 3, 1.25];
+const [SMALLEST, LARGEST, STEP] = [0.1, 3, 1.25];
+const READABLE = 0.85;
 /** The part that was chosen last. @type {Cell<string>} */
 const chosen = new Cell("");
 
@@ -37,7 +39,7 @@ export function GraphPanel() {
     <${Facts} />
     <${Drawing} />
     <div class="buttons">
-      <${Zoom} />
+      <${Controls} />
       <button title="Show the graph over the whole window" onClick=${() => show(LargeGraph)}>
         Enlarge</button>
     </div>
@@ -55,22 +57,50 @@ function LargeGraph({ close }) {
   }, []);
   return html`<${Dialog} title="Nodes and topics" close=${close} look="graph-dialog">
     <div class="graph"><${Facts} /><${Drawing} /></div>
-    <div class="buttons"><${Zoom} />
+    <div class="buttons"><${Controls} />
       <button type="button" onClick=${close}>Close</button></div>
   </${Dialog}>`;
 }
 
-function Zoom() {
-  const now = zoom.use();
+/** The size of the picture nearest to a button. @param {Event} event */
+function drawnBeside(event) {
+  const around = /** @type {Element} */ (event.currentTarget).closest(".graph, form");
+  const drawn = around?.querySelector("svg.ros-graph");
+  if (!(drawn instanceof SVGSVGElement) || !drawn.parentElement) return null;
+  const { width, height } = drawn.viewBox.baseVal;
+  return { drawn, width, height, room: drawn.parentElement };
+}
+
+/** How the picture is drawn. */
+function Controls() {
+  const details = useRow("graph/details");
   /** @param {number} by */
-  const change = (by) => zoom.set(Math.min(LARGEST, Math.max(SMALLEST, (now || 0.8) * by)));
+  const change = (by) => (/** @type {Event} */ event) => {
+    const beside = drawnBeside(event);
+    if (!beside) return;
+    const now = beside.drawn.clientWidth / beside.width;
+    zoom.set(Math.min(LARGEST, Math.max(SMALLEST, now * by)));
+  };
+  /** @param {Event} event */
+  const fit = (event) => {
+    const beside = drawnBeside(event);
+    if (!beside) return;
+    const { width, height, room } = beside;
+    // A scroll bar that goes leaves more room.
+    const scale = Math.min(room.clientWidth / width, room.clientHeight / height, 1);
+    zoom.set(Math.max(SMALLEST, scale));
+  };
   return html`
     <button type="button" title="Draw the graph larger" aria-label="Larger"
-      onClick=${() => change(STEP)}>+</button>
+      onClick=${change(STEP)}>+</button>
     <button type="button" title="Draw the graph smaller" aria-label="Smaller"
-      onClick=${() => change(1 / STEP)}>−</button>
-    <button type="button" title="Fit the graph to the width" disabled=${!now}
-      onClick=${() => zoom.set(0)}>Fit</button>`;
+      onClick=${change(1 / STEP)}>−</button>
+    <button type="button" title="Show the whole graph" onClick=${fit}>Fit</button>
+    ${
+      details &&
+      html`<span class="beside" title=${details.help}>
+        <${ValueCell} row=${details} tab=${0} /><span aria-hidden="true">${details.name}</span></span>`
+    }`;
 }
 
 /** The choice of a launch file, and what is left out. */
@@ -95,6 +125,13 @@ function Drawing() {
   const key = chosen.use();
   /** @type {Ref<SVGSVGElement>} */
   const element = useRef(null);
+  const launch = useRow("graph/launch")?.value;
+  const isThere = Boolean(picture?.parts.length);
+  // It begins where something is wrong.
+  useEffect(() => {
+    const wrong = element.current?.querySelector(".part.error, .part.warning");
+    wrong?.scrollIntoView({ block: "center", inline: "center" });
+  }, [isThere, launch]);
   if (!picture?.parts.length) return null;
   const { width, height, parts } = picture;
   const at = Math.max(
@@ -118,7 +155,10 @@ function Drawing() {
     event.preventDefault();
     event.stopPropagation();
   };
-  const size = now ? `width: ${width * now}px; height: ${height * now}px` : `max-width: ${width}px`;
+  const scaled = now
+    ? `${width * now}px`
+    : `clamp(${READABLE * width}px, 100%, ${width}px)`;
+  const size = `width: ${scaled}; aspect-ratio: ${width} / ${height}`;
   return html`<div class="picture">
       <svg ref=${element} class="ros-graph" viewBox=${`0 0 ${width} ${height}`} style=${size}
         role="group" aria-label="Nodes and topics" onKeyDown=${press}>

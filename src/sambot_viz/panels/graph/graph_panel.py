@@ -69,6 +69,15 @@ class GraphPanel(Panel):
                 set=self._graph.choose,
             )
         placed = self._graph.placed if self._shown else None
+        yield Row(
+            "graph/details",
+            "",
+            "bool",
+            "Details",
+            value=self._graph.has_details,
+            help="Draw types and packages, and topics that only one node has.",
+            set=self._graph.draw_details,
+        )
         if placed is None:
             yield Row("graph/wait", "", "note", value="Reading the launch files …")
         elif not placed.parts:
