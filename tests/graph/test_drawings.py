@@ -177,6 +177,16 @@ def test_what_need_not_run_is_not_missed(node: GraphNode, topic: str | None) -> 
     assert there.nodes[node.name].presence == "both"
 
 
+def test_where_nodes_are_not_known_to_run_only_topics_are_missed() -> None:
+    topics = [GraphTopic("/odom", "running")]
+    running = node_graph((), topics, (), is_whole=False)
+    looks = {n: p.look for n, p in parts(compared(small_graph(), running)).items()}
+    assert looks["/ekf"] == ("node",)
+    assert looks["/front/scanner"] == ("node", "uncertain")
+    assert looks["/odom"][1] == "both"
+    assert looks["/map"][1] == "expected"
+
+
 def test_json_has_what_is_known() -> None:
     said = json.loads(graph_json_text(small_graph()))
     (ekf, scanner) = said["nodes"]

@@ -114,6 +114,21 @@ def test_what_a_robot_runs_is_compared_with_the_launch_files(
         until(lambda: looks()["/listener"] == "node both", WAIT)
 
 
+def test_a_robot_that_is_not_connected_is_not_compared(
+    session: Session, tmp_path: Path
+) -> None:
+    robot = RosbridgePeer()
+    robot.stop()
+    with Visualizer(tmp_path / "robot", port=0, source=robot.uri) as viz:
+        session = session_of(viz)
+        panel = panel_of(GraphPanel, session)
+        with session.lock:
+            edit(panel, "graph/show", [True])
+            assert "is not connected" in str(rows_of(panel)["graph/robot"].value)
+        until_drawn(panel, session, "/listener", "/talker")
+        assert {p["look"] for p in parts(panel, session).values()} == {"node"}
+
+
 def test_the_session_does_not_wait_for_a_graph_and_keeps_the_last_one(
     session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

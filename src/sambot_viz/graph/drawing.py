@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.errors import Problem
+from sambot_viz.graph.labels import is_said
 from sambot_viz.graph.node_graph import GraphEdge, GraphNode, GraphTopic, NodeGraph
 from sambot_viz.text import json_text, text
 
@@ -81,9 +82,9 @@ def _vertex(graph: NodeGraph, one: GraphNode | GraphTopic) -> str:
     said = [f"label={label}", f"shape={'ellipse' if is_node else 'box'}"]
     if one.problem is not None:
         said += ["color=red", f"tooltip={_quoted(one.problem.message)}"]
-    elif graph.is_compared:
+    elif is_said(one, graph):
         said.append(f"color={_COLOURS[one.presence]}")
-    if graph.is_compared and one.presence == "expected":
+    if is_said(one, graph) and one.presence == "expected":
         said.append("style=dashed")
     return f"  {_id(one.name, is_node=is_node)} [{', '.join(said)}];"
 
@@ -99,7 +100,7 @@ def _arrow(graph: NodeGraph, edge: GraphEdge) -> str:
 def _arrow_style(graph: NodeGraph, edge: GraphEdge) -> Iterator[str]:
     if edge.remapped_from:
         yield f"label={_quoted(edge.remapped_from)}"
-    if graph.is_compared:
+    if is_said(edge, graph):
         yield f"color={_COLOURS[edge.presence]}"
 
 

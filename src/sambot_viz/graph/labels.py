@@ -21,12 +21,17 @@ _SAID: Mapping[Presence, str] = {
 }
 
 
+def is_said(one: GraphNode | GraphTopic | GraphEdge, graph: NodeGraph) -> bool:
+    """Tell whether it is known that a part runs, or does not."""
+    return graph.is_compared and (graph.is_whole or isinstance(one, GraphTopic))
+
+
 def look_of(
     one: GraphNode | GraphTopic, graph: NodeGraph, unwritten: Collection[str]
 ) -> Iterator[str]:
     """Yield classes of the style of a part."""
     yield "node" if isinstance(one, GraphNode) else "topic"
-    if graph.is_compared:
+    if is_said(one, graph):
         yield one.presence
     if one.problem is not None:
         yield one.problem.severity
@@ -70,7 +75,7 @@ def said_of(
     if isinstance(one, GraphTopic) and one.name in unwritten:
         known = "" if graph.is_whole else " that is known"
         yield f"it is read, and no node{known} publishes it"
-    if graph.is_compared:
+    if is_said(one, graph):
         yield _SAID[one.presence]
     if one.problem is not None:
         yield text(f"{one.problem.severity}: {one.problem.message}")
@@ -88,13 +93,13 @@ def _said_of_node(node: GraphNode) -> Iterator[str]:
         yield "it may start: that depends on what is not known"
 
 
-def said_of_edge(edge: GraphEdge, *, is_compared: bool) -> str:
+def said_of_edge(edge: GraphEdge, graph: NodeGraph) -> str:
     """Return what an arrow says."""
     does = "publishes" if edge.direction == "publishes" else "subscribes to"
     said = f"{text(edge.node)} {does} {text(edge.topic)}"
     if edge.remapped_from:
         said += f", which it calls {text(edge.remapped_from)}"
-    return f"{said}; {_SAID[edge.presence]}" if is_compared else said
+    return f"{said}; {_SAID[edge.presence]}" if is_said(edge, graph) else said
 
 
 def place_of(file: str, line: int | None) -> str:

@@ -146,9 +146,11 @@ def compared(expected: NodeGraph, running: NodeGraph) -> NodeGraph:
     """Join what launch files would start with what runs, by the names of both.
 
     What does not run is left out where it need not: its start is not certain, or it is
-    no node that goes on.
+    no node that goes on. Without a word about nodes, only topics are compared.
     """
-    absent, expected = _without_absent(expected, running)
+    absent: list[str] = []
+    if running.is_whole:
+        absent, expected = _without_absent(expected, running)
     nodes = {n: replace(one, presence="running") for n, one in running.nodes.items()}
     for name, node in expected.nodes.items():
         nodes[name] = replace(node, presence=_presence(name in running.nodes))

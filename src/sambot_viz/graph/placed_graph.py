@@ -9,7 +9,7 @@ from typing import Literal
 
 from sambot_viz import limits
 from sambot_viz.errors import Problem
-from sambot_viz.graph.labels import lines_of, look_of, said_of, said_of_edge
+from sambot_viz.graph.labels import is_said, lines_of, look_of, said_of, said_of_edge
 from sambot_viz.graph.layered import Arc, LaidOut, Point, Vertex, layered
 from sambot_viz.graph.node_graph import (
     GraphEdge,
@@ -206,9 +206,9 @@ class _PlacesOfGraph:
 
     def _placed_edge(self, edge: GraphEdge, path: Sequence[Point]) -> PlacedEdge:
         look = (edge.direction,)
-        if self._graph.is_compared:
+        if is_said(edge, self._graph):
             look = (edge.direction, edge.presence)
-        said = said_of_edge(edge, is_compared=self._graph.is_compared)
+        said = said_of_edge(edge, self._graph)
         return PlacedEdge(_curve(path), look, said)
 
     def _spaces(self, parts: Sequence[PlacedPart]) -> Iterator[PlacedSpace]:

@@ -109,6 +109,11 @@ class SessionGraph:
         return self._package is not None or self._live is not None
 
     @property
+    def is_waiting(self) -> bool:
+        """Whether there is a robot that is not connected: nobody knows what runs."""
+        return self._live is not None and not self._live.status.is_connected
+
+    @property
     def launches(self) -> Sequence[str]:
         """The names of the launch files, once they were read."""
         return [one.name for one in self._launches]
@@ -235,7 +240,7 @@ class SessionGraph:
 
     def _running(self) -> NodeGraph | None:
         live = self._live
-        if live is None:
+        if live is None or self.is_waiting:
             return None
         from sambot_viz.graph.running import RunningNodes
 

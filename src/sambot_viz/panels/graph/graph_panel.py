@@ -78,7 +78,10 @@ class GraphPanel(Panel):
             help="Draw types and packages, and topics that only one node has.",
             set=self._graph.draw_details,
         )
-        if placed is None:
+        if self._graph.is_waiting:
+            said = "The robot is not connected: what runs is not known"
+            yield Row("graph/robot", "", "note", value=said, level="info")
+        elif placed is None:
             yield Row("graph/wait", "", "note", value="Reading the launch files …")
         elif not placed.parts:
             yield Row("graph/none", "", "note", value="No node and no topic is known")
