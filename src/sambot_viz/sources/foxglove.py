@@ -20,8 +20,8 @@ from sambot_viz.sources.action_names import (
     status_topic,
 )
 from sambot_viz.sources.foxglove_services import FoxgloveServices
-from sambot_viz.sources.hidden_action import HiddenAction
 from sambot_viz.sources.live.conversation import Conversation, Ends
+from sambot_viz.sources.live.hidden_action import HiddenAction
 from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.message import (
     Recorded,

@@ -15,6 +15,10 @@ from sambot_viz.sources.qos import Qos, parse_qos, profile_text
 from sambot_viz.sources.source import Receivers
 
 _MANGLED = re.compile(r"(\w+)::(msg|srv|action)::dds_::(\w+?)_", re.ASCII)
+NODE = "/sambot_viz"
+"""What this program is called among the nodes."""
+UNNAMED = "an unnamed program"
+"""Who has told nobody of which node it is."""
 NO_HASH = "TypeHashNotSupported"
 """What ROS 2 Humble has where later ones have the hash of a type."""
 
@@ -90,10 +94,13 @@ class RosGraph:
         return tuple(self._named.get((kind, name), {}).values())
 
     def receivers(self, topic: str) -> Receivers:
-        """Return who has subscribed to a topic, and the type that the robot knows."""
-        takers = self.of(Kind.SUBSCRIBER, topic)
+        """Return who has subscribed to a topic, and the type that the robot knows.
+
+        Others that show the robot by this program take nothing.
+        """
+        takers = [one for one in self.of(Kind.SUBSCRIBER, topic) if one.node != NODE]
         known = (*takers, *self.of(Kind.PUBLISHER, topic))
-        names = tuple(dict.fromkeys(one.node for one in takers))
+        names = tuple(dict.fromkeys(one.node or UNNAMED for one in takers))
         return Receivers(names, known[0].type_name if known else "")
 
     def offered(self, topic: str) -> Qos | None:

@@ -285,6 +285,23 @@ class LiveSource(ABC):
         conversation.update(self._wanted())
         return conversation
 
+    async def _hold(
+        self, begin: Callable[[Ends], Conversation], lost: asyncio.Event
+    ) -> None:
+        """Speak until a connection is lost that has no frames to read."""
+        conversation = self._converse(begin)
+        self._follow()
+        gone = asyncio.ensure_future(lost.wait())
+        try:
+            while not gone.done():
+                await asyncio.wait((gone,), timeout=TICK)
+                if not gone.done():
+                    conversation.tick(asyncio.get_running_loop().time())
+                    self._follow()
+                    self._tell_health()
+        finally:
+            gone.cancel()
+
     def _follow(self) -> None:
         conversation = self._conversation
         if conversation is None:

@@ -14,8 +14,6 @@ from dataclasses import dataclass
 from sambot_viz.sources.qos import Qos
 from sambot_viz.sources.ros_graph import Kind, RosEndpoint, demangled, mangled
 
-NODE = "/sambot_viz"
-"""What this program is called among the nodes."""
 TOKENS = "@ros2_lv/**"
 _NODE = "NN"
 _KINDS = {"MP": Kind.PUBLISHER, "MS": Kind.SUBSCRIBER, "SS": Kind.SERVICE}

@@ -7,10 +7,10 @@ from functools import partial
 
 from sambot_viz.errors import SourceError
 from sambot_viz.sources.live.event_loop import SourceLoop
-from sambot_viz.sources.live.live_source import TICK, LiveSource
+from sambot_viz.sources.live.live_source import LiveSource
 from sambot_viz.sources.websocket.trouble import explain
 from sambot_viz.sources.zenoh.conversation import ZenohConversation
-from sambot_viz.sources.zenoh.session import LONGEST_OPENING, ZenohSession, open_session
+from sambot_viz.sources.zenoh.session import LONGEST_OPENING, open_session
 
 
 class ZenohSource(LiveSource):
@@ -29,25 +29,9 @@ class ZenohSource(LiveSource):
         session = await loop.aside(partial(open_session, address, self._post, lost.set))
         try:
             if session.router:
-                await self._speak(session, lost)
+                await self._hold(partial(ZenohConversation, session), lost)
         finally:
             session.close()
-
-    async def _speak(self, session: ZenohSession, lost: asyncio.Event) -> None:
-        """Speak until the connection is lost."""
-        conversation = self._converse(partial(ZenohConversation, session))
-        self._follow()
-        loop = asyncio.get_running_loop()
-        gone = asyncio.ensure_future(lost.wait())
-        try:
-            while not gone.done():
-                await asyncio.wait((gone,), timeout=TICK)
-                if not gone.done():
-                    conversation.tick(loop.time())
-                    self._follow()
-                    self._tell_health()
-        finally:
-            gone.cancel()
 
     def _explain(self, error: BaseException) -> str:
         if isinstance(error, SourceError):
