@@ -69,6 +69,9 @@ NO_LIMITS = {
         sources/live/delivery.py LONGEST_STOP
         sources/websocket/runner.py LONGEST_SILENCE
         sources/live/live_source.py LONGEST_PAUSE LONGEST_STOP
+        sources/dds/dds_source.py LONGEST_SEARCH
+        sources/dds/ends.py _LONGEST_WRITE
+        sources/dds/participant.py LONGEST_STOP
         sources/zenoh/session.py LONGEST_OPENING
     """,
     "work: what is kept to be quick, or for how long a quick way is taken": """
@@ -86,6 +89,8 @@ NO_LIMITS = {
         session/robot/motion_recorder.py MOST_NUMBERS
         sources/bag/file_bytes.py _MOST_AHEAD
         sources/cut_recording.py _MOST_GIVEN_UP
+        sources/dds/participant.py _MOST_ENDPOINTS _MOST_KEPT
+        sources/dds/settings.py _MOST_PARTICIPANTS
         tools/picking/pixel_rays.py MOST_PIXELS
         topics/decoding.py _MOST_KEPT
         topics/frame_limit.py _MOST_KEPT

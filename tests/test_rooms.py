@@ -118,7 +118,8 @@ ROOMS: Mapping[str, Row] = {
     "meanings": Row("messages", "numpy"),
     # From recordings and robots on the network to messages as bytes.
     "sources": Row(
-        "_version messages", "lz4 mcap msgspec numpy websockets yaml zenoh zstandard"
+        "_version messages",
+        "cyclonedds lz4 mcap msgspec numpy websockets yaml zenoh zstandard",
     ),
     # What there is at a time, and why something is not seen.
     "topics": Row("frames joints meanings messages robot sources", "numpy"),
@@ -226,6 +227,10 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/trouble.py": "socket ssl",
     "sources/live/live_source.py": "asyncio concurrent threading",
     "sources/websocket/websocket_source.py": "asyncio",
+    "sources/dds/dds_source.py": "asyncio",
+    "sources/dds/ends.py": "asyncio",
+    "sources/dds/participant.py": "threading",
+    "sources/dds/services.py": "asyncio",
     "sources/zenoh/session.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread

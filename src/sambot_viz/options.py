@@ -130,8 +130,8 @@ class Options:
     source: Sequence[str] | str = option(
         (),
         "what moves the robot: a recording (an mcap, db3 or bag file, or a folder with "
-        f"them{AGAIN}), foxglove://HOST:8765, rosbridge://HOST:9090 or "
-        "zenoh://HOST:7447 of a live robot; NAME=URI gives it a name",
+        f"them{AGAIN}), foxglove://HOST:8765, rosbridge://HOST:9090, "
+        "zenoh://HOST:7447 or dds:?domain=0 of a live robot; NAME=URI gives it a name",
         "--source",
         group="source",
         metavar="[NAME=]URI",

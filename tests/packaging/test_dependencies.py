@@ -58,13 +58,13 @@ def test_what_is_imported_is_declared_and_the_other_way_round(
     repository: Path,
 ) -> None:
     wanted = {name.lower() for name in declared(repository)}
-    extras = {*listed(repository, "zenoh")}
+    extras = {*listed(repository, "zenoh"), *listed(repository, "dds")}
     assert wanted | extras == imported(repository)
 
 
 def test_every_declared_package_has_a_reason(repository: Path) -> None:
     # What is for Jupyter is not imported: it starts this program.
-    extras = (listed(repository, name) for name in ("jupyter", "zenoh"))
+    extras = (listed(repository, name) for name in ("jupyter", "zenoh", "dds"))
     named = {**declared(repository), **ChainMap(*extras)}
     assert [name for name, why in named.items() if not why] == []
     assert "jupyter-server-proxy" in named

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 
 import pytest
+from dds_peer import DdsPeer
 from live_peers import FoxglovePeer, Inbox, LivePeer
 from rosbridge_peer import RosbridgePeer
 from zenoh_peer import ZenohPeer
@@ -17,6 +18,7 @@ PEERS: dict[str, Callable[[], LivePeer]] = {
     "foxglove": FoxglovePeer,
     "rosbridge": RosbridgePeer,
     "zenoh": ZenohPeer,
+    "dds": DdsPeer,
 }
 
 

@@ -57,10 +57,9 @@ def test_what_is_shown_has_no_secret() -> None:
         ("foxglove+tcp://robot", "unknown kind of source 'foxglove\\+tcp'"),
         ("foxglove://[::1", "write foxglove://HOST:8765"),
         (
-            "dds:",
-            "dds comes later; known: FILE or folder of a recording, foxglove://HOST:8765",
+            "rclpy:",
+            "rclpy comes later; known: FILE or folder of a recording, foxglove://HOST",
         ),
-        ("rclpy:", "rclpy comes later"),
         ("http://robot", "unknown kind of source; known: FILE"),
         ("robot", "unknown kind of source"),
         ("", "unknown kind of source"),

@@ -139,8 +139,8 @@ def test_a_connection_that_was_pulled_is_made_again(
     peer.stop()
     wait(lambda: not source.status.is_connected)
     assert set(source.topics()) == {"/chatter", "/map"}, "the last known ones"
-    wait(lambda: "Nothing listens at 127.0.0.1:" in source.status.sentence)
-    assert "`ros2 " in source.status.sentence
+    wait(lambda: peer.absent in source.status.sentence)
+    assert peer.remedy in source.status.sentence
     assert 0 < (source.status.retry_s or 0) <= 15
     peer.start()
     inbox.wait_for("hall", "hall")
@@ -159,7 +159,7 @@ def test_a_robot_may_be_switched_on_later(
     peer.stop()
     source = opened(peer.uri)
     source.subscribe("/chatter", inbox)
-    wait(lambda: "Nothing listens" in source.status.sentence)
+    wait(lambda: peer.absent in source.status.sentence)
     peer.start()
     wait(lambda: peer.subscribed() == ["/chatter"])
     peer.publish("/chatter", "awake")
@@ -232,10 +232,9 @@ def test_a_slow_callback_loses_the_oldest_messages_and_they_are_counted(
     wait(lambda: source.status.dropped == 90)
     wait(lambda: "displays were too slow" in source.status.sentence)
     free.set()
-    wait(lambda: inbox.strings()[-1:] == ["100"])
+    wait(lambda: {"100", "kept"} <= {*inbox.strings()})
     numbers = [int(word) for word in inbox.strings() if word != "kept"]
     assert numbers == [0, *range(91, 101)]
-    assert "kept" in inbox.strings()
 
 
 def test_close_joins_the_threads_and_may_be_called_twice(

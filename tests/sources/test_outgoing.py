@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from foxglove.websocket import Capability
-from live_peers import FoxglovePeer, LivePeer, cdr_string, eventually
+from live_peers import FoxglovePeer, LivePeer, cdr_string, cdr_word, eventually
 from rosbridge_peer import RosbridgePeer
 
 from sambot_viz.errors import SourceError
@@ -39,9 +39,7 @@ def written(outgoing: Outgoing, word: str) -> bytes:
 def words(peer: LivePeer) -> list[str]:
     """What has come, in its order."""
     return [
-        one.content["data"]
-        if isinstance(one.content, dict)
-        else bytes(one.content[8:-1]).decode()
+        one.content["data"] if isinstance(one.content, dict) else cdr_word(one.content)
         for one in peer.came()
     ]
 

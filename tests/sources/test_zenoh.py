@@ -331,8 +331,9 @@ def test_without_its_package_one_line_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(registry, "find_spec", lambda name: None)
-    with pytest.raises(UsageError, match=r'pip install "sambot-viz\[zenoh\]"'):
-        registry.open_source("zenoh://robot")
+    for uri, extra in (("zenoh://robot", "zenoh"), ("dds:", "dds")):
+        with pytest.raises(UsageError, match=rf'pip install "sambot-viz\[{extra}\]"'):
+            registry.open_source(uri)
     assert registry.live_address("foxglove://robot").port == 8765
 
 

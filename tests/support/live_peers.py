@@ -44,6 +44,12 @@ def cdr_string(data: str) -> bytes:
     return b"\0\1\0\0" + len(words).to_bytes(4, "little") + words
 
 
+def cdr_word(content: bytes | memoryview) -> str:
+    """The string of a std_msgs/msg/String; what comes behind it fills up."""
+    length = int.from_bytes(content[4:8], "little")
+    return bytes(content[8 : 7 + length]).decode()
+
+
 def free_port() -> int:
     """A port of the loopback at which nothing listens now.
 
@@ -67,7 +73,7 @@ class Inbox:
         self.messages.append(message)
 
     def strings(self) -> list[str]:
-        return [bytes(one.payload[8:-1]).decode() for one in list(self.messages)]
+        return [cdr_word(one.payload) for one in list(self.messages)]
 
     def wait_for(self, *strings: str) -> None:
         """Wait until exactly these have come, in this order."""
@@ -93,8 +99,11 @@ class LivePeer(ABC):
 
     Attributes:
         requests: what services were called with, CDR or the fields.
+        absent: what is said where it is not there.
+        remedy: what is said with that.
     """
 
+    absent, remedy = "Nothing listens at 127.0.0.1:", "`ros2 "
     uri: str
     requests: list[Any]
 

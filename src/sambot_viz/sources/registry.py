@@ -11,13 +11,13 @@ from sambot_viz.text import text
 
 KNOWN = (
     "FILE or folder of a recording, foxglove://HOST:8765, rosbridge://HOST:9090, "
-    "zenoh://HOST:7447"
+    "zenoh://HOST:7447, dds:?domain=0"
 )
 """What `--source` takes, for help and messages."""
-_LATER = ("dds", "rclpy")
-_LIVE = ("foxglove", "rosbridge", "ws", "wss", "zenoh")
-_EXTRAS = ("zenoh",)
-"""Kinds that need a package of the same name, from an extra of the same name."""
+_LATER = ("rclpy",)
+_LIVE = ("foxglove", "rosbridge", "ws", "wss", "zenoh", "dds")
+_EXTRAS = {"zenoh": "zenoh", "dds": "cyclonedds"}
+"""Kinds that need a package, from an extra that is called like them."""
 
 
 def is_live(uri: str) -> bool:
@@ -41,7 +41,7 @@ def live_address(uri: str) -> Address:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
         raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
-    if scheme in _EXTRAS and find_spec(scheme) is None:
+    if scheme in _EXTRAS and find_spec(_EXTRAS[scheme]) is None:
         raise UsageError(
             f'{text(uri)}: needs the extra {scheme}: pip install "sambot-viz[{scheme}]"'
         )
@@ -59,6 +59,10 @@ def open_source(uri: str) -> Source:
         from sambot_viz.sources.zenoh.zenoh_source import ZenohSource
 
         return ZenohSource(uri, address)
+    if address.protocol == "dds":
+        from sambot_viz.sources.dds.dds_source import DdsSource
+
+        return DdsSource(uri, address)
     # websockets takes 0.1 s to import, and most commands need none.
     from sambot_viz.sources.foxglove import FoxgloveConversation
     from sambot_viz.sources.foxglove_wire import SUBPROTOCOLS

@@ -1,10 +1,12 @@
 """Where a live source is: the address that a user writes, and that of its websocket.
 
-A router of zenoh is written in the same way, and has none.
+A router of zenoh is written in the same way, and has none. DDS has no server at all,
+but a domain with participants.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from urllib.parse import SplitResult, parse_qsl, urlsplit
 
@@ -19,6 +21,9 @@ _PLAIN = {"foxglove": "ws", "rosbridge": "ws", "zenoh": "tcp"}
 """Protocol → what is written after it, with TLS and without."""
 _HIGHEST_DOMAIN = 232
 """Of ROS 2."""
+_DDS_EXAMPLE = "dds:?domain=0&interface=eth0&peer=HOST,HOST"
+_PLACE = re.compile(r"[\w.:\[\]-]+", re.ASCII)
+"""A network interface, or a host with or without a port."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +31,14 @@ class Address:
     """The address of a server.
 
     Attributes:
-        protocol: "foxglove", "rosbridge" or "zenoh".
-        host: name or number of the machine.
-        port: TCP port.
+        protocol: "foxglove", "rosbridge", "zenoh" or "dds".
+        host: name or number of the machine; "" of DDS.
+        port: TCP port; 0 of DDS.
         is_secure: spoken through TLS.
-        websocket: "ws://robot:8765/path?token=…"; may hold a password. "" of zenoh.
+        websocket: "ws://robot:8765/path?token=…"; may hold a password. "" of others.
         domain: ROS's domain id, where the address says it.
+        interface: of the network, for DDS; "" for the usual one.
+        peers: machines with participants of DDS; none for all that multicast reaches.
     """
 
     protocol: str
@@ -40,10 +47,16 @@ class Address:
     is_secure: bool
     websocket: str
     domain: int = 0
+    interface: str = ""
+    peers: tuple[str, ...] = ()
 
     @property
     def label(self) -> str:
         """The place without anything secret, for people: "robot:8765"."""
+        if self.protocol == "dds":
+            at = ", ".join(self.peers) or self.interface
+            at = f" at {at}" if at else ""
+            return text(f"DDS domain {self.domain}{at}", 100)
         host = f"[{self.host}]" if ":" in self.host else self.host
         return text(f"{host}:{self.port}", 100)
 
@@ -65,7 +78,9 @@ def parse_address(uri: str) -> Address:
     Raises:
         UsageError: it names no host, or a port that cannot be.
     """
-    scheme, _, _ = uri.partition(":")
+    scheme, _, rest = uri.partition(":")
+    if scheme.lower() == "dds":
+        return _dds(uri, rest)
     protocol, _, transport = scheme.lower().partition("+")
     if protocol in ("ws", "wss"):
         protocol, transport = "foxglove", protocol
@@ -88,17 +103,38 @@ def parse_address(uri: str) -> Address:
     if not host or not parts.netloc or not _is_plain(parts.path + parts.query):
         raise UsageError(f"{text(uri)}: no host is named; {example}")
     if not has_websocket:
-        return Address(protocol, host, port, is_secure, "", _domain(uri, parts.query))
+        domain = _domain(uri, _said(uri, parts.query, "?domain=0", "domain"))
+        return Address(protocol, host, port, is_secure, "", domain)
     websocket = _websocket(parts, is_secure, host, port)
     return Address(protocol, host, port, is_secure, websocket)
 
 
-def _domain(uri: str, query: str) -> int:
-    """Return the domain id in the part behind the question mark."""
+def _dds(uri: str, rest: str) -> Address:
+    """Read what follows dds: — a host is a peer, too."""
+    host, _, query = rest.removeprefix("//").rstrip("/").partition("?")
+    said = _said(uri, query, _DDS_EXAMPLE, "domain", "interface", "peer")
+    interface = said.get("interface", "")
+    peers = [*filter(None, (host.rstrip("/"), *said.get("peer", "").split(",")))]
+    for word in (*peers, interface):
+        if word and not _PLACE.fullmatch(word):
+            why = f"'{text(word)}' is no host and no interface"
+            raise UsageError(f"{text(uri)}: {why}; write {_DDS_EXAMPLE}")
+    domain = _domain(uri, said)
+    return Address("dds", "", 0, False, "", domain, interface, tuple(peers))
+
+
+def _said(uri: str, query: str, example: str, *known: str) -> dict[str, str]:
+    """Return what stands behind the question mark."""
     said = dict(parse_qsl(query, keep_blank_values=True))
-    written = said.pop("domain", "0")
-    if said:
-        raise UsageError(f"{text(uri)}: unknown '{text(next(iter(said)))}'; ?domain=0")
+    for name in said:
+        if name not in known:
+            raise UsageError(f"{text(uri)}: unknown '{text(name)}'; {example}")
+    return said
+
+
+def _domain(uri: str, said: dict[str, str]) -> int:
+    """Return the domain id."""
+    written = said.get("domain", "0")
     if not written.isdecimal() or int(written[:9]) > _HIGHEST_DOMAIN:
         why = f"a domain id is a number from 0 to {_HIGHEST_DOMAIN}"
         raise UsageError(f"{text(uri)}: {why}")

@@ -1,0 +1,1 @@
+"""ROS 2 by DDS itself: no bridge on the robot."""
