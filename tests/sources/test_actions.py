@@ -13,6 +13,7 @@ from action_peers import (
     INNER,
     KIND,
     ActionPeer,
+    DdsAction,
     FoxgloveAction,
     RosbridgeAction,
     ZenohAction,
@@ -35,7 +36,7 @@ GOAL = "geometry_msgs/PoseStamped pose\nstring behavior_tree"
 STATUS = f"{INNER}/status"
 
 
-@pytest.fixture(params=[FoxgloveAction, RosbridgeAction, ZenohAction])
+@pytest.fixture(params=[FoxgloveAction, RosbridgeAction, ZenohAction, DdsAction])
 def robot(request: pytest.FixtureRequest) -> Iterator[ActionPeer]:
     made = request.param()
     yield made
@@ -183,6 +184,7 @@ def test_a_robot_without_the_action_says_what_would_show_it(
         "foxglove": "include_hidden:=true",
         "rosbridge": "Jazzy",
         "zenoh": "the robot has no service",
+        "dds": "the robot has no service",
     }[peer.uri.partition(":")[0]]
     with pytest.raises(SourceError, match=why):
         source.action(ACTION, KIND)

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Any
 
 from blank_messages import blank_message
+from dds_peer import DdsPeer
 from live_peers import WAIT, LivePeer
 from navigator_peer import NavigatorPeer
 from rosbags.typesys import Stores, get_typestore
@@ -88,7 +89,9 @@ class HiddenAction(ActionPeer):
         accepts: goals.
     """
 
-    def __init__(self, peer: NavigatorPeer | ZenohPeer, accepts: bool = True) -> None:
+    def __init__(
+        self, peer: NavigatorPeer | ZenohPeer | DdsPeer, accepts: bool = True
+    ) -> None:
         self.peer = self._peer = peer
         kind = f"{KIND}_FeedbackMessage"
         self._peer.offer(f"{INNER}/feedback", kind, FEEDBACK)
@@ -163,6 +166,15 @@ class ZenohAction(HiddenAction):
 
     def __init__(self) -> None:
         peer = ZenohPeer()
+        peer.advertise(f"{INNER}/status", True, "action_msgs/msg/GoalStatusArray")
+        super().__init__(peer)
+
+
+class DdsAction(HiddenAction):
+    """An action of a node with DDS; see `HiddenAction`."""
+
+    def __init__(self) -> None:
+        peer = DdsPeer()
         peer.advertise(f"{INNER}/status", True, "action_msgs/msg/GoalStatusArray")
         super().__init__(peer)
 
