@@ -26,7 +26,11 @@ LOADS = {
     "a cloud of 1.6 MB at 10 Hz": (10, 1_600_000),
 }
 """Messages in a second, and the size of each [bytes]."""
-PEERS = {"zenoh": "zenoh_peer.ZenohPeer", "foxglove": "live_peers.FoxglovePeer"}
+PEERS = {
+    "zenoh": "zenoh_peer.ZenohPeer",
+    "dds": "dds_peer.DdsPeer",
+    "foxglove": "live_peers.FoxglovePeer",
+}
 
 TALKER = f"""
 import importlib, sys, time

@@ -25,7 +25,7 @@ from sambot_viz.sources.live.address import Address
 from sambot_viz.sources.qos import Qos
 from sambot_viz.sources.ros_graph import NO_HASH, NODE
 
-_TOGETHER = 0.004
+_TOGETHER = 0.008
 """Messages that come within this time are handed on together [s]."""
 LONGEST_STOP = 5.0
 """`close` waits this long for the thread [s]."""

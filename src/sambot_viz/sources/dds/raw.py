@@ -44,6 +44,8 @@ def wire_type(name: str) -> Any:
 def take(reader: Any, most: int) -> list[tuple[bytes, Any]]:
     """Take messages that have come: each as CDR with its header, and what came with it.
 
+    What fills CDR up to a multiple of four bytes is still at its end; see `unfilled`.
+
     Args:
         reader: of cyclonedds.
         most: so many at once.
@@ -55,7 +57,7 @@ def take(reader: Any, most: int) -> list[tuple[bytes, Any]]:
     # A number is an error: the reader is being taken away.
     if isinstance(taken, int):
         return []
-    return [(_unfilled(content), info) for content, info in taken if info.valid_data]
+    return [(content, info) for content, info in taken if info.valid_data]
 
 
 def write(writer: Any, message: bytes) -> bool:
@@ -66,7 +68,7 @@ def write(writer: Any, message: bytes) -> bool:
     return _private().ddspy_write(writer._ref, whole) >= 0
 
 
-def _unfilled(content: bytes) -> bytes:
+def unfilled(content: bytes) -> bytes:
     """Return CDR without what only fills it up at its end, as its head says."""
     filling = content[_HEAD - 1] & 3 if len(content) >= _HEAD else 0
     if not filling:

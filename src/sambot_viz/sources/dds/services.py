@@ -15,6 +15,7 @@ from sambot_viz.errors import SourceError
 from sambot_viz.sources.dds import names
 from sambot_viz.sources.dds.ends import SETTLED
 from sambot_viz.sources.dds.participant import DdsParticipant
+from sambot_viz.sources.dds.raw import unfilled
 from sambot_viz.sources.live.service_calls import LONGEST_ANSWER
 from sambot_viz.sources.qos import Qos
 from sambot_viz.sources.ros_graph import RosEndpoint, mangled
@@ -132,6 +133,7 @@ class _Caller:
 
     def _take(self, content: bytes, handle: int, stamp: int) -> None:
         del handle, stamp
+        content = unfilled(content)
         if self._has_header:
             end = _HEAD + len(self._id) + 8
             if content[_HEAD : end - 8] != self._id or len(content) < end:

@@ -25,7 +25,7 @@ from sambot_viz.sources.zenoh.names import attachment, endpoint_token
 
 LONGEST_OPENING = 10.0
 """A router that has not answered by then is given up [s]."""
-_TOGETHER = 0.004
+_TOGETHER = 0.008
 """Messages that come within this time are handed on together [s]."""
 _CERTIFICATES = "SSL_CERT_FILE"
 
