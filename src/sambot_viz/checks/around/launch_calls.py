@@ -16,67 +16,20 @@ from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
-_LIKENESS = 0.75
 _ALIKE = 0.85
 _FILES = {"RosGzBridge": "config_file", "GzServer": "world_sdf_file"}
 """Action → its argument that is the path of a file."""
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 
-def meant_word(words: tuple[str, ...], wrong: str, likeness: float) -> str | None:
-    """Return the word of a vocabulary that was meant by another one.
-
-    Args:
-        words: of the vocabulary; "wrong=right" gives the one that is meant.
-        wrong: what is written.
-        likeness: how like a word that is not given has to be.
-
-    Returns:
-        None for a word that is known, and for one that is like no other.
-    """
-    known = [word for word in words if "=" not in word]
-    if wrong in known:
-        return None
-    named = dict(word.split("=") for word in words if "=" in word)
-    return named.get(wrong) or nearest(wrong, known, likeness)
-
-
-def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
-    """Report arguments that an action does not have, where another one is meant."""
-    table = vocabulary("launch_calls")
-    for launch in around.launches:
-        for call in launch.calls:
-            name = call.name
-            given = {k.arg for k in call.node.keywords if k.arg}
-            for argument in call.node.keywords if name in table else ():
-                wrong = argument.arg or ""
-                near = meant_word(table[name], wrong, _LIKENESS) if wrong else None
-                if near is None or near in given:
-                    continue
-                place = Place(launch.shown, argument.lineno, argument.col_offset + 1)
-                yield Problem.at(
-                    place,
-                    "error",
-                    "launch-code",
-                    f"{name} has no argument {wrong}, but {near}: ros2 launch stops "
-                    "with it",
-                    _renamed(place, wrong, near),
-                )
-
-
-def _renamed(place: Place, wrong: str, right: str) -> Fix:
-    end = Place(place.file, place.line, (place.column or 1) + len(wrong))
-    return write_between(place, end, right, f"write {right}")
-
-
 def arguments_that_are_no_texts(around: Surroundings) -> Iterator[Problem]:
     """Report defaults and launch arguments that are no texts, and a table of them."""
     for launch in around.launches:
-        for call in launch.nodes_called("DeclareLaunchArgument"):
+        for call in launch.called("DeclareLaunchArgument"):
             default = call.given("default_value", 1)
             if default is not None:
                 yield from _no_text(default, "default_value", launch)
-        for call in launch.nodes_called("IncludeLaunchDescription"):
+        for call in launch.called("IncludeLaunchDescription"):
             yield from _no_pairs(call.given("launch_arguments"), launch)
 
 
@@ -155,7 +108,7 @@ def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:
     """Report a slash before a part of a path, where os.path.join begins again."""
     for launch in around.launches:
-        for call in launch.nodes_called("join"):
+        for call in launch.called("join"):
             path = launch.values.text(call.node) or ""
             for part in call.node.args[1:]:
                 said = part.value if isinstance(part, ast.Constant) else None

@@ -7,6 +7,8 @@ import builtins
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launch_imports import modules
+from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
@@ -18,30 +20,6 @@ _DESCRIPTION = "LaunchDescription"
 _CODE = "launch-code"
 _LIKENESS = 0.8
 
-_IMPORTS: dict[str, str] = {
-    name: module
-    for module, names in {
-        "launch": _DESCRIPTION,
-        "launch.actions": "AppendEnvironmentVariable DeclareLaunchArgument EmitEvent "
-        "ExecuteProcess GroupAction IncludeLaunchDescription LogInfo OpaqueFunction "
-        "RegisterEventHandler SetEnvironmentVariable TimerAction",
-        "launch.conditions": "IfCondition UnlessCondition",
-        "launch.event_handlers": "OnProcessExit OnProcessStart OnShutdown",
-        "launch.launch_description_sources": "PythonLaunchDescriptionSource",
-        "launch.substitutions": "Command EnvironmentVariable FindExecutable "
-        "LaunchConfiguration PathJoinSubstitution PythonExpression TextSubstitution",
-        "launch_ros.actions": "LifecycleNode Node PushRosNamespace SetParameter",
-        "launch_ros.parameter_descriptions": "ParameterFile ParameterValue",
-        "launch_ros.substitutions": "FindPackageShare",
-        "ament_index_python.packages": "get_package_share_directory "
-        "get_package_share_path",
-        "nav2_common.launch": "RewrittenYaml",
-        "pathlib": "Path",
-        "ros_gz_bridge.actions": "RosGzBridge",
-        "ros_gz_sim.actions": "GzServer",
-    }.items()
-    for name in names.split()
-}
 _IN_SETUP = {"glob": "glob", "setup": "setuptools", "find_packages": "setuptools"}
 _NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 _MODULES = frozenset({"launch", "launch_ros", "os", "sys", "xacro"})
@@ -74,6 +52,8 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
                 yield _without_return(entry, launch)
         elif not _is_bound(_ENTRY, launch.tree):
             near = nearest(_ENTRY, (f.name for f in functions), _LIKENESS)
+            builders = [f.name for f in functions if _describes(f)]
+            near = near or (builders[0] if len(builders) == 1 else None)
             for function in functions:
                 if function.name == near:
                     yield Problem.at(
@@ -90,6 +70,16 @@ def missing_entries(around: Surroundings) -> Iterator[Problem]:
                             _ENTRY,
                         ),
                     )
+
+
+def _describes(function: ast.FunctionDef) -> bool:
+    """True for a function that returns a LaunchDescription it builds."""
+    return any(
+        isinstance(node, ast.Return)
+        and isinstance(node.value, ast.Call)
+        and call_name(node.value.func) == _DESCRIPTION
+        for node in function.body
+    )
 
 
 def _returns(function: ast.FunctionDef) -> bool:
@@ -158,7 +148,17 @@ def missing_commas(around: Surroundings) -> Iterator[Problem]:
         for node in ast.walk(file.tree):
             item = node.func if isinstance(node, ast.Call) else None
             item = node.value if isinstance(node, ast.Subscript) else item
-            if isinstance(item, _NEVER_CALLED):
+            if isinstance(item, ast.Constant) and item.value in modules():
+                code, stops = _stopped(file)
+                yield Problem.at(
+                    file.place(item),
+                    "error",
+                    code,
+                    f"{item.value} is in quotation marks, and a text cannot be called: "
+                    f"{stops} stops with it",
+                    rewritten(item, file.shown, str(item.value)),
+                )
+            elif isinstance(item, _NEVER_CALLED):
                 code, stops = _stopped(file)
                 end = Place(file.shown, item.end_lineno or item.lineno)
                 second = "(" if isinstance(node, ast.Call) else "["
@@ -206,12 +206,14 @@ def _advice(
     name: str, bound: set[str], code: str, file: LaunchFile | SetupFile, node: ast.Name
 ) -> Fix:
     own = bound - PREDEFINED
-    modules = _IN_SETUP if code != _CODE and name in _IN_SETUP else _IMPORTS
-    if name in modules:
-        return _imported(f"from {modules[name]} import {name}", file)
+    known = modules()
+    module = _IN_SETUP.get(name) if code != _CODE else None
+    module = module or known.get(name)
+    if module is not None:
+        return _imported(f"from {module} import {name}", file)
     if name in _MODULES:
         return _imported(f"import {name}", file)
-    near = nearest(name, sorted(own), 0.7) or nearest(name, _IMPORTS, 0.85)
+    near = nearest(name, sorted(own), 0.7) or nearest(name, known, 0.85)
     if near in own:
         return write(file.place(node), name, near)
     if near is not None:

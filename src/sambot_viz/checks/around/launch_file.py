@@ -79,7 +79,7 @@ class LaunchFile:
     shown: str
     tree: ast.Module
 
-    def place(self, node: ast.expr) -> Place:
+    def place(self, node: ast.expr | ast.stmt) -> Place:
         """Return the place of an expression."""
         return place_in(self.shown, node)
 
@@ -133,7 +133,7 @@ class LaunchFile:
         said = ((name, self.values.text(node)) for name, node in self._set.items())
         return next((name for name, value in said if value == text), None)
 
-    def nodes_called(self, *actions: str) -> Iterator[Call]:
+    def called(self, *actions: str) -> Iterator[Call]:
         """Give the calls of actions, of those that start a node by default."""
         names = frozenset(actions) or NODES
         return (call for call in self.calls if call.name in names)

@@ -21,44 +21,6 @@ _CONDITIONS = frozenset({"IfCondition", "UnlessCondition"})
 _LIKENESS = 0.8
 
 
-_LISTS = {
-    "parameters": (Table, "a dict", "ros2 launch stops with it"),
-    "remappings": (Table, "a dict", "ros2 launch stops with it"),
-    "arguments": (str, "a text", "the program gets each of its letters as an argument"),
-}
-"""Argument of a node → what is no list of it, what that is called, what happens."""
-
-
-def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
-    """Report parameters, remappings and arguments that are no lists."""
-    for launch, call in _nodes(around):
-        for argument, (kind, what, follows) in _LISTS.items():
-            given, value = call.given(argument), call.value(argument)
-            if given is None or not isinstance(value, kind):
-                continue
-            pairs = _pairs(given, argument)
-            yield Problem.at(
-                launch.place(given),
-                "error",
-                "launch-no-list",
-                f"{argument} of a node is a list, but this is {what}: {follows}",
-                rewritten(
-                    given, launch.shown, f"[{pairs}]", f"write {argument}=[{pairs}]"
-                ),
-            )
-
-
-def _pairs(given: ast.expr, argument: str) -> str:
-    """Write what is to be in the list."""
-    if argument == "remappings" and isinstance(given, ast.Dict):
-        both = zip(given.keys, given.values, strict=True)
-        known = [(ast.unparse(key), ast.unparse(value)) for key, value in both if key]
-        return ", ".join(f"({old}, {new})" for old, new in known)
-    if isinstance(given, ast.Constant) and isinstance(given.value, str):
-        return ", ".join(repr(word) for word in given.value.split())
-    return ast.unparse(given)
-
-
 def descriptions(around: Surroundings) -> Iterator[Problem]:
     """Report a robot_state_publisher that does not get the text of a model."""
     for launch, call in _nodes(around):
@@ -169,9 +131,7 @@ def rviz_without_option(around: Surroundings) -> Iterator[Problem]:
 def state_publishers(around: Surroundings) -> Iterator[Problem]:
     """Report two publishers of joint states that start together, or not at all."""
     for launch in around.launches:
-        found = {
-            launch.text(call, "executable"): call for call in launch.nodes_called()
-        }
+        found = {launch.text(call, "executable"): call for call in launch.called()}
         both = [found[name] for name in _JOINT_PUBLISHERS if name in found]
         given = [call.given("condition") for call in both]
         nodes = [launch.origin(node) for node in given if node is not None]
@@ -201,10 +161,10 @@ def state_publishers(around: Surroundings) -> Iterator[Problem]:
 def namespaces(around: Surroundings) -> Iterator[Problem]:
     """Report a robot_state_publisher that does not hear the joint_state_publisher."""
     for launch in around.launches:
-        if any(launch.nodes_called("PushRosNamespace", "PushROSNamespace")):
+        if any(launch.called("PushRosNamespace", "PushROSNamespace")):
             continue
         spaces: dict[str | None, list[tuple[str | None, Call]]] = {}
-        for call in launch.nodes_called():
+        for call in launch.called():
             space = launch.text(call, "namespace")
             space = "" if call.given("namespace") is None else space
             if call.given("remappings") is not None or space is None:
@@ -239,5 +199,5 @@ def namespaces(around: Surroundings) -> Iterator[Problem]:
 
 def _nodes(around: Surroundings) -> Iterator[tuple[LaunchFile, Call]]:
     for launch in around.launches:
-        for call in launch.nodes_called():
+        for call in launch.called():
             yield launch, call

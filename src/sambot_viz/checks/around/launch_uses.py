@@ -5,19 +5,20 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 
 import yaml
 
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag
-from sambot_viz.checks.around.launch_calls import meant_word
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.launch_file import NODES, LaunchFile
-from sambot_viz.checks.around.launching.python_parts import Table
+from sambot_viz.checks.around.launching.python_parts import Call, Table
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
@@ -35,7 +36,6 @@ _STARTED = frozenset(
         "RosGzBridge",
     }
 )
-_SETTING = ("SetLaunchConfiguration", "OpaqueFunction", "GroupAction")
 _TOPIC, _PUBLISHER = "robot_description", "robot_state_publisher"
 
 
@@ -47,7 +47,7 @@ def unused_actions(around: Surroundings) -> Iterator[Problem]:
     for launch, text in around.launch_texts():
         if undefined_names(launch.tree):
             continue
-        described = next(launch.nodes_called("LaunchDescription"), None)
+        described = next(launch.called("LaunchDescription"), None)
         for name, call in _assigned(launch) if described is not None else ():
             if described is None or launch.uses(name):
                 continue
@@ -83,49 +83,10 @@ def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
                     yield target.id, value
 
 
-def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
-    """Report arguments that are used under another name than they are declared."""
-    every = {text for launch in around.launches for text in _set(launch)}
-    for launch in around.launches:
-        declared = {
-            launch.text(call, "name", 0) or "": call.place
-            for call in launch.nodes_called("DeclareLaunchArgument")
-        }
-        if "" in declared or any(launch.nodes_called(*_SETTING)):
-            continue
-        for call in launch.nodes_called("LaunchConfiguration"):
-            name = launch.text(call, "variable_name", 0) or ""
-            near = nearest(name, declared, 0.65) if name not in declared else None
-            if near is None or name in every or call.given("default", 1) is not None:
-                continue
-            instead = f"write LaunchConfiguration('{near}')"
-            yield Problem.at(
-                call.place,
-                "error",
-                "launch-argument-unknown",
-                f"the launch argument {name} is not declared; {near} is "
-                f"({where(declared[near], call.place)}): ros2 launch stops with it",
-                write(call.place, name, near, hint=instead)
-                if is_misspelt(name, near) or near.endswith(f"_{name}")
-                else f"declare {name}, or {instead}",
-            )
-
-
-def _set(launch: LaunchFile) -> Iterator[str]:
-    """The names of arguments that a launch file gives to others, or declares."""
-    for call in launch.nodes_called("DeclareLaunchArgument"):
-        yield launch.text(call, "name", 0) or ""
-    for call in launch.nodes_called("IncludeLaunchDescription"):
-        given = call.given("launch_arguments")
-        for node in ast.walk(given) if given is not None else ():
-            if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                yield node.value
-
-
 def unknown_programs(around: Surroundings) -> Iterator[Problem]:
     """Report programs that a well-known package does not have."""
     for launch in around.launches:
-        for call in launch.certain:
+        for call in launch.called():
             package = launch.text(call, "package") or ""
             program = launch.text(call, "executable")
             here = next((p for p in around.packages if p.name == package), None)
@@ -136,6 +97,10 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
             if given is None or program is None or program in known:
                 continue
             near = meant_word(known, program, 0.6)
+            elsewhere = owners().get(program, "") if known and own is None else ""
+            if elsewhere:
+                yield _of_another(launch, call, program, elsewhere)
+                continue
             if near is None and own is None:
                 continue
             place = launch.place(given)
@@ -151,6 +116,30 @@ def unknown_programs(around: Surroundings) -> Iterator[Problem]:
                 if near and (own is None or is_misspelt(program, near))
                 else _other_program(program, near),
             )
+
+
+@cache
+def owners() -> dict[str, str]:
+    """Return program → the one well-known package that has it."""
+    found: dict[str, str] = {}
+    for package, programs in vocabulary("launch_programs").items():
+        for program in programs:
+            found[program] = "" if program in found else package
+    return found
+
+
+def _of_another(launch: LaunchFile, call: Call, program: str, package: str) -> Problem:
+    given = call.given("package")
+    place = call.place if given is None else launch.place(given)
+    said = launch.text(call, "package") or ""
+    return Problem.at(
+        place,
+        "error",
+        "launch-program-unknown",
+        f"the package {said} has no program {program}, which is in {package}: ros2 "
+        "launch stops with it",
+        write(place, said, package),
+    )
 
 
 def _other_program(program: str, near: str | None) -> str:
@@ -198,7 +187,7 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
 def joined_words(around: Surroundings) -> Iterator[Problem]:
     """Report a Command whose program and file are one word."""
     for launch in around.launches:
-        for call in launch.nodes_called("Command"):
+        for call in launch.called("Command"):
             words = call.listing("command", 0).items
             if len(words) < 2 or words[0][0] != "xacro":
                 continue
@@ -277,8 +266,8 @@ def spawned_topics(around: Surroundings) -> Iterator[Problem]:
 def _descriptions(around: Surroundings) -> Iterator[tuple[str | None, Place]]:
     """The topics on which the model is published; None for one that is not certain."""
     for launch in around.launches:
-        pushed = any(launch.nodes_called("PushRosNamespace", "PushROSNamespace"))
-        for call in launch.nodes_called():
+        pushed = any(launch.called("PushRosNamespace", "PushROSNamespace"))
+        for call in launch.called():
             if launch.text(call, "executable") == _PUBLISHER:
                 space = launch.text(call, "namespace")
                 space = "" if call.given("namespace") is None else space

@@ -8,21 +8,18 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.manifest import KNOWN
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.words import Kind, Word, misspelt
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
-_TAGS = frozenset(
-    """
-    author build_depend build_export_depend buildtool_depend buildtool_export_depend
-    conflict depend description doc_depend exec_depend export group_depend license
-    maintainer member_of_group name replace test_depend url version
-    """.split()
+_ELEMENT = Kind(
+    "package_xml",
+    "package-xml",
+    "package.xml of format {owner} has no <{wrong}>: colcon does not take it for a "
+    "package",
 )
-"""The elements of formats 2 and 3."""
-_OF_FORMAT_1 = {"run_depend": "exec_depend"}
-_LIKENESS = 0.75
 _VERSION = re.compile(r"\d+\.\d+\.\d+")
 _STARTED = re.compile(r"v?(\d+)(?:\.(\d+))?")
 _NAME_LIKENESS = 0.8
@@ -31,19 +28,18 @@ _NAME_LIKENESS = 0.8
 def unknown_elements(around: Surroundings) -> Iterator[Problem]:
     """Report elements of package.xml that its format does not have."""
     root = around.manifest
-    if root is None or root.tag != "package" or root.get("format") not in ("2", "3"):
-        return
+    if root is not None and root.tag == "package":
+        yield from misspelt(_elements(root, around), _ELEMENT)
+
+
+def _elements(root: Element, around: Surroundings) -> Iterator[Word]:
     for element in root.children:
-        tag = element.tag
-        near = _OF_FORMAT_1.get(tag) or nearest(tag, _TAGS, _LIKENESS)
-        if tag in _TAGS or near is None:
-            continue
-        place = _place(element, around)
-        yield _stops(
-            place,
-            f"package.xml of format {root.get('format')} has no <{tag}>",
-            rename_element(place, tag, near, f"write <{near}>"),
-        )
+        place, tag = _place(element, around), element.tag
+
+        def renamed(right: str, place: Place = place, tag: str = tag) -> Fix:
+            return rename_element(place, tag, right, f"write <{right}>")
+
+        yield Word(root.get("format") or "1", tag, (), place, renamed)
 
 
 def malformed_values(around: Surroundings) -> Iterator[Problem]:

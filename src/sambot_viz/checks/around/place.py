@@ -6,7 +6,7 @@ import ast
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-from sambot_viz.edits import write_between
+from sambot_viz.edits import together, write_between
 from sambot_viz.errors import Fix, Place
 
 # A model that is in no package needs no YAML.
@@ -45,7 +45,15 @@ def line_fix(fault: Fault, place: Place, text: str) -> Fix:
     return write_between(place, end, fault.better + kept, fault.hint)
 
 
-def rewritten(node: ast.expr, file: str, right: str, hint: str = "") -> Fix:
+def bracketed(node: ast.expr, file: str, hint: str) -> Fix:
+    """Return the fix that writes an expression of Python in square brackets."""
+    begin = Place(file, node.lineno, node.col_offset + 1)
+    end = Place(file, node.end_lineno or 1, (node.end_col_offset or 0) + 1)
+    signs = ((begin, "["), (end, "]"))
+    return together(hint, *(write_between(at, at, sign, hint) for at, sign in signs))
+
+
+def rewritten(node: ast.expr | ast.stmt, file: str, right: str, hint: str = "") -> Fix:
     """Return the fix that writes a text for an expression of Python.
 
     Args:

@@ -64,12 +64,12 @@ from sambot_viz.checks.around.joint_names import (
     unknown_references,
 )
 from sambot_viz.checks.around.joint_states import no_joint_states
+from sambot_viz.checks.around.launch_arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_calls import (
     arguments_that_are_no_texts,
     files_without_folder,
     misspelt_packages_of_nodes,
     paths_from_the_root,
-    unknown_keywords,
 )
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
@@ -77,8 +77,17 @@ from sambot_viz.checks.around.launch_code import (
     missing_entries,
     unknown_names,
 )
-from sambot_viz.checks.around.launch_nodes import (
+from sambot_viz.checks.around.launch_imports import wrong_imports
+from sambot_viz.checks.around.launch_kinds import (
     arguments_without_list,
+    joined_texts,
+    lists_of_actions,
+    misspelt_time,
+    plain_conditions,
+    plain_substitutions,
+    remappings_without_pairs,
+)
+from sambot_viz.checks.around.launch_nodes import (
     descriptions,
     namespaces,
     rviz_without_option,
@@ -93,9 +102,12 @@ from sambot_viz.checks.around.launch_uses import (
     joined_words,
     spawned_topics,
     times_as_text,
-    undeclared_arguments,
     unknown_programs,
     unused_actions,
+)
+from sambot_viz.checks.around.launch_words import (
+    unknown_elements_of_launch,
+    unknown_keywords,
 )
 from sambot_viz.checks.around.manifest import (
     build_types,
@@ -239,14 +251,22 @@ OF_FILES: tuple[Check, ...] = (
     unreadable_python,
     empty_launch_files,
     missing_entries,
+    wrong_imports,
     unknown_names,
     missing_commas,
     unknown_keywords,
+    unknown_elements_of_launch,
     arguments_that_are_no_texts,
     misspelt_packages_of_nodes,
     paths_from_the_root,
     files_without_folder,
     arguments_without_list,
+    remappings_without_pairs,
+    plain_conditions,
+    lists_of_actions,
+    plain_substitutions,
+    joined_texts,
+    misspelt_time,
     descriptions,
     rviz_without_option,
     parameters_left_out,

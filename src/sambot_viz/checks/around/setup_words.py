@@ -5,17 +5,23 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import partial
 
-from sambot_viz.checks.around.launching.python_parts import Listing
+from sambot_viz.checks.around.launching.python_parts import Listing, Table
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.checks.around.words import Kind, Word, misspelt
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem
 
-_LIKENESS = 0.75
 _CODE = "setup-py-code"
+_UNREAD = Kind(
+    "setup_py",
+    _CODE,
+    "{owner} has no {wrong}, but {right}: what is given here is not read",
+    "warning",
+)
 _DOTTED = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\.(\w+)\s*")
 
 
@@ -26,31 +32,21 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
     if setup is None or call is None:
         return
     given = {k.arg for k in call.keywords if k.arg}
-    for argument in call.keywords:
-        wrong = argument.arg or ""
-        place = Place(setup.shown, argument.lineno, argument.col_offset + 1)
-        yield from _misspelt("setup", wrong, given, place)
-    table = setup.given("entry_points")
-    keys = table.keys if isinstance(table, ast.Dict) else []
-    kinds = [key for key in keys if isinstance(key, ast.Constant)]
-    for key in kinds:
-        names = {str(one.value) for one in kinds}
-        yield from _misspelt("entry_points", str(key.value), names, setup.place(key))
-
-
-def _misspelt(
-    owner: str, wrong: str, given: set[str], place: Place
-) -> Iterator[Problem]:
-    known = vocabulary("setup_py")[owner]
-    near = nearest(wrong, known, _LIKENESS) if wrong not in known else None
-    if near is not None and near not in given:
-        yield Problem.at(
-            place,
-            "warning",
-            _CODE,
-            f"{owner} has no {wrong}, but {near}: what is given here is not read",
-            write(place, wrong, near),
-        )
+    words = [
+        Word("setup", argument.arg, given, place, partial(write, place, argument.arg))
+        for argument in call.keywords
+        if argument.arg
+        for place in [Place(setup.shown, argument.lineno, argument.col_offset + 1)]
+    ]
+    table = setup.values.of(setup.given("entry_points"))
+    pairs = table.pairs if isinstance(table, Table) else ()
+    kinds = {pair.key: setup.place(pair.key_node) for pair in pairs}
+    names = {kind: place for kind, place in kinds.items() if isinstance(kind, str)}
+    words += [
+        Word("entry_points", kind, names, place, partial(write, place, kind))
+        for kind, place in names.items()
+    ]
+    yield from misspelt(words, _UNREAD)
 
 
 def texts_for_lists(around: Surroundings) -> Iterator[Problem]:

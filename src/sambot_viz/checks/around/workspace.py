@@ -155,6 +155,17 @@ class Package:
         return self._actions[path]
 
     @cached_property
+    def frontends(self) -> tuple[Element, ...]:
+        """The <launch> of each launch file in XML or YAML."""
+        from sambot_viz.checks.around.launching.read import read_root
+
+        read = (
+            read_root(self.text(path) or "", path, self.shown(path))
+            for path in self.ending(*_OTHER_LAUNCHES)
+        )
+        return tuple(root for root in read if root is not None)
+
+    @cached_property
     def launch_paths(self) -> dict[str, tuple[str, ...]]:
         """Launch file → the paths in packages that it names, such as package://p/x."""
         found = {

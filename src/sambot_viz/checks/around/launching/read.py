@@ -12,7 +12,7 @@ from sambot_viz.checks.around.launching.python_calls import CALLS
 from sambot_viz.checks.around.launching.python_reader import PythonReader
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.robot.xml.decode import XmlFault
-from sambot_viz.robot.xml.element import parse_xml
+from sambot_viz.robot.xml.element import Element, parse_xml
 
 
 def read_actions(
@@ -29,10 +29,25 @@ def read_actions(
     if path.endswith(".py"):
         tree = parse_python(text)
         return None if tree is None else PythonReader(tree, shown, CALLS).read()
+    root = read_root(text, path, shown, read)
+    return None if root is None else read_frontend(root)
+
+
+def read_root(
+    text: str, path: str, shown: str, read: YamlFile | None = None
+) -> Element | None:
+    """Return the <launch> of a file in XML or YAML; None for one that is neither.
+
+    Args:
+        text: as for `read_actions`.
+        path: as for `read_actions`.
+        shown: as for `read_actions`.
+        read: as for `read_actions`.
+    """
     if path.endswith((".yaml", ".yml")):
         file = read or read_yaml(text, path, shown)
-        return None if file is None else read_frontend(element_of(file))
+        return None if file is None else element_of(file)
     try:
-        return read_frontend(parse_xml(text, shown))
+        return parse_xml(text, shown)
     except XmlFault:
         return None

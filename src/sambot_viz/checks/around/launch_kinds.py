@@ -1,0 +1,261 @@
+"""Values in Python launch files of another kind than launch takes there."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launching.actions import Action, Expression, Joined
+from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
+from sambot_viz.checks.around.place import bracketed, rewritten
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
+
+_CODE = "launch-code"
+_STOPS = "ros2 launch stops with it"
+_ACTIONS = {
+    "LaunchDescription": ("initial_entities", 0),
+    "GroupAction": ("actions", 0),
+    "TimerAction": ("actions", 1),
+}
+"""Call → its argument that is a list of actions."""
+_LISTS = {
+    "parameters": _STOPS,
+    "remappings": _STOPS,
+    "arguments": "the program gets each of its letters as an argument",
+}
+"""Argument of a node that is a list → what happens when it is none."""
+_TRUTH = frozenset({"true", "false", "1", "0"})
+_SUBSTITUTION = re.compile(r"\$\(\s*(find|find-pkg-share|var|arg)\s+([\w.-]+)\s*\)")
+_IN_PYTHON = {
+    "find": "FindPackageShare",
+    "find-pkg-share": "FindPackageShare",
+    "var": "LaunchConfiguration",
+    "arg": "LaunchConfiguration",
+}
+_WORDS = ("arguments", "cmd", "ros_arguments")
+
+
+def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
+    """Report parameters, remappings and arguments that are no lists."""
+    for launch in around.launches:
+        for call in launch.called():
+            for argument, follows in _LISTS.items():
+                given = call.given(argument)
+                what = None if given is None else _no_list(call, argument)
+                if given is None or what is None:
+                    continue
+                pairs, plain = _pairs(given, argument), ast.unparse(given)
+                hint = f"write {argument}=[{pairs}]"
+                yield Problem.at(
+                    launch.place(given),
+                    "error",
+                    "launch-no-list",
+                    f"{argument} of a node is a list, but this is {what}: {follows}",
+                    bracketed(given, launch.shown, hint)
+                    if pairs == plain
+                    else rewritten(given, launch.shown, f"[{pairs}]", hint),
+                )
+
+
+def _no_list(call: Call, argument: str) -> str | None:
+    """Return what an argument is that is no list; None when it may be one."""
+    value = call.value(argument)
+    if argument == "arguments":
+        return "a text" if isinstance(value, str) else None
+    if isinstance(value, Table):
+        return "a dict"
+    return "a text" if isinstance(value, (str, Joined)) else None
+
+
+def _pairs(given: ast.expr, argument: str) -> str:
+    """Write what is to be in the list."""
+    if argument == "remappings" and isinstance(given, ast.Dict):
+        both = zip(given.keys, given.values, strict=True)
+        known = [(ast.unparse(key), ast.unparse(value)) for key, value in both if key]
+        return ", ".join(f"({old}, {new})" for old, new in known)
+    if argument == "arguments" and isinstance(given, ast.Constant):
+        return ", ".join(repr(word) for word in str(given.value).split())
+    return ast.unparse(given)
+
+
+def remappings_without_pairs(around: Surroundings) -> Iterator[Problem]:
+    """Report remappings that are no tuples of two names."""
+    for launch in around.launches:
+        for call in launch.called():
+            for _, node in call.listing("remappings").items:
+                if not isinstance(node, (ast.List, ast.Constant, ast.Dict)):
+                    continue
+                right = None
+                if isinstance(node, ast.List) and len(node.elts) == 2:
+                    right = f"({', '.join(ast.unparse(part) for part in node.elts)})"
+                yield Problem.at(
+                    launch.place(node),
+                    "error",
+                    _CODE,
+                    f"a remapping is a tuple of two names, and this is none: {_STOPS}",
+                    Fix("write ('FROM', 'TO')")
+                    if right is None
+                    else rewritten(node, launch.shown, right),
+                )
+
+
+def plain_conditions(around: Surroundings) -> Iterator[Problem]:
+    """Report conditions with the name of a launch argument in place of its value."""
+    for launch in around.launches:
+        declared = {launch.text(c, "name", 0) for c in launch.called(*_DECLARES)}
+        names = [name for name in declared if name]
+        for call in launch.called("IfCondition", "UnlessCondition"):
+            given = call.given("predicate_expression", 0)
+            text = given.value if isinstance(given, ast.Constant) else None
+            if given is None or not isinstance(text, str):
+                continue
+            if text.strip().lower() in _TRUTH or "$(" in text:
+                continue
+            name = text if text in names else nearest(text, names, 0.8) or text
+            yield Problem.at(
+                launch.place(given),
+                "error",
+                _CODE,
+                f"{call.name}('{text}') takes the text {text} itself, which is neither "
+                f"true nor false: {_STOPS}",
+                rewritten(given, launch.shown, f"LaunchConfiguration('{name}')"),
+            )
+
+
+_DECLARES = ("DeclareLaunchArgument",)
+
+
+def lists_of_actions(around: Surroundings) -> Iterator[Problem]:
+    """Report an action where a list of them is needed, and a list in place of one."""
+    for launch in around.launches:
+        for call in launch.called(*_ACTIONS):
+            given = call.given(*_ACTIONS[call.name])
+            value = call.value(*_ACTIONS[call.name])
+            if given is not None and isinstance(value, Action):
+                cause = f"{call.name} takes a list of actions, and this is one action"
+                yield Problem.at(
+                    launch.place(given),
+                    "error",
+                    _CODE,
+                    f"{cause}: {_STOPS}",
+                    bracketed(given, launch.shown, "write it in square brackets"),
+                )
+            elif given is not None and isinstance(value, Listing):
+                yield from _no_actions(value, launch)
+
+
+def _no_actions(listing: Listing, launch: LaunchFile) -> Iterator[Problem]:
+    """Report the items of a list that are no actions."""
+    for item, node in listing.items:
+        if isinstance(item, Listing) and isinstance(node, (ast.List, ast.Tuple)):
+            yield Problem.at(
+                launch.place(node),
+                "error",
+                _CODE,
+                f"this is a list in a list of actions: {_STOPS}",
+                "write its actions without the inner brackets",
+            )
+        elif isinstance(item, str) and isinstance(node, ast.Constant):
+            yield Problem.at(
+                launch.place(node),
+                "error",
+                _CODE,
+                f"this is a text in a list of actions: {_STOPS}",
+                f"write {item} without quotation marks, or delete it"
+                if item.isidentifier()
+                else "delete it",
+            )
+
+
+def plain_substitutions(around: Surroundings) -> Iterator[Problem]:
+    """Report $(find …) and its like in the texts of a Python launch file."""
+    for launch in around.launches:
+        documents = {
+            id(step.value)
+            for step in ast.walk(launch.tree)
+            if isinstance(step, ast.Expr) and isinstance(step.value, ast.Constant)
+        }
+        for node in ast.walk(launch.tree):
+            text = node.value if isinstance(node, ast.Constant) else None
+            if not isinstance(text, str) or id(node) in documents or "\n" in text:
+                continue
+            found = _SUBSTITUTION.search(text)
+            if found is None or not isinstance(node, ast.Constant):
+                continue
+            parts = [repr(part) for part in (text[: found.start()],) if part]
+            parts.append(f"{_IN_PYTHON[found[1]]}('{found[2]}')")
+            parts += [repr(part) for part in (text[found.end() :],) if part]
+            written = parts[0] if len(parts) == 1 else f"[{', '.join(parts)}]"
+            yield Problem.at(
+                launch.place(node),
+                "warning",
+                _CODE,
+                f"launch replaces {found[0]} in launch files of XML and YAML only: "
+                "here it stays as it is",
+                f"write {written}",
+            )
+
+
+def joined_texts(around: Surroundings) -> Iterator[Problem]:
+    """Report two words of a command that are one, because a comma is missing."""
+    for launch, text in around.launch_texts():
+        lines = text.splitlines()
+        for call in launch.calls:
+            for argument in _WORDS:
+                for _, node in call.listing(argument).items:
+                    if _is_joined(node, lines):
+                        yield _joined(node, launch, lines)
+
+
+def _is_joined(node: ast.expr, lines: list[str]) -> bool:
+    """True for two texts, each alone in a line, that do not look like one."""
+    last = node.end_lineno or node.lineno
+    if not isinstance(node, ast.Constant) or last != node.lineno + 1:
+        return False
+    first, second = (_alone(lines[at - 1]) for at in (node.lineno, last))
+    value = f"{first}{second}"
+    return bool(first and second) and value == node.value and " " not in value
+
+
+def _alone(line: str) -> str | None:
+    """Return the text in quotation marks that a line is."""
+    found = re.fullmatch(r"\s*(['\"])([^'\"\\]*)\1\s*,?\s*(#.*)?", line)
+    return None if found is None else found[2]
+
+
+def _joined(node: ast.expr, launch: LaunchFile, lines: list[str]) -> Problem:
+    code = lines[node.lineno - 1].partition("#")[0].rstrip()
+    place = Place(launch.shown, node.lineno, len(code) + 1)
+    return Problem.at(
+        place,
+        "warning",
+        _CODE,
+        "a comma is missing at the end of this line: Python makes one word of two",
+        write_between(place, place, ",", "add a comma there"),
+    )
+
+
+def misspelt_time(around: Surroundings) -> Iterator[Problem]:
+    """Report parameters of a node that are almost use_sim_time."""
+    right = "use_sim_time"
+    for launch in around.launches:
+        for call in launch.called():
+            tables = [t for t, _ in call.listing("parameters").items]
+            pairs = [p for t in tables if isinstance(t, Table) for p in t.pairs]
+            keys: list[Expression] = [pair.key for pair in pairs]
+            for pair in pairs:
+                key = pair.key if isinstance(pair.key, str) else ""
+                if right in keys or not nearest(key, [right], 0.85) or key == right:
+                    continue
+                yield Problem.at(
+                    launch.place(pair.key_node),
+                    "warning",
+                    "launch-time-text",
+                    f"no node has a parameter {key}, but each has {right}: the node "
+                    "uses the time of the computer",
+                    rewritten(pair.key_node, launch.shown, f"'{right}'"),
+                )

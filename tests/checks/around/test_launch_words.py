@@ -1,0 +1,174 @@
+"""What launch does not know or take is found in each form of launch file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from edited import edited_files
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+PYTHON, XML, YAML = "launch/a.launch.py", "launch/b.launch.xml", "launch/c.launch.yaml"
+FILES = {
+    "package.xml": """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <exec_depend>joint_state_publisher</exec_depend>
+  <exec_depend>rviz2</exec_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "CMakeLists.txt": """\
+cmake_minimum_required(VERSION 3.8)
+project(robot)
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})
+ament_package()
+""",
+    PYTHON: """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument('gui', default_value='true'),
+        Node(
+            package='joint_state_publisher',
+            executable='joint_state_publisher',
+            parameters=[{'use_sim_time': True}],
+            arguments=[
+                '--log-level',
+                'info',
+            ],
+            remappings=[('a', 'b')],
+            condition=IfCondition(LaunchConfiguration('gui')),
+        ),
+    ])
+""",
+    XML: """\
+<launch>
+  <arg name="view" default="true"/>
+  <node pkg="rviz2" exec="rviz2" args="-d $(find-pkg-share robot)" if="$(var view)">
+    <param name="use_sim_time" value="true"/>
+    <remap from="a" to="b"/>
+  </node>
+</launch>
+""",
+    YAML: """\
+launch:
+- arg: {name: model, default: a}
+- node: {pkg: rviz2, exec: rviz2, args: $(var model)}
+""",
+}
+STOPS = "ros2 launch stops with it"
+CASES = [
+    (PYTHON, "LaunchConfiguration('gui')", "'gui'", "neither true nor false"),
+    (PYTHON, "_ros.actions import", ".actions import", "launch.actions has no Node"),
+    (PYTHON, "substitutions import", "substitution import", "no module launch.subst"),
+    (PYTHON, "import IfCondition", "import IfConditon", "conditions has no IfConditon"),
+    (PYTHON, "package=", "pkg=", "Node has no argument pkg, but package"),
+    (PYTHON, "executable=", "exec=", "Node has no argument exec, but executable"),
+    (PYTHON, "arguments=", "args=", "Node has no argument args, but arguments"),
+    (PYTHON, "default_value=", "default=", "no argument default, but default_value"),
+    (PYTHON, "use_sim_time", "use_simtime", "but each has use_sim_time"),
+    (PYTHON, "'--log-level',\n", "'--log-level'\n", "a comma is missing at the end"),
+    (PYTHON, "('a', 'b')", "['a', 'b']", "a remapping is a tuple of two names"),
+    (PYTHON, "[{'use_sim_time': True}]", "{'use_sim_time': True}", "this is a dict"),
+    (PYTHON, "generate_launch_description", "generate", "this one is called generate"),
+    (PYTHON, "        Node(", "        'Node'(", "Node is in quotation marks"),
+    (
+        PYTHON,
+        "executable='joint_state_publisher'",
+        "executable='joint_state_publisher_gui'",
+        "which is in joint_state_publisher_gui",
+    ),
+    (PYTHON, "Configuration('gui')", "Configuration('gu')", "gui is (line 10)"),
+    (XML, "pkg=", "package=", "<node> has no attribute package, but pkg"),
+    (XML, "exec=", "type=", "<node> has no attribute type, but exec"),
+    (XML, "find-pkg-share", "find", "no substitution $(find …)"),
+    (XML, "$(var view)", "$(arg view)", "no substitution $(arg …), but $(var …)"),
+    (XML, "$(var view)", "$(var vew)", "vew is not declared; view is (line 2)"),
+    (XML, "<remap ", "<remaps ", "no <remaps> in <node>, but <remap>"),
+    (XML, "default=", "value=", "<arg> has no attribute value, but default"),
+    (YAML, "exec:", "executable:", "<node> has no attribute executable, but exec"),
+]
+UNSURE = [
+    (PYTHON, "LaunchDescription([", "LaunchDescription(['gui',", "a text in a list"),
+    (PYTHON, "'info'", "'$(find robot)/x'", "launch replaces $(find robot) in launch"),
+    (PYTHON, "Configuration('gui')", "Configuration('quick')", "quick is not declared"),
+    (PYTHON, "remappings=[('a', 'b')]", "remappings=('a', 'b')", "and this is none"),
+    (PYTHON, "'true'),\n", "'true'),\n        [],\n", "a list in a list of actions"),
+    (XML, "$(var view)", "$(var quick)", "quick is not declared"),
+]
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A right package with a launch file of each form."""
+    folder = tmp_path / "robot"
+    for name, text in FILES.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    (folder / "robot.urdf").write_text('<robot name="r"><link name="base"/></robot>')
+    return folder
+
+
+def found(package: Path, file: str, right: str, wrong: str) -> list[Problem]:
+    """Return what is found after a change of one file."""
+    text = (package / file).read_text()
+    assert right in text
+    (package / file).write_text(text.replace(right, wrong, 1))
+    return check(package)
+
+
+def test_right_launch_files_have_no_problem(package: Path) -> None:
+    assert check(package) == []
+
+
+@pytest.mark.parametrize(("file", "right", "wrong", "cause"), CASES)
+def test_a_mistake_in_a_launch_file_is_undone_by_its_edit(
+    package: Path, file: str, right: str, wrong: str, cause: str
+) -> None:
+    problems = [p for p in found(package, file, right, wrong) if cause in p.message]
+    (problem,) = problems
+    path = package / file
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert check(package) == []
+
+
+@pytest.mark.parametrize(("file", "right", "wrong", "cause"), UNSURE)
+def test_a_mistake_with_several_remedies_has_its_line(
+    package: Path, file: str, right: str, wrong: str, cause: str
+) -> None:
+    line = FILES[file].partition(right)[0].count("\n") + 1
+    problems = found(package, file, right, wrong)
+    assert any(cause in p.message and p.line in (line, line + 1) for p in problems)
+    assert not any(p.edits for p in problems)
+
+
+def test_a_launch_file_of_ros_1_is_told_once(package: Path) -> None:
+    old = '<launch><node pkg="a" type="b" args="$(find c)"/></launch>'
+    (package / "launch/old.launch").write_text(old)
+    (problem,) = check(package)
+    assert problem.severity == "info"
+    assert "written for ROS 1" in problem.message
+
+
+def test_what_an_included_file_declares_is_declared(package: Path) -> None:
+    path = package / XML
+    include = '<include file="$(find-pkg-share other)/launch/x.launch.xml"/>'
+    text = path.read_text().replace("<node", f"{include}<node")
+    path.write_text(text.replace("(var view)", "(var elsewhere)"))
+    (problem,) = check(package)
+    assert problem.severity == "info"
