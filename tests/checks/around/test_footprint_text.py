@@ -32,7 +32,6 @@ Copied = Callable[[str], Path]
             f'footprint: "{CORNERS}"'.replace("0.21, 0.195]", "abc, 0.195]", 1),
             "abc is not a number",
         ),
-        ("warning", f'robot_footprint: "{CORNERS}"', "not robot_footprint"),
     ],
 )
 def test_a_footprint_that_nav2_cannot_read(
@@ -53,9 +52,6 @@ def test_a_footprint_that_nav2_cannot_read(
     if "abc" in wrong:
         assert problem.hint == "write a length in metres in place of abc"
         better = wrong.replace("abc", "0.21")
-    elif "robot_footprint" in wrong:
-        assert problem.hint == "write footprint"
-        better = wrong.replace("robot_footprint", "footprint")
     else:
         better = "footprint: " + problem.hint.removeprefix("write ")
     nav2.write_text(text.replace(right, better))

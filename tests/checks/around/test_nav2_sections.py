@@ -123,7 +123,7 @@ Copied = Callable[[str], Path]
             'data_type: "LaserScan"',
             'data_type: "Laserscan"',
             27,
-            "Nav2 knows only LaserScan and PointCloud2: local_costmap stops",
+            "local_costmap knows only LaserScan and PointCloud2: it stops",
             "write LaserScan",
             'data_type: "LaserScan"',
         ),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from sambot_viz.checks.around.known_parameters import known_parameters
 from sambot_viz.checks.around.navigation import filters
-from sambot_viz.checks.around.parameter_names import meant_name
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
 
@@ -21,7 +21,8 @@ def inputs_without_config(around: Surroundings) -> Iterator[Problem]:
         if not any(name.endswith("_config") for name in one.given):
             # Perhaps the values are set elsewhere.
             continue
-        meant = {meant_name(name, one.given, "filter") for name in one.given}
+        block = known_parameters().nodes["filter"]
+        meant = {block.meant(name, one.given) for name in one.given}
         for kind, used in _USED.items():
             for parameter in one.inputs(kind):
                 wanted = f"{parameter.name}_config"

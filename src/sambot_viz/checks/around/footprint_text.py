@@ -10,10 +10,10 @@ import yaml
 from sambot_viz import limits
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.navigation import is_open
-from sambot_viz.checks.around.parameter_types import type_of
+from sambot_viz.checks.around.node_parts import parts_by_node
+from sambot_viz.checks.around.parameter_text import type_of
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Place, Problem
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _GAP = r"[\s,]*"
@@ -21,20 +21,14 @@ _CORNER = rf"\[{_GAP}{_NUMBER}[\s,]+{_NUMBER}{_GAP}\]{_GAP}"
 _CORNERS = re.compile(rf"{_GAP}\[{_GAP}(?:{_CORNER}){{3,}}\]{_GAP}")
 _WORD = re.compile(r"[^\s,\[\]]+")
 _NONE = frozenset({"", "[]"})
-_SIZES = ("footprint", "robot_radius")
-_LIKENESS = 0.7
 
 
 def unreadable_footprints(around: Surroundings) -> Iterator[Problem]:
-    """Report footprints that Nav2 cannot read, or under a name it does not look for."""
-    for parameter in around.parameters:
-        node = parameter.node.rpartition("/")[2]
-        if not node.endswith("costmap"):
-            continue
-        if parameter.name == "footprint" and not is_readable(parameter):
-            yield _unreadable(parameter, node)
-        elif _is_size(parameter.name):
-            yield from _misspelt(parameter, node, around)
+    """Report footprints that Nav2 cannot read."""
+    for part in (part for parts in parts_by_node(around) for part in parts):
+        for parameter, known in part.known():
+            if known.kind == "footprint" and not is_readable(parameter):
+                yield _unreadable(parameter, part.node)
 
 
 def is_readable(footprint: Parameter) -> bool:
@@ -105,24 +99,3 @@ def _words(node: yaml.Node) -> Iterator[str]:
                 yield from (
                     str(i.value) for i in item.value if isinstance(i, yaml.ScalarNode)
                 )
-
-
-def _is_size(name: str) -> bool:
-    return not name.startswith("footprint") and name not in _SIZES and "." not in name
-
-
-def _misspelt(
-    parameter: Parameter, node: str, around: Surroundings
-) -> Iterator[Problem]:
-    """A name like that of the size, in a costmap that is given no size."""
-    near = nearest(parameter.name, _SIZES, _LIKENESS)
-    given = {p.name for p in around.parameters if p.node == parameter.node}
-    if near is not None and given.isdisjoint(_SIZES):
-        yield Problem.at(
-            parameter.place,
-            "warning",
-            "footprint-text",
-            f"{node} reads footprint or robot_radius and not {parameter.name}: it "
-            "takes the robot for a circle of 0.1 m",
-            write(parameter.place, parameter.name, near),
-        )

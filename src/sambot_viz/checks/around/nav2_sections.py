@@ -1,13 +1,12 @@
-"""Names within the parameters of Nav2: of nodes, layers and sensors."""
+"""Sections of Nav2's nodes in parameter files, and their clocks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from sambot_viz.checks.around.files.parameters import Parameter, YamlFile
+from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 
@@ -20,9 +19,6 @@ _NODES = frozenset(
     """.split()
 )
 _LIKENESS = 0.85
-_SOURCES, _PLUGIN = ".observation_sources", ".plugin"
-_LISTS = ("plugins", "filters", "checker_plugin")
-_SLASHED = frozenset({"robot_base_frame", "global_frame", "local_frame"})
 
 
 def unread_sections(around: Surroundings) -> Iterator[Problem]:
@@ -82,108 +78,9 @@ def _is_like(one: str, other: str) -> bool:
     return nearest(one, [other], _LIKENESS) is not None
 
 
-def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
-    """Report plugins of Nav2 that are almost one of its classes."""
-    known = {
-        f"{package}/{name}": f"{package}{{}}{name}"
-        for package, names in vocabulary("nav2_plugins").items()
-        for name in names
-    }
-    for parameter in around.parameters:
-        said = parameter.fact.value
-        joint = "::" if "::" in said else "/"
-        name = said.replace("::", "/")
-        if parameter.name.rpartition(".")[2] != "plugin" or name in known:
-            continue
-        near = nearest(name, known, _LIKENESS)
-        if near is None or name.count("/") != 1 or around.said_elsewhere(said):
-            continue
-        node = parameter.node.rpartition("/")[2]
-        yield Problem.at(
-            parameter.value_place,
-            "error",
-            "nav2-plugin",
-            f"Nav2 has no plugin {said}: {node} stops with an error",
-            write(parameter.value_place, said, known[near].format(joint)),
-        )
-
-
 def _above(file: YamlFile, node: str, place: Place) -> Place:
     """The line with the name of a node."""
     return file.keys.get(node, place)
-
-
-def unknown_sections(around: Surroundings) -> Iterator[Problem]:
-    """Report layers, plugins and sensors that are listed under another name."""
-    for file in around.yaml_files:
-        for node in file.nodes:
-            given = file.of(node)
-            for parameter in given.values():
-                if parameter.name.endswith(_SOURCES):
-                    yield from _sources(parameter, given)
-            yield from _plugins(given)
-
-
-def _sources(parameter: Parameter, given: Mapping[str, Parameter]) -> Iterator[Problem]:
-    head = parameter.name.removesuffix("observation_sources")
-    sections: dict[str, Place] = {}
-    for name, below in given.items():
-        section, dot, _ = name.removeprefix(head).partition(".")
-        if name.startswith(head) and dot:
-            sections.setdefault(section, below.place)
-    named = " ".join(parameter.values).split()
-    left = [section for section in sections if section not in named]
-    for name in named:
-        near = left[0] if len(left) == 1 else nearest(name, left)
-        if name not in sections and near is not None:
-            yield Problem.at(
-                parameter.value_place,
-                "warning",
-                "nav2-section",
-                f"observation_sources names {name}, but the section is called {near} "
-                f"({where(sections[near], parameter.place)}): the sensor is not used",
-                write(parameter.value_place, name, near),
-            )
-
-
-def _plugins(given: Mapping[str, Parameter]) -> Iterator[Problem]:
-    lists = [p for p in given.values() if p.name.endswith(_LISTS)]
-    named = {name for one in lists for name in one.values}
-    left = {
-        name.removesuffix(_PLUGIN): parameter.place
-        for name, parameter in given.items()
-        if name.endswith(_PLUGIN) and name.removesuffix(_PLUGIN) not in named
-    }
-    for one in lists if len(left) == 1 else ():
-        for name in one.values:
-            if f"{name}{_PLUGIN}" in given:
-                continue
-            ((near, place),) = left.items()
-            yield Problem.at(
-                one.value_place,
-                "error",
-                "nav2-section",
-                f"{one.name} names {name}, but the section is called {near} "
-                f"({where(place, one.place)}): {one.node.rpartition('/')[2]} stops "
-                "with an error",
-                write(one.value_place, name, near),
-            )
-
-
-def frames_with_slash(around: Surroundings) -> Iterator[Problem]:
-    """Report frames that begin with a slash, as in ROS 1."""
-    for parameter in around.parameters:
-        name = parameter.fact.value
-        if parameter.name in _SLASHED and name.startswith("/") and len(name) > 1:
-            node = parameter.node.rpartition("/")[2]
-            yield Problem.at(
-                parameter.value_place,
-                "warning",
-                "frame-slash",
-                f"{node} asks for the frame {name}, but no frame of ROS 2 begins with "
-                "a slash: it never gets a transform",
-                write(parameter.value_place, name, name[1:]),
-            )
 
 
 def odd_clocks(around: Surroundings) -> Iterator[Problem]:

@@ -1,96 +1,261 @@
-"""Misspelt names and values among the parameters of well-known nodes."""
+"""Names among the parameters of well-known nodes: of parameters, plugins and parts."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Container, Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from sambot_viz.checks.around.files.parameters import Parameter
-from sambot_viz.checks.around.navigation import filters
+from sambot_viz.checks.around.known_parameters import KnownParameter, known_parameters
+from sambot_viz.checks.around.node_parts import NodePart, names_in, parts_by_node
+from sambot_viz.checks.around.parameter_text import instead, type_of
+from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.edits import source_of, together, write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
-_LIKENESS = 0.8
-_NUMBER = re.compile(r"\d+")
-_COSTMAPS = ("local_costmap", "global_costmap")
-_SAME_NODE = {"recoveries_server": "behavior_server"}
-_VALUES = {
-    "data_type": ("LaserScan", "PointCloud2"),
-    "laser_model_type": ("beam", "likelihood_field", "likelihood_field_prob"),
-}
-"""Parameter of Nav2 → the only values that it may have."""
+_LIKENESS = 0.85
 
 
-def misspelt_parameters(around: Surroundings) -> Iterator[Problem]:
-    """Report names that a node does not read, where the one meant is missing."""
-    names = {one.node for one in filters(around)}
-    for file in around.yaml_files:
-        for node in file.nodes:
-            kind = "filter" if node in names else _kind(node)
-            given = file.of(node)
-            for parameter in given.values() if kind else ():
-                right = meant_name(parameter.name, given, kind)
-                if right is not None:
-                    yield _misspelt(parameter, right)
+def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
+    """Report names that a node does not read: misspelt, old, or of another part."""
+    newest = _newest(around)
+    for parts in parts_by_node(around):
+        for part in parts:
+            for name, parameter in part.given.items() if part.block else ():
+                known = part.block.find(name) if part.block else None
+                if known is None and part.is_known:
+                    yield from _unknown(name, parameter, part, parts)
+                elif known is not None and known.age.successor:
+                    last = newest.get(parameter.place.file, 0)
+                    yield from _old(parameter, known, part, last)
 
 
-def _misspelt(parameter: Parameter, right: str) -> Problem:
-    wrong = parameter.name.rpartition(".")[2]
-    node = parameter.node.rpartition("/")[2]
-    return Problem.at(
+@lru_cache(maxsize=1)
+def _newest(around: Surroundings) -> Mapping[str, int]:
+    """Return file → the first distribution that has all its plugins."""
+    found: dict[str, int] = {}
+    for parameter in around.parameters:
+        kind = known_parameters().classes.get(parameter.fact.value)
+        if kind is not None:
+            file = parameter.place.file
+            found[file] = max(found.get(file, 0), kind.age.first)
+    return found
+
+
+def _old(
+    parameter: Parameter, known: KnownParameter, part: NodePart, newest: int
+) -> Iterator[Problem]:
+    """Report a name that no distribution has, or only those before the file's."""
+    age, block = known.age, part.block
+    certain = not age.ends or newest > age.last
+    if age.successor in part.given or block is None or not (certain or age.is_old):
+        return
+    fix = _renamed(parameter, known.name, age.successor)
+    new = block.find(age.successor)
+    if new is not None and new.kind == "sections" and known.kind == "section":
+        text = f'["{parameter.fact.value}"]'
+        listed = instead(parameter.written, parameter.place.file, text, "")
+        fix = together(f"write {age.successor}: {text}", fix, listed)
+    name = known.name + (f" after {age.last_name}" if age.ends else "")
+    yield Problem.at(
         parameter.place,
-        "warning",
+        "warning" if certain else "info",
         "parameter-unknown",
-        f"{node} has no parameter {wrong}, but {right}, which is not given: it does "
-        "not read this line",
-        write(parameter.place, wrong, right),
+        f"{part.node} has no parameter {name}, but {age.successor}: it does not "
+        "read this line",
+        fix,
     )
 
 
-def _kind(node: str) -> str:
-    name = node.rpartition("/")[2]
-    return "costmap" if name in _COSTMAPS else _SAME_NODE.get(name, name)
+def _renamed(parameter: Parameter, wrong: str, right: str) -> Fix:
+    """Return the fix that writes another name, also for one with dots before it."""
+    fix, whole = write(parameter.place, wrong, right), parameter.name
+    if fix.edits or not whole.endswith(f".{wrong}"):
+        return fix
+    better = f"{whole.removesuffix(wrong)}{right}"
+    return write(parameter.place, whole, better, hint=fix.hint)
 
 
-def meant_name(name: str, given: Container[str], kind: str) -> str | None:
-    """Return the parameter that was meant by one that a node does not have.
+def _unknown(
+    name: str, parameter: Parameter, part: NodePart, parts: Sequence[NodePart]
+) -> Iterator[Problem]:
+    """Report a name that is like another one, or that another part has."""
+    right = part.block.meant(name, part.given) if part.block is not None else None
+    if right is not None:
+        wrong, right = name.rpartition(".")[2], right.rpartition(".")[2]
+        cause = f"{part.node} has no parameter {wrong}, but {right}, which is not given"
+        fix = _renamed(parameter, wrong, right)
+    elif part.section and "plugin" not in part.given and not part.base:
+        return
+    else:
+        common = known_parameters().common
+        owners = [
+            each
+            for each in parts
+            if each.block and name not in each.given and not common.find(name)
+            if each.block.find(name) is not None
+        ]
+        if len(owners) != 1:
+            return
+        cause = f"{part.title} has no parameter {name}, but {owners[0].title} has"
+        fix = _moved(parameter, owners[0])
+    yield Problem.at(
+        parameter.place,
+        "warning",
+        "parameter-unknown",
+        f"{cause}: it does not read this line",
+        fix,
+    )
+
+
+def _moved(parameter: Parameter, to: NodePart) -> Fix:
+    """Return the fix that moves a line to the parameters of another part."""
+    hint, file = f"move this line below {to.title}:", parameter.place.file
+    source, first = source_of(file), next(iter(to.given.values()), None)
+    if source is None or first is None or type_of(parameter.written) == "list":
+        return Fix(hint)
+    lines = source.text.splitlines()
+    line, target = parameter.place.line, first.place.line
+    below = lines[target - 1]
+    blanks = below[: len(below) - len(below.lstrip())]
+    if not below.lstrip().startswith(f"{first.name.rpartition('.')[2]}:"):
+        return Fix(hint)
+    here, there = Place(file, line, 1), Place(file, target, 1)
+    taken = write_between(here, Place(file, line + 1, 1), "", hint)
+    text = f"{blanks}{lines[line - 1].strip()}\n"
+    return together(hint, taken, write_between(there, there, text, hint))
+
+
+def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
+    """Report plugins that are almost a class, or that fit no other of the file."""
+    newest = _newest(around)
+    for part in (part for parts in parts_by_node(around) for part in parts):
+        named = [(p, k.base) for p, k in part.known() if k.base and k.kind == "string"]
+        if "plugin" in part.given:
+            named.append((part.given["plugin"], part.base))
+        for parameter, base in named:
+            said, last = parameter.fact.value, newest.get(parameter.place.file, 0)
+            right = _right_class(said, base, last)
+            if right is not None and not around.said_elsewhere(said):
+                yield _no_plugin(parameter, said, right, part, "Nav2 has no plugin")
+        for parameter, known in part.lists():
+            for name in names_in(parameter) if known.pattern else ():
+                right = _right_name(name, known, part)
+                if right is not None:
+                    cause = f"Nav2 has no {known.base.rpartition('::')[2]}"
+                    yield _no_plugin(parameter, name, right, part, cause)
+
+
+def _no_plugin(
+    parameter: Parameter, said: str, right: str, part: NodePart, cause: str
+) -> Problem:
+    return Problem.at(
+        parameter.value_place,
+        "error",
+        "nav2-plugin",
+        f"{cause} {said}: {part.node} stops with an error",
+        write(parameter.value_place, said, right),
+    )
+
+
+def _right_class(said: str, base: str, newest: int) -> str | None:
+    """Return the class that is meant; None for a right one and for one like no other.
 
     Args:
-        name: as the file has it, with the names of plugins before it.
-        given: the names of all parameters of the node.
-        kind: of the node, as the vocabulary calls it.
-
-    Returns:
-        The last part of its name; None for a known name, for one like no other, and
-        where the other one is given too.
+        said: the class as the file has it.
+        base: its base class; empty where that is not known.
+        newest: the first distribution that has all plugins of the file.
     """
-    head, dot, last = name.rpartition(".")
-    known = vocabulary("parameters").get(kind + "." * name.count("."), ())
-    shape = _NUMBER.sub("N", last) if kind == "filter" else last
-    if not known or shape in known:
+    known = known_parameters().classes
+    found = known.get(said)
+    if found is not None and found.age.last >= newest:
         return None
-    near = nearest(shape, known, _LIKENESS)
-    if near is None or _NUMBER.sub("", near) == _NUMBER.sub("", shape):
-        return None
-    digits = _NUMBER.search(last)
-    right = near.replace("N", digits[0] if digits else "0")
-    return None if f"{head}{dot}{right}" in given else right
+    likely = {
+        name.replace("::", "/"): name
+        for name, each in known.items()
+        if base in ("", each.base) and each.age.last >= newest
+    }
+    if found is not None and found.age.successor:
+        return found.age.successor
+    near = nearest(said.replace("::", "/"), likely, _LIKENESS)
+    return likely[near] if near is not None and said.count("/") < 2 else None
 
 
-def unknown_values(around: Surroundings) -> Iterator[Problem]:
-    """Report values that are almost one of the few that a parameter may have."""
-    for parameter in around.parameters:
-        known = _VALUES.get(parameter.name.rpartition(".")[2], ())
-        said = parameter.fact.value
-        near = nearest(said, known, _LIKENESS) if said not in known else None
-        if near is not None:
-            yield Problem.at(
-                parameter.value_place,
-                "error",
-                "parameter-value",
-                f"{parameter.name} is {said}, but Nav2 knows only {' and '.join(known)}"
-                f": {parameter.node.rpartition('/')[2]} stops with an error",
-                write(parameter.value_place, said, near),
-            )
+def _right_name(name: str, known: KnownParameter, part: NodePart) -> str | None:
+    """Return the plugin that is meant by a name without its package."""
+    head, _, tail = known.pattern.partition("*")
+    classes = [
+        k.name for k in known_parameters().classes.values() if k.base == known.base
+    ]
+    names = [each.removeprefix(head).removesuffix(tail) for each in classes]
+    if name in names or name.removesuffix(tail or " ") in names or ":" in name:
+        return None
+    if any(key in part.sections.get(name, {}) for key in ("class", "plugin")):
+        return None
+    return nearest(name, names, _LIKENESS)
+
+
+def unknown_sections(around: Surroundings) -> Iterator[Problem]:
+    """Report layers, plugins and sensors that are listed under another name."""
+    for part in (part for parts in parts_by_node(around) for part in parts):
+        named = {name for one, _ in part.lists() for name in names_in(one)}
+        for one, known in part.lists():
+            if known.pattern:
+                continue
+            is_plugin = known.base != ""
+            filled = [s for s, inner in part.sections.items() if "plugin" in inner]
+            present = filled if is_plugin else list(part.sections)
+            left = [section for section in present if section not in named]
+            lacking = [name for name in names_in(one) if name not in present]
+            for name in lacking:
+                near = left[0] if len(left) == 1 else nearest(name, left, 0.8)
+                if near is not None:
+                    yield _other_section(one, name, near, part, is_plugin=is_plugin)
+                elif is_plugin and _lacks(one, name, known, part, around):
+                    yield _no_section(one, name, part)
+
+
+def _other_section(
+    one: Parameter, name: str, near: str, part: NodePart, *, is_plugin: bool
+) -> Problem:
+    place = next(iter(part.sections[near].values())).place
+    follows = f"{part.node} stops with an error"
+    return Problem.at(
+        one.value_place,
+        "error" if is_plugin else "warning",
+        "nav2-section",
+        f"{one.name} names {name}, but the section is called {near} "
+        f"({where(place, one.place)}): "
+        + (follows if is_plugin else "what is below it is not used"),
+        write(one.value_place, name, near),
+    )
+
+
+def _lacks(
+    one: Parameter,
+    name: str,
+    known: KnownParameter,
+    part: NodePart,
+    around: Surroundings,
+) -> bool:
+    """Tell whether a file has other plugins of a list, and none has this one."""
+    names = names_in(one)
+    if tuple(names) in known.own or known.kind == "section":
+        return False
+    others = any("plugin" in part.sections.get(other, {}) for other in names)
+    wanted = f"{name}.plugin"
+    elsewhere = any(p.name.endswith(wanted) for p in around.parameters)
+    return others and not elsewhere and not around.said_elsewhere(wanted)
+
+
+def _no_section(one: Parameter, name: str, part: NodePart) -> Problem:
+    return Problem.at(
+        one.value_place,
+        "error",
+        "nav2-section",
+        f"{one.name} names {name}, but nothing says the plugin of {name}: {part.node} "
+        "stops with an error",
+        f"add {name}: with its plugin: to the parameters of {part.title}, or delete "
+        f"{name} from the list",
+    )

@@ -121,24 +121,20 @@ from sambot_viz.checks.around.manifest_words import (
     packages_of_ros1,
     unknown_elements,
 )
-from sambot_viz.checks.around.nav2_sections import (
-    frames_with_slash,
-    odd_clocks,
-    unknown_plugins,
-    unknown_sections,
-    unread_sections,
-)
+from sambot_viz.checks.around.nav2_sections import odd_clocks, unread_sections
 from sambot_viz.checks.around.node_parameters import (
     parameters_left_out,
     unread_parameters,
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
 from sambot_viz.checks.around.own_names import setup_name, unknown_packages
+from sambot_viz.checks.around.parameter_files import unreadable_parameters
 from sambot_viz.checks.around.parameter_names import (
-    misspelt_parameters,
-    unknown_values,
+    unknown_parameters,
+    unknown_plugins,
+    unknown_sections,
 )
-from sambot_viz.checks.around.parameter_types import parameter_types
+from sambot_viz.checks.around.parameter_values import wrong_values
 from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.sensors import (
     frames_of_sensors,
@@ -239,14 +235,13 @@ OF_FILES: tuple[Check, ...] = (
     misspelt_entries,
     empty_parameters,
     misspelt_key,
-    parameter_types,
-    misspelt_parameters,
-    unknown_values,
-    unreadable_footprints,
-    unread_sections,
+    wrong_values,
+    unreadable_parameters,
+    unknown_parameters,
     unknown_plugins,
     unknown_sections,
-    frames_with_slash,
+    unreadable_footprints,
+    unread_sections,
     odd_clocks,
     unreadable_python,
     empty_launch_files,

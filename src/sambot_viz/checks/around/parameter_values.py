@@ -1,0 +1,208 @@
+"""Values of the parameters of well-known nodes: types, words, ranges and frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import yaml
+
+from sambot_viz.checks.around.files.parameters import Parameter, place_of
+from sambot_viz.checks.around.known_parameters import KnownParameter
+from sambot_viz.checks.around.node_parts import NodePart, parts_by_node
+from sambot_viz.checks.around.parameter_text import (
+    OPEN,
+    REPLACED,
+    WANTED,
+    as_written,
+    converted,
+    fixed,
+    instead,
+    is_open,
+    number_of,
+    type_of,
+)
+from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import number
+from sambot_viz.edits import together, write
+from sambot_viz.errors import Fix, Place, Problem, nearest
+
+_LIKENESS = 0.8
+_KINDS = {
+    "frame": "string",
+    "section": "string",
+    "sections": "strings",
+    "sources": "string",
+}
+"""Kind of a parameter → the type of its value, where that has another name."""
+
+
+def wrong_values(around: Surroundings) -> Iterator[Problem]:
+    """Report values of another type, out of their range or no word that is known."""
+    for part in (part for parts in parts_by_node(around) for part in parts):
+        for parameter, known in part.known():
+            kind = _KINDS.get(known.kind, known.kind)
+            found = _type(parameter, kind, part.node, around)
+            if found is None and known.count:
+                found = _count(parameter, known, part.node)
+            yield from [found] if found else _value(parameter, known, part)
+
+
+def _type(
+    parameter: Parameter, kind: str, node: str, around: Surroundings
+) -> Problem | None:
+    """Report a value of another type than the node declares the parameter with."""
+    written, file = parameter.written, parameter.place.file
+    is_list, text = type_of(written) == "list", parameter.fact.value.strip()
+    if kind not in WANTED or OPEN.search(text) or REPLACED.fullmatch(text):
+        return None
+    wanted, place = WANTED[kind], place_of(written, file)
+    if type_of(written) == "none":
+        return _finding(
+            parameter,
+            parameter.place,
+            "empty",
+            node,
+            wanted,
+            _filled(parameter, around),
+        )
+    if kind.endswith("s") and not is_list:
+        fix = instead(written, file, f"[{text}]", f"write [{text}]")
+        said = as_written(written)
+        return _finding(parameter, place, said, node, wanted, fix)
+    if is_list and not kind.endswith("s"):
+        one = parameter.values[0] if len(parameter.values) == 1 else None
+        better = one and converted(one, kind)
+        hint = Fix(f"write {better or wanted}")
+        said = "a list with one item" if one else "a list"
+        return _finding(parameter, place, said, node, wanted, hint)
+    items: list[yaml.Node] = written.value if is_list else [written]
+    kind = kind.removesuffix("s") if is_list else kind
+    wrong = [n for n in items if type_of(n) not in (kind, "list") and not is_open(n)]
+    if not wrong:
+        return None
+    fixes = [fixed(item, kind, file) for item in wrong]
+    fix = fixes[0] if len(fixes) == 1 else together(fixes[0].hint, *fixes)
+    said = f"a list with {as_written(wrong[0])}" if is_list else as_written(wrong[0])
+    said = said.replace("list with the text", "list with")
+    return _finding(parameter, place_of(wrong[0], file), said, node, wanted, fix)
+
+
+def _finding(
+    parameter: Parameter, place: Place, said: str, node: str, wanted: str, fix: Fix
+) -> Problem:
+    return Problem.at(
+        place,
+        "error",
+        "parameter-type",
+        f"{parameter.name} is {said}, but {node} needs {wanted}: it stops "
+        "with an error",
+        fix,
+    )
+
+
+def _filled(parameter: Parameter, around: Surroundings) -> Fix:
+    """Return what to write for an empty value."""
+    if parameter.name != "robot_base_frame":
+        return Fix("write a value, or delete this line")
+    known, base = around.known, "base_link"
+    if known is not None and base not in known.links:
+        base = known.root
+    return Fix(f"write robot_base_frame: {base}")
+
+
+def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | None:
+    """Report a list with more or fewer items than the node takes."""
+    count = len(parameter.values)
+    missing = known.count - count
+    if not count or not missing or OPEN.search(parameter.fact.value):
+        return None
+    filling = "false" if known.kind == "booleans" else "0.0"
+    surplus = f"{-missing} values" if missing < -1 else "value"
+    meaning = ": position, rotation, both velocities and acceleration, three each"
+    return Problem.at(
+        parameter.value_place,
+        "error",
+        "parameter-type",
+        f"{parameter.name} has {count} values, but {node} needs {known.count}"
+        + (meaning if known.kind == "booleans" else ""),
+        f"add {', '.join([filling] * missing)} at the end of the list"
+        if missing > 0
+        else f"delete the last {surplus}",
+    )
+
+
+def _value(
+    parameter: Parameter, known: KnownParameter, part: NodePart
+) -> Iterator[Problem]:
+    """Report a value of the right type that makes no sense."""
+    said, place = parameter.fact.value, parameter.value_place
+    if OPEN.search(said) or type_of(parameter.written) == "list":
+        return
+    if known.words and said not in known.words:
+        near = nearest(said, known.words, _LIKENESS)
+        words = f"{', '.join(known.words[:-1])} and {known.words[-1]}"
+        follows = "stops with an error" if known.strict else "does not use this value"
+        yield Problem.at(
+            place,
+            "error" if known.strict else "warning",
+            "parameter-value",
+            f"{parameter.name} is {said}, but {part.node} knows only {words}: it "
+            f"{follows}",
+            write(place, said, near) if near else f"write one of {words}",
+        )
+    elif known.kind == "frame" and said.startswith("/") and len(said) > 1:
+        yield Problem.at(
+            place,
+            "warning",
+            "frame-slash",
+            f"{part.node} asks for the frame {said}, but no frame of ROS 2 begins with "
+            "a slash: it never gets a transform",
+            write(place, said, said[1:]),
+        )
+    elif known.kind in ("number", "integer") and (value := number_of(said)) is not None:
+        yield from _range(parameter, known, value, part)
+
+
+def _range(
+    parameter: Parameter, known: KnownParameter, value: float, part: NodePart
+) -> Iterator[Problem]:
+    """Report a number that is out of its range, or above the one it must not pass."""
+    least = number(known.low)
+    low = f"more than {least}" if known.above else f"at least {least}"
+    high, other = f"at most {number(known.high)}", part.given.get(known.at_most)
+    if value > known.high or value < known.low or (known.above and value == known.low):
+        wanted = high if value > known.high else low
+        yield Problem.at(
+            parameter.value_place,
+            "error" if known.strict else "info",
+            "parameter-value",
+            f"{parameter.name} is {parameter.fact.value}, but "
+            + (
+                f"{part.node} takes only {wanted}: it stops with an error"
+                if known.strict
+                else f"it is usually {wanted}"
+            ),
+            _in_range(parameter, known, value) or f"write {wanted}",
+        )
+    elif other is not None and value > (other.fact.number or value):
+        here, there = parameter.value_place, other.value_place
+        one, two = parameter.fact.value, other.fact.value
+        hint = f"write {two} here and {one} there, or correct one of them"
+        yield Problem.at(
+            here,
+            "warning",
+            "parameter-value",
+            f"{parameter.name} is {one}, which is more than {other.name}, {two} "
+            f"({where(other.place, here)})",
+            together(hint, write(here, one, two), write(there, two, one)),
+        )
+
+
+def _in_range(parameter: Parameter, known: KnownParameter, value: float) -> Fix | None:
+    """Return the frequency that a period means, if it is one."""
+    if "frequency" not in parameter.name or not 0 < value < known.low:
+        return None
+    right, said = f"{float(f'{1 / value:.2g}'):.1f}", parameter.fact.value
+    hint = f"write {right}, if {said} is the time between two [s]"
+    return write(parameter.value_place, said, right, hint=hint)
