@@ -60,6 +60,16 @@ def test_a_misspelt_class_is_the_only_finding(checked: Checked) -> None:
     assert checked(other) == []
 
 
+def test_a_class_that_is_called_after_its_message_is_corrected(
+    checked: Checked,
+) -> None:
+    grid = "    - Class: rviz_default_plugins/OccupancyGrid\n  Global"
+    (problem,) = checked(GOOD.replace("  Global", grid))
+    assert (problem.code, problem.line) == ("config-class", 10)
+    assert problem.hint == "write rviz_default_plugins/Map"
+    assert checked(GOOD.replace("  Global", grid.replace("_default", "_my"))) == []
+
+
 def test_a_robot_without_shapes_is_noted(checked: Checked) -> None:
     off = GOOD.replace(
         "Name: RobotModel", "Name: RobotModel\n      Visual Enabled: false"

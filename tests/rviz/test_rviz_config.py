@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from default_config import DEFAULT_TEXT
 
+from sambot_viz.edits import apply_edits
 from sambot_viz.errors import ConfigError
 from sambot_viz.rviz import (
     BoolProperty,
@@ -165,6 +166,59 @@ def test_problems_name_file_line_and_column(one_display: Parse):
     ]
     assert {p.code for p in config.problems} == {"config-value"}
     assert all(p.file == "my.rviz" and p.severity == "warning" for p in config.problems)
+
+
+@pytest.mark.parametrize(
+    ("display", "right", "wrong", "code"),
+    [
+        ("Grid", "Plane Cell Count: 20", "Plane Cel Count: 20", "config-property"),
+        ("Grid", "Line Style: Lines", "Line Style: Line", "config-value"),
+        (
+            "Grid",
+            "Line Style:{Value: Lines",
+            "Line Stile:{Value: Lines",
+            "config-property",
+        ),
+        (
+            "RobotModel",
+            "Description Topic:{Value: /r",
+            "Topic:{Value: /r",
+            "config-property",
+        ),
+        (
+            "RobotModel",
+            "Description Topic:{Reliability Policy: Best Effort",
+            "Description Topic:{Reliability Policy: Best Efort",
+            "config-value",
+        ),
+        (
+            "Unknown",
+            "Topic:{Durability Policy: Transient Local",
+            "Topic:{Durability Policy: TransientLocal",
+            "config-value",
+        ),
+    ],
+)
+def test_a_name_that_rviz_does_not_know_has_an_edit_that_mends_it(
+    tmp_path: Path,
+    declarations: Declarations,
+    display: str,
+    right: str,
+    wrong: str,
+    code: str,
+) -> None:
+    def written(text: str) -> str:
+        below = text.replace("{", "\n        ")
+        return (
+            "Visualization Manager:\n  Displays:\n    - Class: "
+            f"rviz_default_plugins/{display}\n      {below}\n"
+        )
+
+    (tmp_path / "c.rviz").write_text(written(wrong))
+    config = RvizConfig.load(tmp_path / "c.rviz", declarations)
+    (problem,) = config.problems
+    assert problem.code == code
+    assert apply_edits(problem.edits, written(wrong)) == written(right)
 
 
 def test_a_key_that_stands_twice_is_told(one_display: Parse):

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.bundled import is_bundled
+from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
@@ -73,7 +74,7 @@ def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
         kind = kind_of(display.class_id)
         if kind in known:
             continue
-        near = nearest(kind, known, _LIKENESS)
+        near = nearest(kind, known, _LIKENESS) or _of_message(kind)
         if near is not None:
             place = _place(config.file, display.node.get("Class"))
             yield Problem.at(
@@ -84,6 +85,16 @@ def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
                 "place",
                 _written(place, display.class_id, near, near),
             )
+
+
+def _of_message(kind: str) -> str | None:
+    """Return the display for the message that a class is called after."""
+    package, _, name = kind.rpartition("/")
+    if package != _ROBOT_MODEL.rpartition("/")[0]:
+        return None
+    displays = known_nodes().displays.items()
+    shows = {message.rpartition("/")[2]: display for display, message in displays}
+    return shows.get(name)
 
 
 def _classes_of_ros1(config: RvizConfig) -> Iterator[Problem]:

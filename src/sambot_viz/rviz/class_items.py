@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from sambot_viz.rviz.declarations import NO_CLASS, is_ros1, kind_of
+from sambot_viz.errors import nearest
+from sambot_viz.rviz.declarations import NO_CLASS, is_ros1, kind_of, short_name
 from sambot_viz.rviz.item import ConfigItem, EntryItem
 from sambot_viz.rviz.properties.numbers import read_bool
 from sambot_viz.rviz.properties.property import KeptProperty, Property
-from sambot_viz.rviz.properties.texts import TopicProperty, checked_text
+from sambot_viz.rviz.properties.texts import (
+    QOS_PROPERTIES,
+    PolicyProperty,
+    TopicProperty,
+    checked_text,
+)
 from sambot_viz.rviz.yaml.yaml_document import ConfigFindings
 from sambot_viz.rviz.yaml.yaml_nodes import Entry, Map, Scalar
 
+_LIKENESS = 0.8
 _OF_ROS1 = (
     KeptProperty(
         "Queue Size",
@@ -53,6 +60,37 @@ class ClassItem(ConfigItem):
             names = {one.name for one in properties}
             properties += tuple(one for one in _OF_ROS1 if one.name not in names)
         super().__init__(node, properties, findings, ros1=ros1, attach=attach)
+        if self.supported and not ros1:
+            self._report_keys()
+        elif not ros1:
+            self._report_policies()
+
+    def _report_keys(self) -> None:
+        """Report keys that are like those of properties which are not given."""
+        declared = [one.keys for one in self._declared.values()]
+        for path in self.unknown_keys:
+            *above, key = path.split("/")
+            owner = self.node_at(above)
+            free = [
+                name
+                for *parents, name in declared
+                if parents == above and isinstance(owner, Map) and not owner.get(name)
+            ]
+            right = meant_key(key, free)
+            if right is not None and isinstance(owner, Map):
+                self._findings.warn_key(
+                    next(entry for entry in owner.entries if entry.key == key),
+                    f"{short_name(self.kind)} has no property '{path}', but '{right}', "
+                    "whose default is used",
+                    right,
+                )
+
+    def _report_policies(self) -> None:
+        """Report the quality of service of a class that is not declared."""
+        for entry in self._node.entries:
+            for prop in QOS_PROPERTIES if isinstance(entry.value, Map) else ():
+                if isinstance(prop, PolicyProperty) and isinstance(entry.value, Map):
+                    prop.read(entry.value.get(prop.name), self._report)
 
     @property
     def class_id(self) -> str:
@@ -164,6 +202,22 @@ class ViewConfig(ClassItem):
 
 class ToolConfig(ClassItem):
     """One tool of the toolbar."""
+
+
+def meant_key(key: str, free: Sequence[str]) -> str | None:
+    """Return the property that was meant by an unknown key.
+
+    Args:
+        key: the key.
+        free: the properties that are not given.
+
+    Returns:
+        One that is almost the same, or the only one that has its words and others.
+    """
+    near = nearest(key, free, _LIKENESS)
+    words = set(key.split())
+    longer = [name for name in free if words < set(name.split())]
+    return near or (longer[0] if len(longer) == 1 else None)
 
 
 def new_map(class_id: str, name: str, enabled: bool | None = None) -> Map:

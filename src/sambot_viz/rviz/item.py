@@ -89,8 +89,8 @@ class ConfigItem(ItemMap):
             self._unreadable.add(path)
         self._values[path] = prop.default_in(self._ros1) if value is None else value
 
-    def _report(self, node: Node, message: str, hint: str) -> None:
-        self._findings.warn("config-value", node, message, hint)
+    def _report(self, node: Node, message: str, hint: str, right: str = "") -> None:
+        self._findings.warn("config-value", node, message, hint, right)
 
     @property
     def findings(self) -> ConfigFindings:

@@ -34,8 +34,8 @@ def read(prop: Property, text: str) -> tuple[Any, list[str]]:
     """The value, and the messages, of a property that stands as `text` in a file."""
     said: list[str] = []
 
-    def report(node: Node, message: str, hint: str) -> None:
-        del node, hint
+    def report(node: Node, message: str, hint: str, right: str = "") -> None:
+        del node, hint, right
         said.append(message)
 
     return prop.read(parse(text), report), said

@@ -7,9 +7,8 @@ and the compatibility table.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.yaml.yaml_nodes import List, Map, Node, Scalar
@@ -17,8 +16,19 @@ from sambot_viz.rviz.yaml.yaml_nodes import List, Map, Node, Scalar
 Support: TypeAlias = Literal["full", "approximate", "none", "kept"]
 """How far a property is shown; "kept" has no effect in RViz for ROS 2 either."""
 
-Report: TypeAlias = Callable[[Node, str, str], None]
-"""Takes a node, what is doubtful about it, and what to write instead."""
+
+class Report(Protocol):
+    """Takes what is doubtful in a file."""
+
+    def __call__(self, node: Node, message: str, hint: str, right: str = "") -> None:
+        """Report a node.
+
+        Args:
+            node: it.
+            message: what is doubtful.
+            hint: what to write instead.
+            right: the text of a right node, where it is certain.
+        """
 
 
 class PropertyError(UsageError):
@@ -36,9 +46,9 @@ class PropertyError(UsageError):
         super().__init__(f"'{name}' must be {expected}, not {shown}")
 
 
-def silent(node: Node, message: str, hint: str) -> None:
+def silent(node: Node, message: str, hint: str, right: str = "") -> None:
     """Drop a report."""
-    del node, message, hint
+    del node, message, hint, right
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from typing import Any
 import re2 as _re2  # pyright: ignore[reportMissingTypeStubs]
 
 from sambot_viz import limits
+from sambot_viz.errors import nearest
 from sambot_viz.rviz.properties.numbers import IntProperty
 from sambot_viz.rviz.properties.property import Property, PropertyError, Report
 from sambot_viz.rviz.yaml.yaml_nodes import Scalar
@@ -111,12 +112,8 @@ class EnumProperty(Property):
         # RViz itself writes an empty Link Tree Style when it has no robot.
         known = (*self.options, self.default, "")
         if self.options and node.text not in known:
-            report(
-                node,
-                f"'{self.name}' is {node.text!r}, which is not {self._expected}; it "
-                f"acts as {self.options[0]!r}, as in RViz",
-                f"write {self._expected}",
-            )
+            used = f"it acts as {self.options[0]!r}, as in RViz"
+            report_option(self, node, used, report)
         return node.text
 
     @property
@@ -124,9 +121,39 @@ class EnumProperty(Property):
         return "one of " + ", ".join(repr(option) for option in self.options)
 
 
+def report_option(prop: Property, node: Scalar, used: str, report: Report) -> None:
+    """Report a text that is none of the options.
+
+    Args:
+        prop: the property.
+        node: what the file has.
+        used: what RViz takes for it.
+        report: takes it.
+    """
+    near = nearest(node.text, prop.options) or ""
+    expected = "one of " + ", ".join(map(repr, prop.options))
+    report(
+        node,
+        f"'{prop.name}' is {node.text!r}, which is not {expected}; {used}",
+        f"write {repr(near) if near else expected}",
+        near,
+    )
+
+
 @dataclass(frozen=True)
 class EditableEnumProperty(StringProperty):
     """One of some texts, or any other that is typed."""
+
+
+@dataclass(frozen=True)
+class PolicyProperty(EditableEnumProperty):
+    """A policy of the quality of service; RViz takes other texts for the default."""
+
+    def _parse(self, node: Scalar, report: Report) -> str:
+        if node.text and node.text not in self.options:
+            used = f"RViz takes {self.default!r} for it"
+            report_option(self, node, used, report)
+        return node.text
 
 
 @dataclass(frozen=True)
@@ -161,14 +188,14 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         "as the display needs.",
         support="approximate",
     ),
-    EditableEnumProperty(
+    PolicyProperty(
         "History Policy",
         default="Keep Last",
         options=("System Default", "Keep Last", "Keep All"),
         help="Whether old messages are dropped from the queue; kept for RViz.",
         support="approximate",
     ),
-    EditableEnumProperty(
+    PolicyProperty(
         "Reliability Policy",
         default="Reliable",
         options=("System Default", "Reliable", "Best Effort"),
@@ -176,7 +203,7 @@ QOS_PROPERTIES: tuple[Property, ...] = (
         "publishers.",
         support="approximate",
     ),
-    EditableEnumProperty(
+    PolicyProperty(
         "Durability Policy",
         default="Volatile",
         options=("System Default", "Transient Local", "Volatile"),

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import yaml
 
 from sambot_viz import limits
-from sambot_viz.errors import ConfigError, Findings, Problem
+from sambot_viz.edits import write
+from sambot_viz.errors import ConfigError, Findings, Fix, Place, Problem
 from sambot_viz.files import is_recording, read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
 from sambot_viz.rviz.yaml.writer import Writer
-from sambot_viz.rviz.yaml.yaml_nodes import Map, Node, Scalar, copied, same
+from sambot_viz.rviz.yaml.yaml_nodes import Entry, Map, Node, Scalar, copied, same
 
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
 
@@ -29,11 +31,50 @@ class ConfigFindings(Findings):
         super().__init__()
         self._file = file
 
-    def warn(self, code: str, node: Node, message: str, hint: str = "") -> None:
-        """Add a warning at a node; copies are reported at their originals."""
+    def warn(
+        self, code: str, node: Node, message: str, hint: str = "", right: str = ""
+    ) -> None:
+        """Add a warning at a node; copies are reported at their originals.
+
+        Args:
+            code: of the problem.
+            node: where it is.
+            message: what is wrong.
+            hint: what to write.
+            right: the text to write for that of the node; empty for no edit.
+        """
         if node.span is not None:
             line, column = node.span.line, node.span.column
-            self.note(Problem("warning", code, message, hint, self._file, line, column))
+            where: Place | str | None = self._file
+            fix: Fix | str = hint
+            if self._file is not None:
+                where = Place(self._file, line, column)
+                if right and isinstance(node, Scalar):
+                    fix = write(where, node.text, right, hint=hint)
+            problem = Problem.at(where, "warning", code, message, fix)
+            self.note(replace(problem, line=line, column=column))
+
+    def warn_key(self, entry: Entry, message: str, right: str) -> None:
+        """Add a warning at a key that was meant to be another.
+
+        Args:
+            entry: with the key.
+            message: what is wrong.
+            right: the key that was meant.
+        """
+        value, key = entry.value, entry.key or ""
+        if value.span is None:
+            return
+        # What a map or a list has begins in the line below its key.
+        is_below = not isinstance(value, Scalar) and not value.flow
+        line = value.span.line - is_below
+        fix: Fix | str = f"write {right}"
+        where: Place | str | None = self._file
+        if self._file is not None:
+            where = Place(self._file, line)
+            fix = write(where, key, right)
+        problem = Problem.at(where, "warning", "config-property", message, fix)
+        self.note(replace(problem, line=line))
 
 
 class Document:
