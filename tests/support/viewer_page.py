@@ -245,10 +245,10 @@ class ViewerPage(WindowPage):
 
         It is drawn in full resolution for that.
         """
-        before = self.set_resolution(1.0)
+        before = self._change_resolution(1.0)
         self.wait_for_frames()
         # A view that changes its size meanwhile is coarse again.
-        while self.set_resolution(1.0) != 1.0:
+        while self._change_resolution(1.0) != 1.0:
             self.wait_for_frames()
         png = base64.b64decode(str(self._ask(_PICTURE)))
         self._change_resolution(before)
