@@ -70,11 +70,20 @@ def uses(tree: ast.AST) -> Iterator[tuple[int, str]]:
                 if alias.name in CLOCKS[node.module]
             }
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and not _gives_way(node):
-            name = taken.get(ast.unparse(node.func), ast.unparse(node.func))
+        if isinstance(node, ast.Call):
+            name = _dotted(node.func)
+            name = taken.get(name, name)
             module, _, last = name.rpartition(".")
-            if last in CLOCKS.get(module, ()) or _runs_out(node):
+            found = last in CLOCKS.get(module, ()) or _runs_out(node)
+            if found and not _gives_way(node):
                 yield node.lineno, name
+
+
+def _dotted(node: ast.expr) -> str:
+    """Return ``time.sleep`` as it is written; "" for what is no name."""
+    if isinstance(node, ast.Attribute):
+        return f"{_dotted(node.value)}.{node.attr}"
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def _runs_out(call: ast.Call) -> bool:

@@ -631,7 +631,7 @@ def test_the_public_names_are_those_that_users_know() -> None:
 def test_a_class_name_has_one_meaning_in_the_package(repository: Path) -> None:
     seen: dict[str, Path] = {}
     for path in sorted((repository / "src" / "sambot_viz").rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for node in ast.walk(tree_of(path)):
             if isinstance(node, ast.ClassDef):
                 other = seen.setdefault(node.name, path)
                 assert other == path, f"{node.name}: {other} and {path}"
