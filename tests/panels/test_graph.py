@@ -18,8 +18,12 @@ from rosbridge_peer import RosbridgePeer
 import sambot_viz.graph.expected as expected
 from sambot_viz import Visualizer
 from sambot_viz.graph.node_graph import NodeGraph
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
 from sambot_viz.panels.graph.graph_panel import GraphPanel
 from sambot_viz.session import Session
+
+BROKEN = '<robot name="r"><link name="base"/>'
 
 
 @pytest.fixture
@@ -74,6 +78,19 @@ def test_a_node_has_its_place_which_only_those_at_the_disk_see_whole(
         assert talker["place"] == f"{begin}whole.launch.py:8"
         assert (str(tmp_path) in talker["said"]) == folders
         edit(panel, "graph/show", [False])
+
+
+def test_a_package_whose_model_has_an_error_has_its_graph(tmp_path: Path) -> None:
+    package = launch_package(tmp_path)
+    (package / "robot.urdf").write_text(BROKEN, "utf-8")
+    for model in (package, package / "robot.urdf"):
+        inputs = Inputs(Options(model, watch=True), may_be_broken=True)
+        with Visualizer.of_inputs(inputs) as viz:
+            session = session_of(viz)
+            panel = panel_of(GraphPanel, session)
+            with session.lock:
+                edit(panel, "graph/show", [True])
+            until_drawn(panel, session, "/listener", "/talker")
 
 
 def test_another_launch_file_is_chosen(session: Session) -> None:

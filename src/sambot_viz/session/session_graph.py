@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -146,11 +147,22 @@ class SessionGraph:
     def _package(self) -> Path | None:
         """The folder of the model's package, where that has launch files."""
         robot = self._robot.model
+        if robot is None:
+            folder = self._given_package()
         # What a page or a robot has sent is read, never what lies around it.
-        if robot is None or not robot.files or robot.file_roots is not None:
+        elif not robot.files or robot.file_roots is not None:
             return None
-        folder = package_around(robot.files[0])
+        else:
+            folder = package_around(robot.files[0])
         return folder if folder is not None and has_launch_files(folder) else None
+
+    def _given_package(self) -> Path | None:
+        """Return the package of the model that was given, which may have an error."""
+        given = self._options.model
+        if not isinstance(given, str | Path) or not os.path.exists(given):
+            return None
+        path = Path(given)
+        return package_around(path / "package.xml" if path.is_dir() else path)
 
     @property
     def _live(self) -> Source | None:

@@ -90,7 +90,8 @@ class LaunchEvaluation:
         actions = package.actions(path)
         if actions is None:
             place = Place(package.shown(path), 1)
-            self.unknown.append(UnknownStart("a launch file", place))
+            what = "a launch file that cannot be read"
+            self.unknown.append(UnknownStart(what, place))
             return
         below = path.rpartition("/")[0]
         folder, files = self._texts.folder, self._files
