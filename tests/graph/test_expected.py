@@ -102,3 +102,12 @@ def test_topics_of_gazebo_alone_are_none_of_the_graph() -> None:
     inside = Endpoint("/scan", "gz.msgs.Scan", True, Place("w.sdf", 1), in_gazebo=True)
     graph = expected_graph(RunningSystem(nodes=(a_node("gazebo", 3, inside),)))
     assert [*graph.topics] == []
+
+
+def test_a_finding_below_the_line_of_a_node_is_at_the_node_that_it_names() -> None:
+    nodes = (a_node("talker", 3), a_node("listener", 9))
+    named = Problem("error", "a", "pack has no program talker", file=LAUNCH, line=5)
+    other = Problem("error", "b", "the argument x is not there", file=LAUNCH, line=11)
+    graph = expected_graph(RunningSystem(nodes=nodes), [other, named])
+    found = {name: node.problem for name, node in graph.nodes.items()}
+    assert found == {"/talker": named, "/listener": None}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from sambot_viz.checks.around.running import Endpoint, RunningNode, RunningSystem
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Place, Problem
 from sambot_viz.graph.labels import place_of
 from sambot_viz.graph.node_graph import (
     GraphEdge,
@@ -38,6 +38,7 @@ def expected_graph(
     of_topics = _by_topic(ends, problems := tuple(problems))
     claimed = {id(found) for found in of_topics.values()}
     others = [found for found in problems if id(found) not in claimed]
+    at_nodes = _by_node(system.started, others)
     kinds: dict[str, dict[str, None]] = {}
     for _, end in ends:
         kinds.setdefault(end.topic, {}).update({end.kind: None} if end.kind else {})
@@ -45,7 +46,7 @@ def expected_graph(
     return node_graph(
         # Of those with one name that is drawn which surely starts.
         [
-            _node(node, others)
+            _node(node, at_nodes)
             for node in sorted(system.started, key=lambda one: one.starts == "yes")
         ],
         [
@@ -58,9 +59,8 @@ def expected_graph(
     )
 
 
-def _node(node: RunningNode, problems: Iterable[Problem]) -> GraphNode:
+def _node(node: RunningNode, problems: Mapping[Place, Problem]) -> GraphNode:
     place = node.place
-    at = (p for p in problems if (p.file, p.line) == (place.file, place.line))
     return GraphNode(
         node.path,
         package=node.package,
@@ -68,8 +68,33 @@ def _node(node: RunningNode, problems: Iterable[Problem]) -> GraphNode:
         file=place.file,
         line=place.line,
         is_certain=node.starts == "yes",
-        problem=next(at, None),
+        problem=problems.get(place),
     )
+
+
+def _by_node(
+    nodes: Iterable[RunningNode], problems: Iterable[Problem]
+) -> dict[Place, Problem]:
+    """Return the first finding of each node, by where it starts.
+
+    It is at that line, or below it, before the next node, and names the node.
+    """
+    nodes = list(nodes)
+    found: dict[Place, Problem] = {}
+    for problem in problems:
+        above = [
+            (node.place.line, node)
+            for node in nodes
+            if node.place.file == problem.file
+            and (node.place.line or 0) <= (problem.line or 0)
+        ]
+        last = max((line or 0 for line, _ in above), default=0)
+        for line, node in above:
+            names = (node.executable, node.name, node.package)
+            is_named = any(_names(problem.message, name) for name in names if name)
+            if line == last and (line == problem.line or is_named):
+                found.setdefault(node.place, problem)
+    return found
 
 
 def _edge(node: RunningNode, end: Endpoint) -> GraphEdge:
@@ -104,9 +129,9 @@ def _by_topic(
     return found
 
 
-def _names(sentence: str, topic: str) -> bool:
-    """Tell whether a sentence has the name of a topic in it, as a whole."""
-    return re.search(rf"(?<![\w/]){re.escape(topic)}(?![\w/])", sentence) is not None
+def _names(sentence: str, name: str) -> bool:
+    """Tell whether a sentence has a name in it, as a whole."""
+    return re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", sentence) is not None
 
 
 def _notes(system: RunningSystem) -> Iterator[str]:

@@ -17,9 +17,9 @@ import { nearestPart } from "./graph_steps.js";
  */
 
 const LINE = 13;
-/** How large the picture is drawn; 0 fits its width as far as it can be read.
- * @type {Cell<number>} */
-const zoom = new Cell(0, "graph-zoom");
+/** How large the picture is drawn in the panel and over the whole window; 0 fits its width as far as
+ * it can be read. @typedef {Cell<number>} Zoom */
+const zooms = { panel: new Cell(0, "graph-zoom"), large: new Cell(0, "graph-zoom-large") };
 const [SMALLEST, LARGEST, STEP] = [0.1, 3, 1.25];
 const READABLE = 0.85;
 /** The part that was chosen last. @type {Cell<string>} */
@@ -37,9 +37,9 @@ export function GraphPanel() {
   useEffect(() => () => act("graph/show", [false]), []);
   return html`<div class="graph">
     <${Facts} />
-    <${Drawing} />
+    <${Drawing} zoom=${zooms.panel} />
     <div class="buttons">
-      <${Controls} />
+      <${Controls} zoom=${zooms.panel} />
       <button title="Show the graph over the whole window" onClick=${() => show(LargeGraph)}>
         Enlarge</button>
     </div>
@@ -56,8 +56,8 @@ function LargeGraph({ close }) {
     };
   }, []);
   return html`<${Dialog} title="Nodes and topics" close=${close} look="graph-dialog">
-    <div class="graph"><${Facts} /><${Drawing} /></div>
-    <div class="buttons"><${Controls} />
+    <div class="graph"><${Facts} /><${Drawing} zoom=${zooms.large} /></div>
+    <div class="buttons"><${Controls} zoom=${zooms.large} />
       <button type="button" onClick=${close}>Close</button></div>
   </${Dialog}>`;
 }
@@ -71,8 +71,8 @@ function drawnBeside(event) {
   return { drawn, width, height, room: drawn.parentElement };
 }
 
-/** How the picture is drawn. */
-function Controls() {
+/** How the picture is drawn. @param {{zoom: Zoom}} props */
+function Controls({ zoom }) {
   const details = useRow("graph/details");
   /** @param {number} by */
   const change = (by) => (/** @type {Event} */ event) => {
@@ -117,8 +117,8 @@ function Facts() {
     ${notes.map((row) => html`<p key=${row?.id} class="note">${row?.value}</p>`)}`;
 }
 
-/** The picture, and what the chosen part says. */
-function Drawing() {
+/** The picture, and what the chosen part says. @param {{zoom: Zoom}} props */
+function Drawing({ zoom }) {
   /** @type {Picture | null} */
   const picture = useData("graph/picture");
   const now = zoom.use();
@@ -155,9 +155,7 @@ function Drawing() {
     event.preventDefault();
     event.stopPropagation();
   };
-  const scaled = now
-    ? `${width * now}px`
-    : `clamp(${READABLE * width}px, 100%, ${width}px)`;
+  const scaled = now ? `${width * now}px` : `clamp(${READABLE * width}px, 100%, ${width}px)`;
   const size = `width: ${scaled}; aspect-ratio: ${width} / ${height}`;
   return html`<div class="picture">
       <svg ref=${element} class="ros-graph" viewBox=${`0 0 ${width} ${height}`} style=${size}
