@@ -125,7 +125,7 @@ def test_right_parameters_have_no_finding(tmp_path: Path) -> None:
             "error",
             "nav2_navfn_planner::NavfnPlanner",
             "nav2_navfn_planner/NavfnPlanner",
-            "has no plugin",
+            "after Iron, and this file has plugins that came later",
         ),
         ("error", "[GoalAlign,", "[GoalAlgin,", "no TrajectoryCritic GoalAlgin"),
         (
@@ -206,6 +206,16 @@ def test_a_parameter_that_a_node_cannot_use_is_explained(
     assert problem.severity == severity
     assert cause in problem.message
     assert hint in problem.hint
+
+
+def test_a_name_that_only_old_distributions_have_is_noted(tmp_path: Path) -> None:
+    text, _, _ = RIGHT.partition("controller_server:")
+    right = "nav2_amcl::DifferentialMotionModel"
+    old = text.replace(right, "differential")
+    (problem,) = found(tmp_path, old)
+    assert (problem.severity, problem.code) == ("info", "nav2-plugin")
+    assert problem.message.endswith(f"after Galactic, and later it is {right}")
+    assert apply_edits(problem.edits, old) == text
 
 
 @pytest.mark.parametrize(

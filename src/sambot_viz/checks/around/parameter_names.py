@@ -6,7 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from sambot_viz.checks.around.files.parameters import Parameter
-from sambot_viz.checks.around.known_parameters import KnownParameter, known_parameters
+from sambot_viz.checks.around.known_parameters import (
+    KnownParameter,
+    PluginClass,
+    known_parameters,
+)
 from sambot_viz.checks.around.node_parts import NodePart, names_in, parts_by_node
 from sambot_viz.checks.around.parameter_text import instead, type_of
 from sambot_viz.checks.around.place import where
@@ -136,8 +140,11 @@ def unknown_plugins(around: Surroundings) -> Iterator[Problem]:
             named.append((part.given["plugin"], part.base))
         for parameter, base in named:
             said, last = parameter.fact.value, newest.get(parameter.place.file, 0)
+            found = known_parameters().classes.get(said)
             right = _right_class(said, base, last)
-            if right is not None and not around.said_elsewhere(said):
+            if found is not None and right is not None:
+                yield _old_plugin(parameter, found, right, part, last)
+            elif right is not None and not around.said_elsewhere(said):
                 yield _no_plugin(parameter, said, right, part, "Nav2 has no plugin")
         for parameter, known in part.lists():
             for name in names_in(parameter) if known.pattern else ():
@@ -159,6 +166,23 @@ def _no_plugin(
     )
 
 
+def _old_plugin(
+    parameter: Parameter, old: PluginClass, right: str, part: NodePart, newest: int
+) -> Problem:
+    """Report a plugin that newer distributions call otherwise."""
+    if certain := newest > old.age.last:
+        follows = f"this file has plugins that came later: {part.node} stops"
+    else:
+        follows = f"later it is {right}"
+    return Problem.at(
+        parameter.value_place,
+        "error" if certain else "info",
+        "nav2-plugin",
+        f"Nav2 has no plugin {old.name} after {old.age.last_name}, and {follows}",
+        write(parameter.value_place, old.name, right),
+    )
+
+
 def _right_class(said: str, base: str, newest: int) -> str | None:
     """Return the class that is meant; None for a right one and for one like no other.
 
@@ -169,15 +193,15 @@ def _right_class(said: str, base: str, newest: int) -> str | None:
     """
     known = known_parameters().classes
     found = known.get(said)
-    if found is not None and found.age.last >= newest:
+    if found is not None and found.age.last >= newest and not found.age.is_old:
         return None
     likely = {
         name.replace("::", "/"): name
         for name, each in known.items()
         if base in ("", each.base) and each.age.last >= newest
     }
-    if found is not None and found.age.successor:
-        return found.age.successor
+    if found is not None and (found.age.successor or found.age.last >= newest):
+        return found.age.successor or None
     near = nearest(said.replace("::", "/"), likely, _LIKENESS)
     return likely[near] if near is not None and said.count("/") < 2 else None
 
