@@ -148,6 +148,18 @@ def test_a_robot_with_another_definition_of_a_type_gets_none_of_it(
     assert names.type_hash_of(b"") == names.type_hash_of(b"typehash=x;") == NO_HASH
 
 
+def test_a_receiver_whose_qos_cannot_match_is_named(
+    robot: DdsPeer, opened: Open
+) -> None:
+    source = opened(robot.uri)
+    eventually(lambda: source.status.is_connected)
+    outgoing = source.advertise("/map", "std_msgs/msg/String")
+    robot.listen_as("/map", "/lab/costmap", is_latched=True)
+    eventually(lambda: outgoing.refused.startswith("/lab/costmap gets only from"))
+    robot.listen_as("/map", "/lab/other")
+    eventually(lambda: outgoing.refused == "")
+
+
 def test_a_message_that_is_too_large_costs_only_itself(
     robot: DdsPeer, opened: Open, inbox: Inbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -229,6 +241,7 @@ def test_what_is_sent_before_somebody_is_found_comes(
             "rmw_zenoh_cpp needs --source zenoh://HOST:7447",
         ),
         ("dds:", (), "localhost only: --source 'dds:?interface=lo&peer=127.0.0.1'"),
+        ("dds:?domain=7", (), "--source 'dds:?domain=7&peer=HOST'"),
         ("dds:?domain=7&peer=robot", (), "firewall open for UDP from port 9150 on"),
     ],
 )

@@ -212,13 +212,18 @@ class DdsPeer(LivePeer):
         return list(self._came)
 
     def listen_as(
-        self, topic: str, *nodes: str, type_hash: str = "", type_name: str = STRING
+        self,
+        topic: str,
+        *nodes: str,
+        type_hash: str = "",
+        type_name: str = STRING,
+        is_latched: bool = False,
     ) -> None:
         type_hash = type_hash or hash_of(type_name)
         with self._lock:
             self._listeners[topic] = []
             for node in nodes:
-                reader = self._reader(f"rt{topic}", type_name, type_hash)
+                reader = self._reader(f"rt{topic}", type_name, type_hash, is_latched)
                 self._listeners[topic].append(reader)
                 self._nodes[reader.guid.bytes] = node, False
             self._say_nodes()
@@ -275,9 +280,11 @@ class DdsPeer(LivePeer):
         qos = profile(type_hash, is_latched, is_loose)
         return DataWriter(self._participant, made, qos=qos)
 
-    def _reader(self, topic: str, type_name: str, type_hash: str) -> Any:
+    def _reader(
+        self, topic: str, type_name: str, type_hash: str, is_latched: bool = False
+    ) -> Any:
         made = Topic(self._participant, topic, wire_type(type_name))
-        return DataReader(self._participant, made, qos=profile(type_hash))
+        return DataReader(self._participant, made, qos=profile(type_hash, is_latched))
 
     def _say_nodes(self) -> None:
         """Say which endpoint is of which node."""

@@ -93,12 +93,16 @@ class RosGraph:
         """Return the endpoints of a kind with a name, the first one first."""
         return tuple(self._named.get((kind, name), {}).values())
 
-    def receivers(self, topic: str) -> Receivers:
-        """Return who has subscribed to a topic, and the type that the robot knows.
+    def takers(self, topic: str) -> list[RosEndpoint]:
+        """Return who has subscribed to a topic.
 
         Others that show the robot by this program take nothing.
         """
-        takers = [one for one in self.of(Kind.SUBSCRIBER, topic) if one.node != NODE]
+        return [one for one in self.of(Kind.SUBSCRIBER, topic) if one.node != NODE]
+
+    def receivers(self, topic: str) -> Receivers:
+        """Return who has subscribed to a topic, and the type that the robot knows."""
+        takers = self.takers(topic)
         known = (*takers, *self.of(Kind.PUBLISHER, topic))
         names = tuple(dict.fromkeys(one.node or UNNAMED for one in takers))
         return Receivers(names, known[0].type_name if known else "")

@@ -19,7 +19,7 @@ from sambot_viz.sources.live.conversation import Ends
 from sambot_viz.sources.live.graph_conversation import GraphConversation
 from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import NO_HASH, RosEndpoint, mangled
+from sambot_viz.sources.ros_graph import NO_HASH, UNNAMED, RosEndpoint, mangled
 
 _PREFIX = 12
 """The first bytes of the id of an endpoint are those of its participant."""
@@ -148,6 +148,17 @@ class DdsConversation(GraphConversation):
     def _publisher(self, outgoing: OutgoingTopic, type_hash: str) -> DdsPublisher:
         topic, kind = f"rt{outgoing.topic}", mangled(outgoing.type_name)
         return self._participant.publisher(topic, kind, type_hash)
+
+    def _unheard(self, outgoing: OutgoingTopic) -> str:
+        takers = self._graph.takers(outgoing.topic)
+        if not takers or not all(
+            one.qos and one.qos.is_any_transient_local for one in takers
+        ):
+            return ""
+        return (
+            f"{takers[0].node or UNNAMED} gets only from publishers that keep their "
+            "messages (its QoS durability is transient local), and nothing is kept here"
+        )
 
     def _call(self, number: int, service: str, request: bytes) -> None:
         if self.is_closed:

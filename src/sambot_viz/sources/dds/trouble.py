@@ -52,11 +52,12 @@ def _advice(address: Address) -> str:
             "(`ros2 doctor --report` there) without "
             "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST?"
         )
+    domain = f"domain={address.domain}&" if address.domain else ""
     return (
         "are the nodes started (`ros2 doctor --report` names their middleware: "
         "rmw_zenoh_cpp needs --source zenoh://HOST:7447)? On this computer with "
-        "localhost only: --source 'dds:?interface=lo&peer=127.0.0.1'; in a network "
-        "without multicast: --source 'dds:?peer=HOST'"
+        f"localhost only: --source 'dds:?{domain}interface=lo&peer=127.0.0.1'; in a "
+        f"network without multicast: --source 'dds:?{domain}peer=HOST'"
     )
 
 

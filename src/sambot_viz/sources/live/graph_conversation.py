@@ -189,6 +189,8 @@ class GraphConversation(Conversation):
             if published.type_hash != self._hash_for(outgoing):
                 self._withdraw(number)
                 self._begin(outgoing)
+            else:
+                outgoing.refused = self._unheard(outgoing)
         if endpoint.kind is Kind.PUBLISHER:
             # `update` follows when somebody has been told of them.
             self.topics_changed = True
@@ -208,6 +210,12 @@ class GraphConversation(Conversation):
         self._published[outgoing.number] = _Published(
             outgoing, type_hash, self._publisher(outgoing, type_hash)
         )
+        outgoing.refused = self._unheard(outgoing)
+
+    def _unheard(self, outgoing: OutgoingTopic) -> str:
+        """Return why those who have subscribed get nothing; "" when they do."""
+        del outgoing
+        return ""
 
     def _withdraw(self, number: int) -> None:
         if (published := self._published.pop(number, None)) is not None:
