@@ -141,6 +141,10 @@ def is_lfs_pointer(data: bytes) -> bool:
 RECORDING_ENDINGS = (".mcap", ".db3", ".bag")
 _MAGIC = (b"\x89MCAP0\r\n", b"SQLite format 3\0", b"#ROSBAG V")
 """What a recording of ROS begins with: MCAP, sqlite3, ROS 1."""
+LIVE_SOURCES = (
+    "foxglove://HOST:8765, rosbridge://HOST:9090, zenoh://HOST:7447 or dds:?domain=0"
+)
+"""What `--source` takes beside files: live robots, for help and messages."""
 
 
 def is_recording(path: Path | str) -> bool:

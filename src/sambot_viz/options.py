@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from sambot_viz.errors import Problem, UsageError
-from sambot_viz.files import is_recording
+from sambot_viz.files import LIVE_SOURCES, is_recording
 from sambot_viz.flags import (
     AGAIN,
     assignments,
@@ -130,8 +130,7 @@ class Options:
     source: Sequence[str] | str = option(
         (),
         "what moves the robot: a recording (an mcap, db3 or bag file, or a folder with "
-        f"them{AGAIN}), foxglove://HOST:8765, rosbridge://HOST:9090, "
-        "zenoh://HOST:7447 or dds:?domain=0 of a live robot; NAME=URI gives it a name",
+        f"them{AGAIN}), {LIVE_SOURCES} of a live robot; NAME=URI gives it a name",
         "--source",
         group="source",
         metavar="[NAME=]URI",
@@ -464,10 +463,7 @@ class Options:
             ("--publish-log", self.publish_log),
         ):
             if given is not None and not self.live_sources:
-                raise UsageError(
-                    f"{flag} needs a live robot: give --source foxglove://HOST:8765 or "
-                    "rosbridge://HOST:9090"
-                )
+                raise UsageError(f"{flag} needs a live robot: --source {LIVE_SOURCES}")
 
     def _check_publish(self) -> None:
         """Refuse to send what cannot be sent."""

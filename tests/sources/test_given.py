@@ -48,7 +48,7 @@ def test_a_robot_may_have_a_name(uri: str) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ("robot:8765", "foxglove://robot:8765 of a foxglove_bridge, or rosbridge://"),
+        ("robot:8765", "foxglove://robot:8765 of a foxglove_bridge, rosbridge://"),
         ("lab=10.0.0.2:9090/x", "say what is spoken there: foxglove://10.0.0.2:9090/x"),
         ("[::1]:9090", r"rosbridge://\[::1\]:9090"),
         ("robot", "robot: no such file or folder; known: FILE or folder"),

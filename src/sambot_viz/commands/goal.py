@@ -7,6 +7,7 @@ from contextlib import closing
 
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import UsageError
+from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.listened import CONNECTED_WITHIN
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.outlet import write_lines
@@ -26,9 +27,7 @@ def run(words: list[str]) -> int:
     refuse_time_of_live(options)
     refuse_mixture(options)
     if not options.live_sources:
-        raise UsageError(
-            "name the robot: --source foxglove://HOST:8765 or rosbridge://HOST:9090"
-        )
+        raise UsageError(f"name the robot: --source {LIVE_SOURCES}")
     robot = open_moved_by(options)
     assert robot is not None
     # What nobody follows is a message: a goal of an action needs its connection.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from sambot_viz.commands.command_line import Parser, parse
 from sambot_viz.errors import Problem, UsageError
+from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_live
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
@@ -85,7 +86,7 @@ def _no_recording(options: Options) -> str:
     if options.model is None:
         return (
             "name a recording: sambot-viz topics FILE.mcap (or .db3, .bag, or a "
-            "folder), or --source foxglove://HOST:8765 of a live robot"
+            f"folder), or --source {LIVE_SOURCES} of a live robot"
         )
     if os.path.exists(str(options.model)):
         return f"'{options.model}' is not a recording: give an mcap, db3 or bag file"

@@ -18,6 +18,7 @@ from sambot_viz.errors import (
     PublishPaceError,
     SourceError,
 )
+from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.outlet import Painted, write_err
 from sambot_viz.publishing.acted_goal import NAVIGATE
 from sambot_viz.publishing.any_message import AnyMessage
@@ -201,8 +202,7 @@ class Publisher:
         """Return why a kind of messages may not be sent at all; empty when it may."""
         if self.robot is None:
             return (
-                "there is no live robot to send to: start with --source "
-                "foxglove://HOST:8765 or rosbridge://HOST:9090"
+                f"there is no live robot to send to: start with --source {LIVE_SOURCES}"
             )
         if self._is_private:
             return "a private copy sends nothing to the robot"

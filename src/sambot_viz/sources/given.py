@@ -69,7 +69,8 @@ def given_source(words: str) -> GivenSource:
     if _PLACE.fullmatch(uri):
         raise UsageError(
             f"{text(uri)}: say what is spoken there: foxglove://{text(uri)} of a "
-            f"foxglove_bridge, or rosbridge://{text(uri)} of a rosbridge_server"
+            f"foxglove_bridge, rosbridge://{text(uri)} of a rosbridge_server, or "
+            f"zenoh://{text(uri)} of a router of rmw_zenoh"
         )
     if ":" not in uri:
         raise UsageError(f"{text(uri)}: no such file or folder; known: {KNOWN}")

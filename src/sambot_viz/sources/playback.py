@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from sambot_viz.errors import SourceError
+from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.message import Recorded, SourceTopic
 from sambot_viz.sources.source import (
@@ -129,7 +130,7 @@ class RecordingPlayback:
     def _is_over(self) -> SourceError:
         return SourceError(
             f"{self.uri} is a recording, and nothing can be sent to it: name a live "
-            "robot with --source foxglove://HOST:8765 or rosbridge://HOST:9090"
+            f"robot with --source {LIVE_SOURCES}"
         )
 
     def subscribe(

@@ -5,14 +5,12 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from sambot_viz.errors import UsageError
+from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.sources.live.address import Address, parse_address
 from sambot_viz.sources.source import Source
 from sambot_viz.text import text
 
-KNOWN = (
-    "FILE or folder of a recording, foxglove://HOST:8765, rosbridge://HOST:9090, "
-    "zenoh://HOST:7447, dds:?domain=0"
-)
+KNOWN = f"FILE or folder of a recording, {LIVE_SOURCES}"
 """What `--source` takes, for help and messages."""
 _LATER = ("rclpy",)
 _LIVE = ("foxglove", "rosbridge", "ws", "wss", "zenoh", "dds")
