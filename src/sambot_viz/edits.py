@@ -144,6 +144,14 @@ def write_attribute(
     return Fix(hint or f'write {name}="{right}"', _plain(edits))
 
 
+def overwrite_attribute(place: Place | None, name: str, right: str) -> tuple[Edit, ...]:
+    """Return the edit that gives an attribute another value, whatever it has."""
+    found = _tag_at(place) if place is not None else None
+    if place is None or found is None or name not in found[1].values:
+        return ()
+    return _plain((found[0].edit(place, found[1].values[name], right),))
+
+
 def rename_attribute(
     place: Place, wrong: str, right: str, value: str, hint: str
 ) -> Fix:

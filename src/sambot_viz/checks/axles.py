@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import Subject, axis_text, listed
 from sambot_viz.checks.wheel_clues import WHEEL, is_rotor, wheel_clues
-from sambot_viz.errors import Problem
+from sambot_viz.edits import overwrite_attribute
+from sambot_viz.errors import Edit, Fix, Problem
 from sambot_viz.geometry import UP, Vector3, cross, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
@@ -49,10 +50,11 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
     if along is None:
         lies_flat = abs(robot.at_start[joint.child].turned(middle)[2]) > _ACROSS
         along = axle if lies_flat else middle
-    advice: list[str] = []
+    advice, edits = list[str](), tuple[Edit, ...]()
     place = joint.place
     if abs(dot(middle, along)) < _ALONG:
         advice.append(_laid_down(shape, along, robot.language))
+        edits = _lying(robot, across, shape, along)
         place = shape.place
     if abs(dot(axle, along)) < _ALONG:
         advice.append(_turned_axis(joint, along, robot.language))
@@ -66,8 +68,24 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
         f"{turns.format(listed(across))} end over end: joint {joint.name} turns "
         f"about {_named(axle)}, but the middle line of the cylinder is along "
         f"{_named(middle)}",
-        ", and ".join(advice),
+        Fix(", and ".join(advice), () if len(advice) > 1 else edits),
         clues,
+    )
+
+
+def _lying(
+    robot: Robot, links: Iterable[str], shape: Shape, axle: Vector3
+) -> tuple[Edit, ...]:
+    """Return the edits that lay all shapes down that are turned as one is."""
+    rpy = _ALONG_AXIS.get(_named(axle), "")
+    shapes = (
+        s for n in links for s in (*robot.links[n].visuals, *robot.links[n].collisions)
+    )
+    return tuple(
+        edit
+        for other in shapes
+        if rpy and other.origin.rpy == shape.origin.rpy
+        for edit in overwrite_attribute(other.origin.place, "rpy", rpy)
     )
 
 
@@ -188,6 +206,8 @@ def _is_across(shape: Shape, axle: Vector3) -> bool:
     return abs(dot(shape.origin.pose.turned(UP), axle)) < _ACROSS
 
 
+_ALONG_AXIS = {"x": "0 1.5708 0", "y": "1.5708 0 0", "z": "0 0 0"}
+"""Axis → how a cylinder is turned along it."""
 _UNITS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
@@ -205,7 +225,7 @@ def _numbers(values: Vector3) -> str:
 
 def _laid_down(shape: Shape, axle: Vector3, language: Language) -> str:
     """Say how a cylinder is laid along its axle."""
-    rpy = {"x": "0 1.5708 0", "y": "1.5708 0 0", "z": "0 0 0"}.get(_named(axle))
+    rpy = _ALONG_AXIS.get(_named(axle))
     if rpy is None:
         return "turn the shape so that its z axis is along the axle"
     xyz = _numbers(shape.origin.xyz)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from sambot_viz.checks.axles import axle_of, only_rolls
 from sambot_viz.checks.rule import Subject, listed
-from sambot_viz.errors import Problem
+from sambot_viz.edits import overwrite_attribute
+from sambot_viz.errors import Fix, Problem
 from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
@@ -35,7 +36,14 @@ def flat_wheels(subject: Subject) -> list[Problem]:
             f"the wheels {listed(joint.child for joint in flat)} lie flat: joint "
             f"{joint.name} is turned by {rpy}, so that its axle is upright, and the "
             "wheel turns as a plate does",
-            _upright(joint, robot.language),
+            Fix(
+                _upright(joint, robot.language),
+                tuple(
+                    edit
+                    for each in flat
+                    for edit in overwrite_attribute(each.origin.place, "rpy", "0 0 0")
+                ),
+            ),
         )
     ]
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess
+from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.checks.volumes import volume_of
-from sambot_viz.errors import Problem
-from sambot_viz.geometry import Vector3
+from sambot_viz.errors import Edit, Fix, Problem
 from sambot_viz.robot.model import Robot, shapes_of
 from sambot_viz.robot.parts import (
     Box,
@@ -21,10 +20,11 @@ from sambot_viz.robot.parts import (
     Link,
     MeshFile,
     Origin,
-    Shape,
     Sphere,
 )
 
+LENGTHS = ("size", "radius", "length")
+"""What has the lengths of a shape."""
 _HOUSE, _ROOM = 15.0, 4.0
 """Sides of a shape [m]: the longest is longer, and the shortest is longer."""
 UNITS = {"centimetres": 0.01, "millimetres": 0.001}
@@ -72,13 +72,18 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
     lengths = _lengths_of(subject.robot)
     if lengths is None:
         return
-    seen: set[tuple[str, tuple[float, ...]]] = set()
+    rewriting = Rewriting(subject.files, lambda length: length * lengths.metres)
+    edits: dict[tuple[str, tuple[float, ...]], list[Edit]] = {}
+    for _, shape in subject.shapes():
+        if lengths.has(shape.geometry):
+            of_these = edits.setdefault(written_lengths(shape.geometry), [])
+            of_these += rewriting.attributes(shape.geometry_place, *LENGTHS)
     clues = _clues(subject.robot, lengths)
     for link, shape in subject.shapes():
         what, values = written_lengths(shape.geometry)
-        if (what, values) in seen or not lengths.has(shape.geometry):
+        of_these = edits.pop((what, values), None)
+        if of_these is None:
             continue
-        seen.add((what, values))
         written = " ".join(number(v) for v in values)
         better = " ".join(number(v * lengths.metres) for v in values)
         longest, _ = _sides(shape.geometry)
@@ -87,11 +92,11 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
             "shape-size",
             f"link {link.name}: the {what} ({written}) makes it {longest:.3g} m "
             f"large: it is probably given in {lengths.unit}",
-            f"write metres: {better}",
+            Fix(f"write metres: {better}", tuple(dict.fromkeys(of_these))),
             clues,
         )
     if lengths.origins:
-        yield _far_joint(subject.robot, lengths, clues)
+        yield _far_joint(subject, lengths, clues, rewriting)
 
 
 def _clues(robot: Robot, lengths: _Lengths) -> Clues:
@@ -110,7 +115,16 @@ def _clues(robot: Robot, lengths: _Lengths) -> Clues:
     return clues
 
 
-def _far_joint(robot: Robot, lengths: _Lengths, clues: Clues) -> Problem:
+def _far_joint(
+    subject: Subject, lengths: _Lengths, clues: Clues, rewriting: Rewriting
+) -> Problem:
+    robot = subject.robot
+    name = "" if robot.language == "sdf" else "xyz"
+    edits = (
+        edit
+        for origin in _origins(subject)
+        for edit in rewriting.attributes(origin.place, name, most=3)
+    )
     joint = max(robot.joints.values(), key=lambda joint: _reach(joint.origin))
     tag = "pose" if robot.language == "sdf" else "origin"
     return guess(
@@ -118,9 +132,21 @@ def _far_joint(robot: Robot, lengths: _Lengths, clues: Clues) -> Problem:
         "shape-size",
         f"joint {joint.name} is {number(_reach(joint.origin))} m from the origin of "
         f"{joint.parent}: the places are probably given in {lengths.unit}, too",
-        f"divide x, y and z of every <{tag}> by {1 / lengths.metres:.0f}",
+        Fix(
+            f"divide x, y and z of every <{tag}> by {1 / lengths.metres:.0f}",
+            tuple(dict.fromkeys(edits)),
+        ),
         clues,
     )
+
+
+def _origins(subject: Subject) -> Iterator[Origin]:
+    """Yield all origins of a robot."""
+    yield from (joint.origin for joint in subject.robot.joints.values())
+    yield from (shape.origin for _, shape in subject.shapes())
+    for link in subject.robot.links.values():
+        if link.inertial is not None:
+            yield link.inertial.origin
 
 
 _FOAM = 10.0
@@ -132,24 +158,6 @@ def is_lighter_than_foam(link: Link) -> bool:
     mass = 0.0 if link.inertial is None else link.inertial.mass
     volume = volume_of(link)
     return math.isfinite(volume) and 0 < mass < _FOAM * volume
-
-
-def robot_in_metres(robot: Robot) -> Robot:
-    """Return the robot as it would be with all lengths in metres.
-
-    What a check finds only in the robot as it is follows from the unit.
-    """
-    lengths = _lengths_of(robot)
-    if lengths is None:
-        return robot
-    links = {name: _scaled_link(link, lengths) for name, link in robot.links.items()}
-    joints = robot.joints
-    if lengths.origins:
-        joints = {
-            name: replace(joint, origin=_scaled_origin(joint.origin, lengths))
-            for name, joint in joints.items()
-        }
-    return replace(robot, links=links, joints=joints)
 
 
 def _lengths_of(robot: Robot) -> _Lengths | None:
@@ -192,48 +200,3 @@ def written_lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
     if isinstance(geometry, Capsule):
         return "radius and length of the capsule", (geometry.radius, geometry.length)
     return "scale of the mesh", geometry.scale
-
-
-def _scaled_link(link: Link, lengths: _Lengths) -> Link:
-    visuals, collisions = (
-        tuple(_scaled_shape(shape, lengths) for shape in shapes)
-        for shapes in (link.visuals, link.collisions)
-    )
-    inertial = link.inertial
-    if inertial is not None:
-        origin = _scaled_origin(inertial.origin, lengths)
-        inertial = replace(inertial, origin=origin)
-    return replace(link, visuals=visuals, collisions=collisions, inertial=inertial)
-
-
-def _scaled_shape(shape: Shape, lengths: _Lengths) -> Shape:
-    geometry = shape.geometry
-    if lengths.has(geometry):
-        geometry = _scaled(geometry, lengths.metres)
-    origin = _scaled_origin(shape.origin, lengths)
-    return replace(shape, geometry=geometry, origin=origin)
-
-
-def _scaled(geometry: Geometry, factor: float) -> Geometry:
-    match geometry:
-        case Box(size):
-            return Box(_times(size, factor))
-        case Sphere(radius):
-            return Sphere(radius * factor)
-        case Cylinder(radius, length):
-            return Cylinder(radius * factor, length * factor)
-        case Capsule(radius, length):
-            return Capsule(radius * factor, length * factor)
-        case _:
-            return geometry
-
-
-def _scaled_origin(origin: Origin, lengths: _Lengths) -> Origin:
-    if not lengths.origins:
-        return origin
-    return replace(origin, xyz=_times(origin.xyz, lengths.metres))
-
-
-def _times(values: Vector3, factor: float) -> Vector3:
-    x, y, z = values
-    return x * factor, y * factor, z * factor

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz.advice import with_edits
 from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
+from sambot_viz.checks.consequences import without_consequences
 from sambot_viz.checks.exchanged_lengths import exchanged_lengths
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.flat_wheels import flat_wheels
 from sambot_viz.checks.launch_text import launch_text_as_yaml
-from sambot_viz.checks.lengths import lengths_in_another_unit, robot_in_metres
+from sambot_viz.checks.lengths import lengths_in_another_unit
 from sambot_viz.checks.masses import masses_in_grams
 from sambot_viz.checks.mesh_files import (
     MeshFiles,
@@ -48,11 +48,18 @@ if TYPE_CHECKING:
     from sambot_viz.checks.around.workspace import Package
     from sambot_viz.meshes.mesh import Mesh
 
+
+def lengths_not_in_metres(subject: Subject) -> list[Problem]:
+    """Report one length that is out of proportion, else all that are in one unit."""
+    off = list(lengths_out_of_proportion(subject))
+    return off or list(lengths_in_another_unit(subject))
+
+
 RULES: tuple[Rule, ...] = (
     limits_in_degrees,
     rpy_in_degrees,
     sizes_not_positive,
-    lengths_in_another_unit,
+    lengths_not_in_metres,
     unusable_meshes,
     meshes_of_wrong_size,
     wheels_off_the_ground,
@@ -77,16 +84,14 @@ RULES: tuple[Rule, ...] = (
 AROUND: tuple[Rule, ...] = (launch_text_as_yaml, names_that_must_meet)
 """The rules about a model and its packages."""
 
-_OF_LENGTHS = frozenset(
-    """
-    shape-size size-not-positive wheel-not-on-ground falls-over footprint-size
-    drive-wheel-separation drive-wheel-radius mesh-size
-    """.split()
+_CAUSES: tuple[Rule, ...] = (
+    limits_in_degrees,
+    rpy_in_degrees,
+    lengths_not_in_metres,
+    wheels_across_their_axles,
+    flat_wheels,
 )
-"""What is said of lengths, and of the robot that they make."""
-
-_OF_ANGLES = frozenset("footprint-size wheel-across-axle falls-over".split())
-"""What is said of a robot whose parts are turned wrongly."""
+"""The rules about a model that say what others follow from."""
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
 
@@ -105,46 +110,18 @@ def subject_of(
 
 
 def find_problems(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
-    """Run rules; what follows from a misspelt name or a unit is left out."""
-    from sambot_viz.robot.corrected import corrected_robot
+    """Run rules; what follows from another finding is left out."""
 
-    found = _run(subject, rules)
-    better = corrected_robot(subject.robot) if found else None
-    if better is None:
-        return found
-    codes = {problem.code for problem in _run(replace(subject, robot=better), rules)}
-    return [problem for problem in found if problem.code in codes]
+    def look(other: Subject) -> list[Problem]:
+        return [problem for rule in rules for problem in rule(other)]
 
-
-def _run(subject: Subject, rules: Sequence[Rule]) -> list[Problem]:
-    """Run rules; only the one about the unit of lengths is given another unit.
-
-    Where one length is out of proportion, what rests on lengths is left out, and where
-    a wheel lies flat, how far the robot reaches. Angles in degrees turn parts anyhow.
-    """
-    off = list(lengths_out_of_proportion(subject))
-    robot = subject.robot if off else robot_in_metres(subject.robot)
-    in_metres = subject if robot is subject.robot else replace(subject, robot=robot)
-    found = [
-        problem
-        for rule in rules
-        for problem in rule(subject if rule is lengths_in_another_unit else in_metres)
-    ]
-    if off:
-        found = [problem for problem in found if problem.code not in _OF_LENGTHS]
-        return found + off if lengths_in_another_unit in rules else found
-    if _has_degrees(in_metres):
-        return [problem for problem in found if problem.code not in _OF_ANGLES]
-    reach = {problem for problem in found if problem.code == "footprint-size"}
-    turned = (wheels_across_their_axles, flat_wheels)
-    if reach and any(any(rule(in_metres)) for rule in turned):
-        found = [problem for problem in found if problem not in reach]
-    return found
-
-
-def _has_degrees(subject: Subject) -> bool:
-    told = any(problem.code == "rpy-in-degrees" for problem in subject.robot.problems)
-    return told or any(rpy_in_degrees(subject))
+    found = look(subject)
+    if not found:
+        return []
+    causes = [p for rule in _CAUSES if rule not in rules for p in rule(subject)]
+    own = set(found)
+    kept = without_consequences(subject, [*causes, *found], look)
+    return [problem for problem in kept if problem in own]
 
 
 def in_order(problems: Sequence[Problem]) -> list[Problem]:

@@ -9,9 +9,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.clues import Clues, guess, is_measured, is_written_whole
-from sambot_viz.checks.lengths import UNITS, is_lighter_than_foam, written_lengths
+from sambot_viz.checks.lengths import (
+    LENGTHS,
+    UNITS,
+    is_lighter_than_foam,
+    written_lengths,
+)
+from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import write_attribute
+from sambot_viz.errors import Edit, Fix, Place, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Joint, MeshFile, Shape
 
@@ -88,7 +95,7 @@ def lengths_out_of_proportion(subject: Subject) -> Iterator[Problem]:
     if not large:
         return
     found = list(_properties(subject, large, usual, small))
-    found = found or list(_single(robot, large, usual, small))
+    found = found or list(_single(subject, large, usual, small))
     if len(found) <= _MOST:
         yield from found
 
@@ -187,7 +194,13 @@ def _properties(
                     f"the property {name} is {text} m",
                     usual,
                     unit,
-                    f'value="{number(value * factor)}"',
+                    write_attribute(
+                        token_place(source, file, token),
+                        "value",
+                        text,
+                        number(value * factor),
+                        hint=f'write metres: value="{number(value * factor)}"',
+                    ),
                     clues,
                 )
 
@@ -210,9 +223,10 @@ def _number(text: str) -> float | None:
 
 
 def _single(
-    robot: Robot, large: Sequence[_Written], usual: float, small: Set[float]
+    subject: Subject, large: Sequence[_Written], usual: float, small: Set[float]
 ) -> Iterator[Problem]:
     """Report each element by itself, with its numbers in metres."""
+    robot = subject.robot
     seen: set[tuple[Place | None, tuple[float, ...]]] = set()
     for element in large:
         if (element.place, element.values) in seen:
@@ -221,14 +235,28 @@ def _single(
         unit, factor = _unit(element, element.largest, usual)
         metres = (v * factor if abs(v) > usual else v for v in element.values)
         written = " ".join(map(number, element.values))
+        edits = _in_metres(subject, element, usual, factor)
         yield _problem(
             element.place,
             f"{element.what} ({written}) is {number(element.largest)} m",
             usual,
             unit,
-            " ".join(map(number, metres)) + element.advice,
+            Fix(
+                f"write metres: {' '.join(map(number, metres))}{element.advice}", edits
+            ),
             _clues(robot, element, element.largest, factor, small),
         )
+
+
+def _in_metres(
+    subject: Subject, element: _Written, usual: float, factor: float
+) -> tuple[Edit, ...]:
+    rewriting = Rewriting(
+        subject.files, lambda value: value * factor if abs(value) > usual else value
+    )
+    names = LENGTHS if element.link else ("" if "<pose>" in element.advice else "xyz",)
+    most = 9 if element.link else 3
+    return tuple(rewriting.attributes(element.place, *names, most=most))
 
 
 def _clues(
@@ -254,13 +282,13 @@ def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
 
 
 def _problem(
-    place: Place | None, what: str, usual: float, unit: str, better: str, clues: Clues
+    place: Place | None, what: str, usual: float, unit: str, fix: Fix, clues: Clues
 ) -> Problem:
     return guess(
         place,
         "shape-size",
         f"{what}, and no other length of the robot is more than {number(usual)} m: it "
         f"is probably given in {unit}",
-        f"write metres: {better}",
+        fix,
         clues,
     )

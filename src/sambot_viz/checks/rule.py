@@ -7,11 +7,11 @@ files, and the text it came from.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sambot_viz.errors import Problem
+from sambot_viz.errors import Edit, Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Language, Link, Shape
 
@@ -31,12 +31,16 @@ class Subject:
         mesh: reads a mesh file; a Problem says why it cannot be drawn, None that it
             was not read.
         packages: those that belong to the robot, that of the model first.
+        edited: edits → the same with the robot as these make it, once that was read.
     """
 
     robot: Robot
     files: tuple[str, ...]
     mesh: Callable[[Path], Mesh | Problem | None]
     packages: tuple[Package, ...] = ()
+    edited: dict[tuple[Edit, ...], Subject | None] = field(
+        default_factory=dict["tuple[Edit, ...]", "Subject | None"], compare=False
+    )
 
     def shapes(self) -> Iterator[tuple[Link, Shape]]:
         """Give the visuals and collisions of all links, each with its link."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.lengths import written_lengths
+from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.edits import together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
@@ -81,16 +82,19 @@ def _limits_in_radians(limit: Limit, language: Language) -> str | Fix:
 
 def rpy_in_degrees(subject: Subject) -> Iterator[Problem]:
     """Report an rpy of more than a full turn in round numbers."""
+    files = subject.files
     for joint in subject.robot.joints.values():
-        yield from _rpy(joint.origin, joint.place)
+        yield from _rpy(joint.origin, joint.place, files)
     for _, shape in subject.shapes():
-        yield from _rpy(shape.origin, shape.place)
+        yield from _rpy(shape.origin, shape.place, files)
     for link in subject.robot.links.values():
         if link.inertial is not None:
-            yield from _rpy(link.inertial.origin, link.inertial.place)
+            yield from _rpy(link.inertial.origin, link.inertial.place, files)
 
 
-def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
+def _rpy(
+    origin: Origin, place: Place | None, files: Sequence[str]
+) -> Iterator[Problem]:
     if not any(abs(v) > _FULL_TURN for v in origin.rpy):
         return
     if not all(_is_round(v) for v in origin.rpy):
@@ -101,7 +105,10 @@ def _rpy(origin: Origin, place: Place | None) -> Iterator[Problem]:
         origin.place or place,
         "rpy-in-degrees",
         f'rpy="{written}" looks like degrees, but URDF uses radians',
-        write_attribute(origin.place, "rpy", origin.rpy, corrected),
+        Fix(
+            f'write rpy="{corrected}"',
+            tuple(Rewriting(files, math.radians).attributes(origin.place, "rpy")),
+        ),
         _clues(origin.rpy),
     )
 

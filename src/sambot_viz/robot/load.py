@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,6 +15,7 @@ from sambot_viz.robot.model_source import (
     ModelSource,
     OpenedModel,
     PathLike,
+    edited_model,
     open_model,
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
@@ -65,10 +66,12 @@ def load_model(
     xacro_args: Mapping[str, str],
     package_path: Sequence[Path | str],
     trusted: bool,
+    edited: Mapping[str, str],
 ) -> LoadedModel:
     """Load a model; arguments and errors are those of `load_robot`."""
     opened = model if isinstance(model, OpenedModel) else open_model(model)
-    return _Loader(opened, xacro_args, package_path, trusted).load()
+    opened = edited_model(opened, edited)
+    return _Loader(opened, xacro_args, package_path, trusted, edited).load()
 
 
 def expand(
@@ -100,6 +103,7 @@ class _Loader:
     xacro_args: Mapping[str, str]
     package_path: Sequence[Path | str]
     trusted: bool
+    edited: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def load(self) -> LoadedModel:
         problems = list(self.opened.source.problems)
@@ -154,6 +158,7 @@ class _Loader:
                 arguments=self.xacro_args,
                 package_path=self.package_path,
                 trusted=self.trusted,
+                edited=self.edited,
             )
         # Only a model that xacro refuses needs the rules that explain why.
         except ExpansionXmlError as error:

@@ -6,9 +6,9 @@ Loading is imported when it is first used: the page has to be there before it.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -52,6 +52,8 @@ class Robot:
             None for a trusted model, whose files may be anywhere.
         language: what the description is written in.
         gazebo: its parts for Gazebo and ros2_control; see `gazebo_parts`.
+        edited: loads it as it would be with other texts of its files; see
+            `load_robot`.
     """
 
     name: str
@@ -64,6 +66,9 @@ class Robot:
     file_roots: tuple[Path, ...] | None = field(default=None, compare=False, repr=False)
     language: Language = field(default="urdf", compare=False, repr=False)
     gazebo: tuple[Element, ...] = field(default=(), compare=False, repr=False)
+    edited: Callable[[Mapping[str, str]], Robot] | None = field(
+        default=None, compare=False, repr=False
+    )
 
     @cached_property
     def urdf(self) -> str:
@@ -202,6 +207,7 @@ def load_robot(
     xacro_args: Mapping[str, str] | None = None,
     package_path: Sequence[Path | str] = (),
     trusted: bool = True,
+    edited: Mapping[str, str] | None = None,
 ) -> Robot:
     """Load a robot from a URDF, SDF or xacro file, or from text.
 
@@ -215,6 +221,7 @@ def load_robot(
             packages, or ``name=folder``.
         trusted: False for a model of unknown origin: xacro then evaluates without
             attribute access, nested code and files outside the model's folder.
+        edited: whole path of a file → its text, in place of what is on the disk.
 
     Returns:
         The robot as ROS would show it, lengths in metres, angles in radians;
@@ -226,7 +233,15 @@ def load_robot(
     """
     from sambot_viz.robot.load import load_model
 
-    return Robot(*load_model(model, xacro_args or {}, package_path, trusted))
+    again = partial(
+        load_robot,
+        model,
+        xacro_args=xacro_args,
+        package_path=package_path,
+        trusted=trusted,
+    )
+    loaded = load_model(model, xacro_args or {}, package_path, trusted, edited or {})
+    return Robot(*loaded, edited=lambda texts: again(edited=texts))
 
 
 def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:

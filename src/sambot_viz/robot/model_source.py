@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -68,6 +69,23 @@ def open_model(model: PathLike) -> OpenedModel:
         return _parsed(read_source(model))
     except XmlFault as fault:
         raise _explained(fault, os.fspath(model)) from None
+
+
+def edited_model(opened: OpenedModel, texts: Mapping[str, str]) -> OpenedModel:
+    """Return a model as it is with another text, if there is one of its file.
+
+    Args:
+        opened: the model.
+        texts: whole path of a file → its text.
+
+    Raises:
+        RobotError: that text is not well-formed.
+    """
+    path = opened.source.path
+    text = None if path is None else texts.get(os.path.abspath(path))
+    if text is None:
+        return opened
+    return _parsed(replace(opened.source, text=repaired_prolog(text)))
 
 
 def open_text(text: str, label: str) -> OpenedModel:

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 
 from sambot_viz.errors import Problem, Severity
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.slips.misspelt import CALL, Slip, find_slips
+from sambot_viz.robot.slips.misspelt import CALL, Slip
 from sambot_viz.robot.slips.slip_words import slip_in_words
-from sambot_viz.robot.slips.vocabulary import Vocabulary
 from sambot_viz.robot.xml.element import Element
 
 Read = Callable[[Element, ModelFindings], object]
@@ -101,14 +100,6 @@ def _report(
     words = slip_in_words(slip, refused)
     report = reports.error if "error" in gone else reports.warn
     report(words.code, words.message, words.hint, slip.element, slip.attribute)
-
-
-def corrected_copy(document: Element, vocabulary: Vocabulary) -> Element:
-    """Return a copy of a document in which all misspelt names are corrected."""
-    copies = _copied(document)
-    for slip in find_slips(document, vocabulary):
-        _correct(slip, copies)
-    return copies[id(document)]
 
 
 def _by_place(slips: Iterable[Slip]) -> Iterator[list[Slip]]:

@@ -55,6 +55,7 @@ def expand_model(
     arguments: Mapping[str, str],
     package_path: Sequence[Path | str],
     trusted: bool,
+    edited: Mapping[str, str] | None = None,
     limits: Limits = Limits(),
 ) -> ExpandedModel:
     """Run xacro in a child process.
@@ -67,6 +68,7 @@ def expand_model(
         package_path: folders for package look-ups.
         trusted: False evaluates in the sandbox (`child/sandbox.py`) and with an empty
             environment.
+        edited: as for `load_robot`, of the files that it includes.
         limits: time, memory and output.
 
     Raises:
@@ -85,6 +87,7 @@ def expand_model(
         "seconds": int(limits.seconds) + 1,
         "output_limit": limits.characters,
         "import_path": _import_path(),
+        "edited": dict(edited or {}),
     }
     return read_result(_run_child(job, limits), file)
 

@@ -36,6 +36,7 @@ class Job(TypedDict):
     seconds: int
     output_limit: int
     import_path: list[str]
+    edited: dict[str, str]
 
 
 class ExpandedAnswer(TypedDict):

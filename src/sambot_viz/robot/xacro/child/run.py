@@ -203,7 +203,8 @@ class Expansion:
             raise self._xacro.XacroException(text, exc=error) from error
         self._files.append(os.path.abspath(filename))
         self.reading = self._shown(filename)
-        return repaired_prolog(decode(data))
+        edited = self._job["edited"].get(os.path.abspath(filename))
+        return repaired_prolog(decode(data) if edited is None else edited)
 
     def _shown(self, filename: str) -> str:
         """A file name as the user would write it: relative where the model is."""

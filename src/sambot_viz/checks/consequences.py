@@ -1,0 +1,79 @@
+"""What follows from a finding: the model is read again with its edits, in memory.
+
+A finding that is gone then, or says something else, was a consequence, and is not
+shown by itself.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from sambot_viz.advice import with_edits
+from sambot_viz.checks.rule import Subject
+from sambot_viz.edits import apply_edits, by_file, source_of
+from sambot_viz.errors import Edit, Problem, RobotError
+
+_MOST = 3
+"""A model is read again so many times at most."""
+
+Look = Callable[[Subject], list[Problem]]
+"""Finds the problems of a robot."""
+
+
+def without_consequences(
+    subject: Subject, found: Sequence[Problem], look: Look
+) -> list[Problem]:
+    """Return findings without those that follow from an earlier one.
+
+    Args:
+        subject: the robot, with the problems of its text, which are the first causes.
+        found: what rules have found, in the order in which causes come first.
+        look: finds the same in another robot.
+    """
+    kept, looked = with_edits(found), 0
+    causes = [*with_edits(subject.robot.problems), *kept]
+    for code in dict.fromkeys(cause.code for cause in causes if cause.edits):
+        own = [cause for cause in causes if cause.code == code]
+        known = {p.code for p in (*subject.robot.problems, *kept)}
+        if looked == _MOST or code not in known or all(p.code == code for p in kept):
+            continue
+        looked += 1
+        better = _edited(subject, tuple(e for cause in own for e in cause.edits))
+        if better is None:
+            continue
+        again = look(better)
+        there = {_where(p) for p in (*again, *better.robot.problems)}
+        if not there.isdisjoint(map(_where, own)):
+            # The edits do not repair it, so that nothing follows from it.
+            continue
+        # What is said in other words then, with other numbers, waits for that.
+        after = {(_where(p), p.message) for p in again}
+        kept = [p for p in kept if p.code == code or (_where(p), p.message) in after]
+    return kept
+
+
+def _edited(subject: Subject, edits: tuple[Edit, ...]) -> Subject | None:
+    """Return the robot as edits make it; None where they do not make one."""
+    if edits not in subject.edited:
+        subject.edited[edits] = _read_again(subject, edits)
+    return subject.edited[edits]
+
+
+def _read_again(subject: Subject, edits: tuple[Edit, ...]) -> Subject | None:
+    texts: dict[str, str] = {}
+    try:
+        for file, own in by_file(edits).items():
+            source = source_of(file)
+            if source is None:
+                return None
+            texts[os.path.abspath(file)] = apply_edits(own, source.text)
+        robot = subject.robot.edited and subject.robot.edited(texts)
+    except (RobotError, ValueError):
+        return None
+    return replace(subject, robot=robot, edited={}) if robot else None
+
+
+def _where(problem: Problem) -> tuple[str, str | None, int | None]:
+    return problem.code, problem.file, problem.line

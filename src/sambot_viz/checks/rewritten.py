@@ -1,0 +1,127 @@
+"""Edits of numbers where they are written: in an element, a property, a call."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from sambot_viz.checks.rule import number
+from sambot_viz.edits import Extent, SourceFile, Tag, source_of
+from sambot_viz.errors import Edit, Place
+
+_PART = re.compile(r"\$\{([^}]*)\}|[^\s$]+")
+_NAME = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\()")
+_TAGS = re.compile(r"<(?=(?:xacro:)?\w)")
+_DEEPEST = 4
+
+Change = Callable[[float], float]
+"""Returns the number that is right for one that is written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rewriting:
+    """Makes edits that change numbers of a model.
+
+    Attributes:
+        files: those of the model.
+        change: what becomes of a number.
+    """
+
+    files: Sequence[str]
+    change: Change
+
+    def attributes(self, place: Place | None, *names: str, most: int = 9) -> list[Edit]:
+        """Return the edits of attributes, or of elements inside that have their names.
+
+        Args:
+            place: where the element begins.
+            names: the attributes; "" for the text of the element itself.
+            most: how many numbers of a list are changed.
+
+        Returns:
+            Those of the numbers that are written; what is computed has none.
+        """
+        source = None if place is None else source_of(place.file)
+        tag = (
+            None
+            if place is None or source is None
+            else source.tag(source.offset(place))
+        )
+        if place is None or source is None or tag is None:
+            return []
+        edits: list[Edit] = []
+        for extent in _values(source, tag, names):
+            edits += self._in(place.file, source, extent, most, 0)
+        return edits
+
+    def _in(
+        self, file: str, source: SourceFile, extent: Extent, most: int, depth: int
+    ) -> Iterator[Edit]:
+        for part in list(_PART.finditer(source.text, *extent))[:most]:
+            if part[1] is None:
+                yield from self._number(file, source, Extent(*part.span()))
+            elif depth < _DEEPEST:
+                macro, params = _macro_around(source, part.start())
+                for name in dict.fromkeys(_NAME.findall(part[1])):
+                    calls = f"xacro:{macro}" if name in params else "xacro:property"
+                    yield from self._named(name, calls, most, depth + 1)
+
+    def _number(self, file: str, source: SourceFile, extent: Extent) -> Iterator[Edit]:
+        try:
+            value = float(source.text[extent.start : extent.end])
+        except ValueError:
+            return
+        better = number(self.change(value))
+        if float(better) != value:
+            yield source.edit(Place(file, 1), extent, better)
+
+    def _named(self, name: str, by: str, most: int, depth: int) -> Iterator[Edit]:
+        """Yield the edits of a property, or of the calls that give a parameter."""
+        for file in self.files:
+            source = source_of(file)
+            if source is None or name not in source.text:
+                continue
+            for match in _TAGS.finditer(source.text):
+                tag = source.tag(match.start())
+                extent = None if tag is None else _given(source, tag, by, name)
+                if extent is not None:
+                    yield from self._in(file, source, extent, most, depth)
+
+
+def _given(source: SourceFile, tag: Tag, by: str, name: str) -> Extent | None:
+    """Return where a tag gives a value to a property or to a macro's parameter."""
+    if source.text[tag.name.start : tag.name.end] != by:
+        return None
+    if by != "xacro:property":
+        return tag.values.get(name)
+    named = tag.values.get("name")
+    same = named is not None and source.text[named.start : named.end] == name
+    return tag.values.get("value") if same else None
+
+
+def _macro_around(source: SourceFile, offset: int) -> tuple[str, list[str]]:
+    """Return the name of the macro in which an offset is, and its parameters."""
+    start = source.text.rfind("<xacro:macro", 0, offset)
+    tag = source.tag(start) if start >= 0 else None
+    if tag is None or source.text.find("</xacro:macro>", start, offset) >= 0:
+        return "", []
+    name, params = (
+        "" if at is None else source.text[at.start : at.end]
+        for at in (tag.values.get("name"), tag.values.get("params"))
+    )
+    return name, re.findall(r"(?:^|\s)\*{0,2}(\w+)", params)
+
+
+def _values(source: SourceFile, tag: Tag, names: Sequence[str]) -> Iterator[Extent]:
+    end = source.end_of(tag) or tag.end
+    for name in names:
+        if name in tag.values:
+            yield tag.values[name]
+        elif not name:
+            yield source.text_behind(tag)
+        else:
+            inner = re.compile(rf"<{name}(?=[\s>])").search(source.text, tag.end, end)
+            child = None if inner is None else source.tag(inner.start())
+            if child is not None and not child.is_empty:
+                yield source.text_behind(child)
