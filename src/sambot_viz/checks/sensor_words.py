@@ -12,8 +12,7 @@ from sambot_viz.checks.rule import Subject
 from sambot_viz.edits import rename_element
 from sambot_viz.errors import Problem
 from sambot_viz.robot.findings import tag_text
-from sambot_viz.robot.sdf.check_elements import meant_word
-from sambot_viz.robot.sdf.elements import ElementType, model_type
+from sambot_viz.robot.sdf.elements import ElementType, meant_word, model_type
 from sambot_viz.robot.xml.element import Element
 
 _SYNONYMS = {

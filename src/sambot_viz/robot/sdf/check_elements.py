@@ -8,10 +8,15 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import did_you_mean, nearest
+from sambot_viz.errors import did_you_mean
 from sambot_viz.robot.findings import ModelFindings, tag_text
 from sambot_viz.robot.sdf import values
-from sambot_viz.robot.sdf.elements import ElementType, Values, model_type
+from sambot_viz.robot.sdf.elements import (
+    ElementType,
+    Values,
+    meant_word,
+    model_type,
+)
 from sambot_viz.robot.sdf.gazebo_only import is_for_gazebo
 from sambot_viz.robot.sdf.habits import (
     attributes_of_urdf,
@@ -343,13 +348,6 @@ def _check_word(text: str, wanted: Values) -> None:
         words = ", ".join(wanted.words)
         right = meant_word(text, wanted) or ""
         raise BadValue(f"is not known ({near})", f"write one of {words}", right)
-
-
-def meant_word(text: str, wanted: Values) -> str | None:
-    """Return which of the known words was meant by another one, or None."""
-    plain = {re.sub("[_ -]", "", word).lower(): word for word in wanted.words}
-    same = plain.get(re.sub("[_ -]", "", trimmed(text)).lower())
-    return same or nearest(trimmed(text), wanted.words)
 
 
 def _unlike(text: str, wanted: Values) -> str:

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 
+from sambot_viz.errors import nearest
+
 _TABLE = Path(__file__).with_name("elements.txt")
 _WORDS = re.compile(r"(\w+)(?:([=~?])(.+))?")
 
@@ -120,3 +122,13 @@ def _values(text: str, required: bool) -> Values:
     mark = match[2] or ""
     any_case, lenient = mark in ("~", "?"), mark == "?"
     return Values(match[1], required, words=words, any_case=any_case, lenient=lenient)
+
+
+def meant_word(text: str, wanted: Values) -> str | None:
+    """Return which of the known words was meant by another one, or None."""
+    plain = {_plain(word): word for word in wanted.words}
+    return plain.get(_plain(text)) or nearest(text.strip(), wanted.words)
+
+
+def _plain(word: str) -> str:
+    return re.sub("[_ -]", "", word.strip()).lower()
