@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.manifest import KNOWN
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.words import Kind, NamedWord, misspelt
+from sambot_viz.checks.around.words import Kind, Word, misspelt
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
@@ -32,14 +32,14 @@ def unknown_elements(around: Surroundings) -> Iterator[Problem]:
         yield from misspelt(_elements(root, around), _ELEMENT)
 
 
-def _elements(root: Element, around: Surroundings) -> Iterator[NamedWord]:
+def _elements(root: Element, around: Surroundings) -> Iterator[Word]:
     for element in root.children:
         place, tag = _place(element, around), element.tag
 
         def renamed(right: str, place: Place = place, tag: str = tag) -> Fix:
             return rename_element(place, tag, right, f"write <{right}>")
 
-        yield NamedWord(root.get("format") or "1", tag, (), place, renamed)
+        yield Word(root.get("format") or "1", tag, (), place, renamed)
 
 
 def malformed_values(around: Surroundings) -> Iterator[Problem]:

@@ -11,7 +11,7 @@ from sambot_viz.checks.around.launching.python_parts import Listing, Table
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.words import Kind, NamedWord, misspelt
+from sambot_viz.checks.around.words import Kind, Word, misspelt
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem
 
@@ -33,7 +33,7 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
         return
     given = {k.arg for k in call.keywords if k.arg}
     words = [
-        NamedWord("setup", argument.arg, given, place, partial(write, place, argument.arg))
+        Word("setup", argument.arg, given, place, partial(write, place, argument.arg))
         for argument in call.keywords
         if argument.arg
         for place in [Place(setup.shown, argument.lineno, argument.col_offset + 1)]
@@ -43,7 +43,7 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
     kinds = {pair.key: setup.place(pair.key_node) for pair in pairs}
     names = {kind: place for kind, place in kinds.items() if isinstance(kind, str)}
     words += [
-        NamedWord("entry_points", kind, names, place, partial(write, place, kind))
+        Word("entry_points", kind, names, place, partial(write, place, kind))
         for kind, place in names.items()
     ]
     yield from misspelt(words, _UNREAD)
