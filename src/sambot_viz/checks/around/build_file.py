@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from sambot_viz.checks.around.files.cmake import CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.manifest import named_as_its_folder
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
-from sambot_viz.edits import write
+from sambot_viz.edits import together, write, write_between
 from sambot_viz.errors import Place, Problem, nearest
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
@@ -29,6 +29,7 @@ _WITHOUT_AMENT = frozenset(
     """.split()
 )
 """What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
+_BEFORE = frozenset({"ament_package_xml", "rosidl_generate_interfaces"})
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
@@ -36,12 +37,13 @@ def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
     """Report brackets and quotation marks that are not closed."""
     cmake = around.cmake
     if cmake is not None and cmake.fault is not None:
+        place = cmake.place(cmake.fault.line)
         yield Problem.at(
-            cmake.place(cmake.fault.line),
+            place,
             "error",
             "cmake-unclosed",
             f"CMake cannot read this file: {cmake.fault.cause}; colcon build stops",
-            cmake.fault.hint,
+            line_fix(cmake.fault, place, around.files.text("CMakeLists.txt") or ""),
         )
 
 
@@ -73,6 +75,39 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
             "REQUIRED): colcon build stops",
             "add find_package(ament_cmake REQUIRED) after project( … )",
         )
+
+
+def commands_after_the_end(around: Surroundings) -> Iterator[Problem]:
+    """Report commands that have to come before ament_package()."""
+    cmake = around.cmake
+    commands = cmake.commands if cmake is not None and cmake.fault is None else ()
+    end = next((c for c in commands if c.name == "ament_package"), None)
+    for command in commands:
+        late = command.name.startswith("ament_export_") or command.name in _BEFORE
+        if cmake is None or end is None or command.line <= end.line or not late:
+            continue
+        line = cmake.place(end.line)
+        text = around.files.text("CMakeLists.txt") or ""
+        last = Place(line.file, text.count("\n") + 2)
+        hint = "write ament_package() at the end of the file"
+        again = "ament_package()\n" if text.endswith("\n") else "\nament_package()\n"
+        alone = text.splitlines()[end.line - 1].strip() == "ament_package()"
+        following = Place(line.file, end.line + 1)
+        yield Problem.at(
+            line,
+            "error",
+            "cmake-command-missing",
+            f"ament_package() comes before {command.name}() (line {command.line}): "
+            "colcon build stops",
+            together(
+                hint,
+                write_between(Place(line.file, end.line, 1), following, "", hint),
+                write_between(last, last, again, hint),
+            )
+            if alone
+            else hint,
+        )
+        return
 
 
 def _missing_command(place: Place, message: str, hint: str) -> Problem:

@@ -172,7 +172,12 @@ def _empty(
         "install-glob-empty",
         f"{pattern} fits no file, so nothing is installed into share/"
         f"{around.files.name}/{folder}, but {used}: it is not found",
-        f"write {setup.globbed(fitting) or fitting}",
+        write(
+            place,
+            pattern,
+            fitting,
+            hint=f"write {setup.globbed(fitting) or fitting}",
+        ),
     )
 
 

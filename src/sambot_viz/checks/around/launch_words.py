@@ -8,28 +8,28 @@ from functools import partial
 
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.words import Kind, Word, misspelt
+from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
 from sambot_viz.edits import rename_attribute, rename_element, write, write_between
 from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.xml.element import Element
 
 _STOPS = "ros2 launch stops with it"
-_ARGUMENT = Kind(
+_ARGUMENT = WordKind(
     "launch_calls",
     "launch-code",
     f"{{owner}} has no argument {{wrong}}, but {{right}}: {_STOPS}",
 )
-_ATTRIBUTE = Kind(
+_ATTRIBUTE = WordKind(
     "launch_elements",
     "launch-code",
     f"<{{owner}}> has no attribute {{wrong}}, but {{right}}: {_STOPS}",
 )
-_ELEMENT = Kind(
+_ELEMENT = WordKind(
     "launch_elements",
     "launch-code",
     f"there is no <{{wrong}}> in <{{owner}}>, but <{{right}}>: {_STOPS}",
 )
-_SUBSTITUTION = Kind(
+_SUBSTITUTION = WordKind(
     "launch_elements",
     "launch-code",
     f"there is no substitution $({{wrong}} …), but $({{right}} …): {_STOPS}",
@@ -46,14 +46,14 @@ def unknown_keywords(around: Surroundings) -> Iterator[Problem]:
         yield from misspelt(_arguments(launch), _ARGUMENT)
 
 
-def _arguments(launch: LaunchFile) -> Iterator[Word]:
+def _arguments(launch: LaunchFile) -> Iterator[WrittenWord]:
     for call in launch.calls:
         given = {k.arg for k in call.node.keywords if k.arg}
         for each in call.node.keywords:
             if each.arg:
                 place = Place(launch.shown, each.lineno, each.col_offset + 1)
                 fix = partial(_replaced, place, each.arg)
-                yield Word(call.name, each.arg, given, place, fix)
+                yield WrittenWord(call.name, each.arg, given, place, fix)
 
 
 def _replaced(place: Place, wrong: str, right: str) -> Fix:
@@ -74,7 +74,7 @@ def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:
                     "launch-code",
                     "this launch file is written for ROS 1, which has other elements "
                     f"and attributes: {_STOPS}",
-                    "write it anew for ROS 2, or delete it",
+                    "write it for ROS 2, or delete it",
                 )
                 continue
             is_xml = not root.place.file.endswith((".yaml", ".yml"))
@@ -92,7 +92,7 @@ def _used(element: Element) -> Iterator[str]:
         yield from (f"${name}" for name in _DOLLAR.findall(value))
 
 
-def _attributes(element: Element, is_xml: bool) -> Iterator[Word]:
+def _attributes(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     given, place = element.attributes, element.place
     owner = element.tag
     if element.parent is not None and element.parent.tag == "include":
@@ -105,10 +105,10 @@ def _attributes(element: Element, is_xml: bool) -> Iterator[Word]:
                 return rename_attribute(place, name, right, value, f'{hint}="{value}"')
             return write(place, name, right, hint=hint)
 
-        yield Word(owner, name, given, place, renamed)
+        yield WrittenWord(owner, name, given, place, renamed)
 
 
-def _substitutions(element: Element) -> Iterator[Word]:
+def _substitutions(element: Element) -> Iterator[WrittenWord]:
     for value in element.attributes.values():
         for name in dict.fromkeys(_DOLLAR.findall(value)):
 
@@ -116,16 +116,16 @@ def _substitutions(element: Element) -> Iterator[Word]:
                 hint = f"write $({right} …)"
                 return write(element.place, f"$({name}", f"$({right}", hint=hint)
 
-            yield Word("$", name, (), element.place, renamed)
+            yield WrittenWord("$", name, (), element.place, renamed)
 
 
-def _children(element: Element, is_xml: bool) -> Iterator[Word]:
+def _children(element: Element, is_xml: bool) -> Iterator[WrittenWord]:
     for child in element.children:
         place, tag = child.place, child.tag
         fix: Callable[[str], Fix] = partial(write, place, tag)
         if is_xml:
             fix = partial(_element, place, tag)
-        yield Word(f"{element.tag}/", tag, (), place, fix, element.tag)
+        yield WrittenWord(f"{element.tag}/", tag, (), place, fix, element.tag)
 
 
 def _element(place: Place, wrong: str, right: str) -> Fix:

@@ -11,7 +11,8 @@ from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import write
+from sambot_viz.checks.rule import listed
+from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
@@ -196,10 +197,10 @@ def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
     root = around.manifest
     if root is None:
         return
-    listed = [e for e in root.children if e.tag.endswith("depend")]
-    named = {element.text.strip() for element in listed}
+    depends = [e for e in root.children if e.tag.endswith("depend")]
+    named = {element.text.strip() for element in depends}
     used = {word for launch in around.launches for word in _words(launch)}
-    for element in listed:
+    for element in depends:
         name = element.text.strip()
         near = nearest(name, sorted(used & KNOWN - named), _LIKENESS)
         if name in used or near is None or not is_misspelt(name, near):
@@ -216,6 +217,43 @@ def misspelt_dependencies(around: Surroundings) -> Iterator[Problem]:
             f"package.xml depends on {name}, but {user.path} uses {near}: rosdep finds "
             f"no {name}, and does not install {near}",
             write(here, name, near),
+        )
+
+
+def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
+    """Note well-known packages that launch files start and package.xml does not list.
+
+    One that lists fewer than two of these leaves them to other packages.
+    """
+    root = around.manifest
+    depends = [e for e in root.children if e.tag.endswith("depend")] if root else []
+    named = {element.text.strip() for element in depends}
+    started: dict[str, Place] = {}
+    for launch in around.launches:
+        for call in launch.called():
+            started.setdefault(launch.text(call, "package") or "", call.place)
+    for element in (e for root in around.files.frontends for e in root.iter()):
+        if element.get("exec") is not None:
+            started.setdefault(element.get("pkg") or "", element.place)
+    missing = sorted(started.keys() & KNOWN - named)
+    if missing and len(named & started.keys() & KNOWN) > 1:
+        last = depends[-1].place
+        here = Place(around.files.shown(_FILE), last.line, last.column)
+        lines = [f"<exec_depend>{name}</exec_depend>" for name in missing]
+        them = "it" if len(missing) == 1 else "them"
+        yield Problem.at(
+            here,
+            "info",
+            "package-dependency",
+            f"launch files start programs of {listed(missing)} "
+            f"({where(started[missing[0]], here)}), but package.xml does not depend on "
+            f"{them}: rosdep does not install {them}",
+            write_between(
+                here,
+                here,
+                "".join(f"{line}\n  " for line in lines),
+                f"add {' '.join(lines)}",
+            ),
         )
 
 

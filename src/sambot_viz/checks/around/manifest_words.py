@@ -8,13 +8,16 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.manifest import KNOWN
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.words import Kind, Word, misspelt
+from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import rename_element, write
+from sambot_viz.edits import rename_element, write, write_attribute, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
-_ELEMENT = Kind(
+_SINCE_FORMAT_2 = frozenset(
+    "build_export_depend buildtool_export_depend depend doc_depend exec_depend".split()
+)
+_ELEMENT = WordKind(
     "package_xml",
     "package-xml",
     "package.xml of format {owner} has no <{wrong}>: colcon does not take it for a "
@@ -28,18 +31,32 @@ _NAME_LIKENESS = 0.8
 def unknown_elements(around: Surroundings) -> Iterator[Problem]:
     """Report elements of package.xml that its format does not have."""
     root = around.manifest
-    if root is not None and root.tag == "package":
-        yield from misspelt(_elements(root, around), _ELEMENT)
+    if root is None or root.tag != "package":
+        return
+    yield from misspelt(_elements(root, around), _ELEMENT)
+    tags = [element.tag for element in root.children]
+    newer = [tag for tag in tags if tag in _SINCE_FORMAT_2]
+    if newer and root.get("format") in (None, "1") and "run_depend" not in tags:
+        place = _place(root, around)
+        behind = Place(place.file, place.line, (place.column or 1) + len("<package"))
+        hint = 'write <package format="3">'
+        yield _stops(
+            place,
+            f"package.xml is of format 1, which has no <{newer[0]}>",
+            write_between(behind, behind, ' format="3"', hint)
+            if root.get("format") is None
+            else write_attribute(place, "format", "1", "3", hint=hint),
+        )
 
 
-def _elements(root: Element, around: Surroundings) -> Iterator[Word]:
+def _elements(root: Element, around: Surroundings) -> Iterator[WrittenWord]:
     for element in root.children:
         place, tag = _place(element, around), element.tag
 
         def renamed(right: str, place: Place = place, tag: str = tag) -> Fix:
             return rename_element(place, tag, right, f"write <{right}>")
 
-        yield Word(root.get("format") or "1", tag, (), place, renamed)
+        yield WrittenWord(root.get("format") or "1", tag, (), place, renamed)
 
 
 def malformed_values(around: Surroundings) -> Iterator[Problem]:

@@ -24,6 +24,7 @@ from sambot_viz.checks.around.bridges import (
     scoped_frames,
 )
 from sambot_viz.checks.around.build_file import (
+    commands_after_the_end,
     folders_as_files,
     missing_commands,
     missing_folders,
@@ -112,6 +113,7 @@ from sambot_viz.checks.around.launch_words import (
 from sambot_viz.checks.around.manifest import (
     build_types,
     incomplete_manifest,
+    missing_dependencies,
     misspelt_dependencies,
     unreadable_manifest,
 )
@@ -148,10 +150,11 @@ from sambot_viz.checks.around.setup_files import (
     joined_scripts,
     missing_data_files,
     missing_entry_points,
+    missing_marks,
     programs_elsewhere,
 )
 from sambot_viz.checks.around.setup_words import (
-    entry_points_without_colon,
+    malformed_entry_points,
     misspelt_arguments,
     texts_for_lists,
 )
@@ -204,19 +207,22 @@ OF_BUILD: tuple[Check, ...] = (
     unreadable_manifest,
     incomplete_manifest,
     misspelt_dependencies,
+    missing_dependencies,
     unknown_elements,
     malformed_values,
     packages_of_ros1,
     misspelt_packages,
     build_types,
     missing_commands,
+    commands_after_the_end,
     folders_as_files,
     setup_name,
     misspelt_arguments,
     joined_scripts,
     texts_for_lists,
-    entry_points_without_colon,
+    malformed_entry_points,
     missing_data_files,
+    missing_marks,
     missing_entry_points,
     programs_elsewhere,
     xacro_py,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import configparser
 import posixpath
 from collections.abc import Iterator
@@ -13,7 +14,7 @@ from sambot_viz.checks.around.setup_file import DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.checks.rule import listed
-from sambot_viz.edits import write
+from sambot_viz.edits import together, write, write_between
 from sambot_viz.errors import Place, Problem, nearest
 
 _INDEX = "share/ament_index/resource_index/packages"
@@ -37,6 +38,42 @@ def missing_data_files(around: Surroundings) -> Iterator[Problem]:
                 if is_folder
                 else _instead(path, entry, around),
             )
+
+
+def missing_marks(around: Surroundings) -> Iterator[Problem]:
+    """Report data_files without the mark by which ROS finds the package."""
+    setup, name = around.setup, around.files.name
+    given = setup.given("data_files") if setup is not None else None
+    if setup is None or given is None or not setup.installs_only_known:
+        return
+    installed = {
+        f"{entry.target}/{posixpath.basename(path or '')}"
+        for entry in setup.data_files
+        for _, path in entry.files.items
+    }
+    share = setup.share(name, "")
+    for mark, line in (
+        (f"{_INDEX}/{name}", f"('{_INDEX}', ['resource/{name}'])"),
+        (f"share/{name}/package.xml", f"({share}, ['package.xml'])"),
+    ):
+        if mark in installed or around.cmake is not None:
+            continue
+        place, hint = setup.place(given), f"add {line} to data_files"
+        begin = Place(place.file, place.line, (place.column or 1) + 1)
+        listed_here = (
+            isinstance(given, ast.List)
+            and (around.files.folder / f"resource/{name}").is_file()
+        )
+        yield Problem.at(
+            place,
+            "warning",
+            "setup-file-missing",
+            f"data_files has no {mark}, by which ROS finds the package: colcon adds it "
+            "with a warning, and later versions do not",
+            write_between(begin, begin, f"\n        {line},", hint)
+            if listed_here
+            else hint,
+        )
 
 
 def _of_folder(path: str, node: object, setup: SetupFile, around: Surroundings) -> str:
@@ -174,11 +211,11 @@ def _no_function(
 
 
 def programs_elsewhere(around: Surroundings) -> Iterator[Problem]:
-    """Report a setup.cfg that installs programs into the folder of another package."""
-    text, name = around.files.text("setup.cfg"), around.files.name
-    setup = around.setup
-    if text is None or setup is None or not setup.programs:
+    """Report a setup.cfg that does not install programs where ros2 run looks."""
+    setup, name = around.setup, around.files.name
+    if setup is None or not setup.programs or around.cmake is not None:
         return
+    text = around.files.text("setup.cfg") or ""
     config = configparser.RawConfigParser()
     try:
         config.read_string(text)
@@ -189,18 +226,19 @@ def programs_elsewhere(around: Surroundings) -> Iterator[Problem]:
         or config.get(section, option.replace("_", "-"), fallback="")
         for section, option in _SCRIPTS
     }
+    right = f"{_IN_BASE}{name}"
     wrong = {
         value
         for value in said.values()
-        if value.startswith(_IN_BASE)
-        and value.removeprefix(_IN_BASE).strip("/") != name
+        if value.startswith(_IN_BASE) and value.strip("/") != right
     }
+    program = setup.programs[0]
     for value in sorted(wrong):
-        line = text.count("\n", 0, text.find(value)) + 1
-        place = Place(around.files.shown("setup.cfg"), line)
-        program = setup.programs[0]
         lines = [n for n, row in enumerate(text.splitlines(), 1) if value in row]
+        place = Place(around.files.shown("setup.cfg"), lines[0])
         also = f" and in line {lines[1]}" if len(lines) > 1 else ""
+        places = (Place(place.file, line) for line in lines)
+        hint = f"write {right} here{also}"
         yield Problem.at(
             place,
             "error",
@@ -209,5 +247,36 @@ def programs_elsewhere(around: Surroundings) -> Iterator[Problem]:
             f"the package is called {name}: ros2 run does not find "
             f"{listed(p.name for p in setup.programs)} "
             f"({where(setup.place(program.node), place)})",
-            f"write {_IN_BASE}{name} here{also}",
+            together(hint, *(write(at, value, right) for at in places)),
         )
+    has_file = around.files.text("setup.cfg") is not None
+    for section, option in _SCRIPTS if setup.given("options") is None else ():
+        if not said[option] and (has_file or (section == "install" and _used(around))):
+            yield _not_said(section, option, right, around, setup)
+
+
+def _used(around: Surroundings) -> bool:
+    """Tell whether a launch file of the package starts a program of it."""
+    return any(
+        launch.text(call, "package") == around.files.name
+        for launch in around.launches
+        for call in launch.called()
+    )
+
+
+def _not_said(
+    section: str, option: str, right: str, around: Surroundings, setup: SetupFile
+) -> Problem:
+    """Report that programs are installed into bin, where only a shell finds them."""
+    when = "" if section == "install" else " after colcon build --symlink-install"
+    program = setup.place(setup.programs[0].node)
+    has_file = around.files.text("setup.cfg") is not None
+    return Problem.at(
+        Place(around.files.shown("setup.cfg"), 1) if has_file else program,
+        "warning" if when else "error",
+        "setup-cfg-folder",
+        f"setup.cfg has no {option} in [{section}], so that the programs are installed "
+        f"into bin{when}: ros2 run does not find "
+        f"{listed(sorted(each.name for each in setup.programs))}",
+        f"write {option}={right} below [{section}] in setup.cfg",
+    )

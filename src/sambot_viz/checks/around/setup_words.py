@@ -11,18 +11,21 @@ from sambot_viz.checks.around.launching.python_parts import Listing, Table
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.words import Kind, Word, misspelt
+from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem
 
 _CODE = "setup-py-code"
-_UNREAD = Kind(
+_UNREAD = WordKind(
     "setup_py",
     _CODE,
     "{owner} has no {wrong}, but {right}: what is given here is not read",
     "warning",
 )
-_DOTTED = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\.(\w+)\s*")
+_NEARLY = re.compile(
+    r"\s*(?:(?P<name>[\w.-]+)(?:\s*(?P<sign>=)\s*|\s+))?"
+    r"(?P<path>[\w./]+)(?:\s*:\s*(?P<function>\w+))?\s*"
+)
 
 
 def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
@@ -33,7 +36,9 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
         return
     given = {k.arg for k in call.keywords if k.arg}
     words = [
-        Word("setup", argument.arg, given, place, partial(write, place, argument.arg))
+        WrittenWord(
+            "setup", argument.arg, given, place, partial(write, place, argument.arg)
+        )
         for argument in call.keywords
         if argument.arg
         for place in [Place(setup.shown, argument.lineno, argument.col_offset + 1)]
@@ -43,7 +48,7 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
     kinds = {pair.key: setup.place(pair.key_node) for pair in pairs}
     names = {kind: place for kind, place in kinds.items() if isinstance(kind, str)}
     words += [
-        Word("entry_points", kind, names, place, partial(write, place, kind))
+        WrittenWord("entry_points", kind, names, place, partial(write, place, kind))
         for kind, place in names.items()
     ]
     yield from misspelt(words, _UNREAD)
@@ -78,27 +83,50 @@ def _listed(node: ast.expr, text: str, setup: SetupFile) -> Fix:
     return rewritten(node, setup.shown, right)
 
 
-def entry_points_without_colon(around: Surroundings) -> Iterator[Problem]:
-    """Report programs whose module and function are joined by a dot."""
+def malformed_entry_points(around: Surroundings) -> Iterator[Problem]:
+    """Report programs whose text is not NAME = MODULE:FUNCTION, but nearly."""
     setup = around.setup
     for node, text in setup.scripts.items if setup is not None else ():
-        match = _DOTTED.fullmatch(text) if text is not None else None
-        if setup is None or match is None:
+        meant = _meant(text, around) if text is not None else None
+        if setup is None or text is None or meant is None:
             continue
-        name, module, function = match.groups()
-        if not (around.files.folder / f"{module.replace('.', '/')}.py").is_file():
-            continue
-        right = f"{name} = {module}:{function}"
+        name, module, function = meant
+        right, place = f"{name} = {module}:{function}", setup.place(node)
+        said = text.partition("=")[2].strip()
+        if not said:
+            cause = f"there is no = between a program and its function in {text}"
+        elif ":" not in said:
+            cause = f"the program {name} is {said}, and a colon has to be before the "
+            cause += f"function {function}"
+        else:
+            cause = f"the program {name} is {said}, and a module has dots and no .py"
         yield Problem.at(
-            setup.place(node),
+            place,
             "error",
             "entry-point-missing",
-            f"the program {name} is {module}.{function}, and a colon has to be before "
-            f"the function {function}: ros2 run stops with it",
+            f"{cause}: ros2 run stops with it",
             write(
-                setup.place(node),
-                f"{module}.{function}",
-                f"{module}:{function}",
+                place,
+                said or text,
+                f"{module}:{function}" if said else right,
                 hint=f"write {right}",
             ),
         )
+
+
+def _meant(text: str, around: Surroundings) -> tuple[str, str, str] | None:
+    """Return program, module and function; None where the text says them, or none."""
+    match = _NEARLY.fullmatch(text)
+    if match is None:
+        return None
+    path, function = match["path"], match["function"]
+    module = path.replace("/", ".").removesuffix(".py")
+    name = match["name"] or module.rpartition(".")[2]
+    above, _, last = module.rpartition(".")
+    meant = [(module, function or "main")] + ([] if function else [(above, last)])
+    for each, called in meant:
+        file = around.files.folder / f"{each.replace('.', '/')}.py"
+        if each and file.is_file():
+            is_right = match["sign"] and match["function"] and path == each
+            return None if is_right else (name, each, called)
+    return None

@@ -12,7 +12,7 @@ _LIKENESS = 0.75
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class WordKind:
     """What words of one kind have in common.
 
     Attributes:
@@ -29,7 +29,7 @@ class Kind:
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
+class WrittenWord:
     """A word as somebody wrote it.
 
     Attributes:
@@ -67,7 +67,7 @@ def meant_word(words: tuple[str, ...], wrong: str, likeness: float) -> str | Non
     return named.get(wrong) or nearest(wrong, known, likeness)
 
 
-def misspelt(words: Iterable[Word], kind: Kind) -> Iterator[Problem]:
+def misspelt(words: Iterable[WrittenWord], kind: WordKind) -> Iterator[Problem]:
     """Report words that are not in the vocabulary of their owner."""
     table = vocabulary(kind.table)
     for word in words:

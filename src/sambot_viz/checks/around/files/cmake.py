@@ -97,6 +97,7 @@ class CMakeFile:
         """What stops CMake; the commands are then not certain."""
         self._lines = text.splitlines()
         self.commands = tuple(self._commands(text))
+        self.fault = self.fault or self._open_block()
 
     def place(self, line: int) -> Place:
         """Return the place of a line."""
@@ -163,6 +164,41 @@ class CMakeFile:
             line += found.count("\n")
         if opened:
             self.fault = self._never_closed(name, opened[0])
+
+    def _open_block(self) -> Fault | None:
+        """Find an if( … ) or the like without its end, and an end without it."""
+        opened: list[CMakeCommand] = []
+        for command in self.commands:
+            kind = command.name.removeprefix("end")
+            if command.name in _BLOCKS:
+                opened.append(command)
+            elif kind != command.name and kind in _BLOCKS:
+                if not opened:
+                    cause = f"{command.name}() closes nothing"
+                    return Fault(command.line, cause, "delete it")
+                if opened[-1].name != kind:
+                    return self._without_end(opened[-1])
+                opened.pop()
+        return self._without_end(opened[-1]) if opened else None
+
+    def _without_end(self, block: CMakeCommand) -> Fault:
+        """Find the last line that is indented more than a block: its end is missing."""
+        head = _indent(self._lines[block.line - 1])
+        last = block.line
+        for number in range(block.line + 1, len(self._lines) + 1):
+            code = _code(self._lines[number - 1])
+            between = code.strip().lower().startswith(("else", ")"))
+            if code and _indent(code) <= head and not between:
+                break
+            last = number if code else last
+        end = f"end{block.name}()"
+        line = self._lines[last - 1]
+        return Fault(
+            last,
+            f"the {block.name}( … ) of line {block.line} has no {end}",
+            f"write {end} after this line",
+            f"{line}\n{' ' * head}{end}",
+        )
 
     def _never_closed(self, name: CMakeWord, line: int) -> Fault:
         """Find the last line before the next command: there the ) is missing."""

@@ -1,0 +1,165 @@
+"""What stops a build, or hides what it has built, is found and undone by its edit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from edited import edited_files
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+CMAKE, MANIFEST, SETUP, CFG = "CMakeLists.txt", "package.xml", "setup.py", "setup.cfg"
+LAUNCH = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='rviz2', executable='rviz2'),
+        Node(package='xacro', executable='xacro'),
+        Node(package='tf2_ros', executable='tf2_monitor'),
+    ])
+"""
+XML = """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+  <buildtool_depend>{kind}</buildtool_depend>
+  <exec_depend>rviz2</exec_depend>
+  <exec_depend>xacro</exec_depend>
+  <exec_depend>tf2_ros</exec_depend>
+  <export><build_type>{kind}</build_type></export>
+</package>
+"""
+IN_CMAKE = {
+    MANIFEST: XML.format(kind="ament_cmake"),
+    CMAKE: """\
+cmake_minimum_required(VERSION 3.8)
+project(robot)
+find_package(ament_cmake REQUIRED)
+if(BUILD_TESTING)
+  find_package(ament_lint_auto REQUIRED)
+endif()
+install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})
+ament_export_dependencies(rviz2)
+ament_package()
+""",
+    "launch/a.launch.py": LAUNCH,
+}
+MARK = """
+        ('share/ament_index/resource_index/packages', ['resource/robot']),"""
+IN_PYTHON = {
+    MANIFEST: XML.format(kind="ament_python"),
+    SETUP: f"""\
+from glob import glob
+from setuptools import setup
+
+setup(
+    name='robot',
+    packages=['robot'],
+    data_files=[{MARK}
+        ('share/robot', ['package.xml']),
+        ('share/robot/launch', glob('launch/*.py')),
+    ],
+    entry_points={{'console_scripts': ['drive = robot.drive:main']}},
+)
+""",
+    CFG: """\
+[develop]
+script_dir=$base/lib/robot
+[install]
+install_scripts=$base/lib/robot
+""",
+    "resource/robot": "",
+    "robot/__init__.py": "",
+    "robot/drive.py": "def main():\n    pass\n",
+    "launch/a.launch.py": LAUNCH,
+}
+DRIVE = "drive = robot.drive:main"
+TF = "<exec_depend>tf2_ros</exec_depend>\n  "
+CASES = [
+    (CMAKE, "\nendif()", "", "the if( … ) of line 4 has no endif()"),
+    (MANIFEST, ' format="3"', "", "of format 1, which has no <exec_depend>"),
+    (SETUP, "'drive = ", "'drive ", "no = between a program and its function"),
+    (SETUP, "robot.drive:main", "robot.drive.py:main", "has dots and no .py"),
+    (SETUP, "robot.drive:main", "robot/drive:main", "has dots and no .py"),
+    (SETUP, "robot.drive:main", "robot.drive", "a colon has to be before the function"),
+    (SETUP, MARK, "", "by which ROS finds the package"),
+    (SETUP, "launch/*.py", "launch/*.xml", "launch/*.xml fits no file"),
+]
+SAID = [
+    (CMAKE, "\nif(BUILD_TESTING)", "", "error", "endif() closes nothing"),
+    (CFG, "[install]", "[instal]", "error", "no install_scripts in [install]"),
+    (CFG, "script_dir", "script_dirs", "warning", "no script_dir in [develop]"),
+]
+
+
+def written(folder: Path, files: dict[str, str]) -> Path:
+    """Write a package into a folder."""
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    (folder / "robot.urdf").write_text('<robot name="r"><link name="base"/></robot>')
+    return folder
+
+
+def package_with(folder: Path, file: str, right: str, wrong: str) -> Path:
+    """Write a package in which one text of a file is another."""
+    files = dict(IN_PYTHON if file in (SETUP, CFG) else IN_CMAKE)
+    assert right in files[file]
+    return written(folder, {**files, file: files[file].replace(right, wrong, 1)})
+
+
+def undone(package: Path, problem: Problem, file: str) -> list[Problem]:
+    """Return what is found after the edits of a problem."""
+    path = package / file
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    return check(package)
+
+
+@pytest.mark.parametrize("files", [IN_CMAKE, IN_PYTHON])
+def test_a_right_package_has_no_problem(tmp_path: Path, files: dict[str, str]) -> None:
+    assert check(written(tmp_path / "robot", files)) == []
+
+
+@pytest.mark.parametrize(("file", "right", "wrong", "cause"), CASES)
+def test_a_mistake_in_a_build_file_is_undone_by_its_edit(
+    tmp_path: Path, file: str, right: str, wrong: str, cause: str
+) -> None:
+    package = package_with(tmp_path / "robot", file, right, wrong)
+    (problem,) = check(package)
+    assert cause in problem.message
+    assert undone(package, problem, file) == []
+
+
+@pytest.mark.parametrize(("file", "right", "wrong", "severity", "cause"), SAID)
+def test_a_mistake_in_a_build_file_without_an_edit_is_told(
+    tmp_path: Path, file: str, right: str, wrong: str, severity: str, cause: str
+) -> None:
+    (problem,) = check(package_with(tmp_path / "robot", file, right, wrong))
+    assert (problem.severity, problem.edits) == (severity, ())
+    assert cause in problem.message
+
+
+def test_ament_package_is_moved_to_the_end(tmp_path: Path) -> None:
+    lines = "ament_export_dependencies(rviz2)\nament_package()\n"
+    other = "ament_package()\nament_export_dependencies(rviz2)\n"
+    package = package_with(tmp_path / "robot", CMAKE, lines, other)
+    (problem,) = check(package)
+    assert "comes before ament_export_dependencies()" in problem.message
+    assert undone(package, problem, CMAKE) == []
+    assert (package / CMAKE).read_text() == IN_CMAKE[CMAKE]
+
+
+def test_a_package_that_is_started_is_added_to_the_dependencies(tmp_path: Path) -> None:
+    package = package_with(tmp_path / "robot", MANIFEST, TF, "")
+    (problem,) = check(package)
+    assert problem.severity == "info"
+    assert "start programs of tf2_ros (a.launch.py line 9)" in problem.message
+    assert undone(package, problem, MANIFEST) == []
