@@ -27,7 +27,7 @@ WRONG = """\
 <parent link="bse"/><child link="arm"/></joint>
 </robot>
 """
-REVEALING = {"xacro-prefix-missing"}
+REVEALING = {"xacro-prefix-missing", "xml-attributes-run-together"}
 """Codes with samples that get an error when they are fixed, which is undone."""
 RIGHT = WRONG.replace("visaul", "visual").replace("bse", "base")
 

@@ -23,6 +23,7 @@ _COMMENT = re.compile(
     r"^[ \t]*(?://[^\n]*|/\*(?:(?!\*/).)*\*/[ \t]*)\n", re.MULTILINE | re.DOTALL
 )
 """Lines that are nothing but a comment."""
+_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 _IMPORT = re.compile(
     r"""^((?:import|export|\})[^"'\n]*)(["'])(\.{1,2}/[^"']+)\2""", re.MULTILINE
 )
@@ -142,6 +143,7 @@ def _head(first: str, styles: Iterable[str], look: str) -> str:
     """
     modules = _modules(first)
     css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
+    css = _INDENT.sub("", _COMMENT.sub("", css))
     return (
         f"{_early() if first != _NO_VIEW else ''}"
         f'<meta name="sambot-look" content="{escape(look)}">'

@@ -87,6 +87,12 @@ def test_below_a_namespace_names_are_not_the_final_ones(copied: Copied) -> None:
         'executable="ekf_node",',
         'executable="ekf_node",\n        namespace=LaunchConfiguration("name"),',
     )
+    declared = '            DeclareLaunchArgument("use_sim_time"'
+    edit(
+        package / LAUNCH,
+        declared,
+        f'            DeclareLaunchArgument("name"),\n{declared}',
+    )
     assert codes(package) == []
 
 
@@ -105,6 +111,12 @@ def test_what_is_under_a_condition_is_not_certain(copied: Copied) -> None:
         f'{classic}, condition=IfCondition(LaunchConfiguration("classic"))',
     )
     edit(package / LAUNCH, "\nfrom launch_ros", f"{CONDITIONS}\nfrom launch_ros")
+    declared = '            DeclareLaunchArgument("use_sim_time"'
+    edit(
+        package / LAUNCH,
+        declared,
+        f'            DeclareLaunchArgument("classic"),\n{declared}',
+    )
     assert codes(package) == []
 
 
@@ -345,8 +357,13 @@ def test_a_python_package_installs_with_setup_py(copied: Copied) -> None:
         "        (os.path.join('share', package_name, 'launch'), glob('launch/*')),\n"
         "        (os.path.join('share', package_name, 'urdf'), glob('urdf/*')),\n"
         "        (os.path.join('share', package_name, 'rviz'), glob('rviz/*')),\n"
+        "        (os.path.join('share', package_name), ['package.xml']),\n"
+        "        ('share/ament_index/resource_index/packages',\n"
+        "         ['resource/' + package_name]),\n"
         "    ],\n)\n"
     )
+    (package / "resource").mkdir()
+    (package / "resource" / "cart_description").touch()
     found = check(package / MODEL)
     assert [p.code for p in found] == ["folder-not-installed"]
     assert found[0].file == str(package / "setup.py")
