@@ -246,14 +246,19 @@ class DdsParticipant:
             waitset.wait(forever)
             if self.is_closed:
                 return
-            found: list[tuple[_ReadFrom, list[Any]]] = []
-            # Others may subscribe meanwhile.
-            for reading in tuple(self._readings.values()):
-                if taken := reading.take():
-                    found.append((reading, taken))
-            if found:
-                self._post(partial(self._hand_on, found))
+            self._take_all()
             time.sleep(_TOGETHER)
+
+    def _take_all(self) -> None:
+        # DDS ends a reader when nothing refers to it: names of this function may, but
+        # not those of one that waits for the next message.
+        found: list[tuple[_ReadFrom, list[Any]]] = []
+        # Others may subscribe meanwhile.
+        for reading in tuple(self._readings.values()):
+            if taken := reading.take():
+                found.append((reading, taken))
+        if found:
+            self._post(partial(self._hand_on, found))
 
     def _hand_on(self, found: list[tuple[_ReadFrom, list[Any]]]) -> None:
         for reading, taken in found:
