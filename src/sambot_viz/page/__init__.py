@@ -68,7 +68,7 @@ def with_scripts(html: bytes, panels: bool, look: str = "rviz") -> bytes:
         panels: whether there are panels round the view, or the view fills the page.
         look: how the view is drawn in a browser that has chosen nothing.
     """
-    head = _head("main.js" if panels else "view_only.js", _STYLES, look)
+    head = _head("main.js" if panels else "view_only.js", _css(_STYLES), look)
     head = f"{''.join(map(_plain, (_FIRST, *_FOR_VISER)))}{head}"
     return html.replace(b"</head>", head.encode() + b"</head>", 1)
 
@@ -85,7 +85,7 @@ def without_view(viser_protocol: str, look: str = "rviz") -> bytes:
         '<meta name="viewport" content="width=device-width">'
         f'<meta name="sambot-viser" content="{escape(viser_protocol)}">'
         '<link rel="icon" href="data:,"><title>sambot-viz</title>'
-        f"{_plain(_FIRST)}{_head(_NO_VIEW, _STYLES, look)}"
+        f"{_plain(_FIRST)}{_head(_NO_VIEW, _css(_STYLES), look)}"
         '</head><body><div id="root"><div id="no-view"></div></div></body></html>'
     ).encode()
 
@@ -125,25 +125,33 @@ def standing_alone(
             b'";window.__VISER_EMBED_CONFIG__={darkMode:true};</script>',
             f'<script type="application/json" id="sambot-about">{data}</script>'
             f'<script type="text/plain" id="sambot-motion">{motion}</script>'
-            f"{_head('player/player.js', _PLAYER_STYLES, look)}</head>".encode(),
+            f"{_head('player/player.js', _short(_css(_PLAYER_STYLES)), look)}".encode(),
+            b"</head>",
             after,
         ]
     )
 
 
-def _head(first: str, styles: Iterable[str], look: str) -> str:
+def _css(styles: Iterable[str]) -> str:
+    return "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
+
+
+def _short(css: str) -> str:
+    """Leave out what only a reader of a style sheet needs."""
+    return _INDENT.sub("", _COMMENT.sub("", css))
+
+
+def _head(first: str, css: str, look: str) -> str:
     """Scripts and style sheets for the head of a page.
 
     The script is `async`: viser's own script must not wait for ours.
 
     Args:
         first: the script that the page begins with; it comes with all it imports.
-        styles: the style sheets.
+        css: its style.
         look: what `look.js` begins with.
     """
     modules = _modules(first)
-    css = "".join(_FOLDER.joinpath(name).read_text("utf-8") for name in styles)
-    css = _INDENT.sub("", _COMMENT.sub("", css))
     return (
         f"{_early() if first != _NO_VIEW else ''}"
         f'<meta name="sambot-look" content="{escape(look)}">'
