@@ -152,6 +152,17 @@ def overwrite_attribute(place: Place | None, name: str, right: str) -> tuple[Edi
     return _plain((found[0].edit(place, found[1].values[name], right),))
 
 
+def put_into(place: Place | None, written: str) -> tuple[Edit, ...]:
+    """Return the edit that writes an element as the first in another one."""
+    found = _tag_at(place) if place is not None else None
+    if place is None or found is None or found[1].is_empty:
+        return ()
+    source, tag = found
+    behind = source.text[tag.end :]
+    blanks = behind[: len(behind) - len(behind.lstrip())]
+    return (source.edit(place, Extent(tag.end, tag.end), f"{blanks}{written}"),)
+
+
 def rename_attribute(
     place: Place, wrong: str, right: str, value: str, hint: str
 ) -> Fix:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from sambot_viz.checks.clues import guess
 from sambot_viz.checks.rule import Subject, axis_text, listed
 from sambot_viz.checks.wheel_clues import WHEEL, is_rotor, wheel_clues
-from sambot_viz.edits import overwrite_attribute
+from sambot_viz.edits import overwrite_attribute, put_into
 from sambot_viz.errors import Edit, Fix, Problem
 from sambot_viz.geometry import UP, Vector3, cross, dot
 from sambot_viz.robot.model import Robot
@@ -81,12 +81,17 @@ def _lying(
     shapes = (
         s for n in links for s in (*robot.links[n].visuals, *robot.links[n].collisions)
     )
-    return tuple(
-        edit
-        for other in shapes
-        if rpy and other.origin.rpy == shape.origin.rpy
-        for edit in overwrite_attribute(other.origin.place, "rpy", rpy)
-    )
+    edits: dict[Edit, None] = {}
+    for other in shapes if rpy else ():
+        origin = other.origin
+        if origin.rpy != shape.origin.rpy:
+            continue
+        if origin.place is None and robot.language == "urdf":
+            added = put_into(other.place, f'<origin xyz="0 0 0" rpy="{rpy}"/>')
+        else:
+            added = overwrite_attribute(origin.place, "rpy", rpy)
+        edits |= dict.fromkeys(added)
+    return tuple(edits)
 
 
 def _through_both_wheels(
