@@ -199,3 +199,20 @@ def test_what_may_be_meant_is_not_reported(copied: Copied, edits: Edits) -> None
     package = copied("gz")
     edit(package / LAUNCH, edits)
     assert check(package / MODEL) == []
+
+
+def test_what_is_not_started_needs_no_program(copied: Copied) -> None:
+    package = copied("gz")
+    launch = package / LAUNCH
+    spare = '    spare = Node(package="controller_manager", executable="spawn")\n'
+    # A name in a comment is left out on purpose.
+    edit(
+        launch,
+        [
+            ("    return LaunchDescription(", f"{spare}    return LaunchDescription("),
+            ("            spawn,\n", "            spawn,\n            # spare,\n"),
+        ],
+    )
+    assert check(package / MODEL) == []
+    edit(launch, [("            # spare,\n", "            spare,\n")])
+    assert [p.code for p in check(package / MODEL)] == ["launch-program-unknown"]

@@ -160,8 +160,8 @@ class LaunchFile:
         return variable in self._used
 
     @cached_property
-    def certain(self) -> list[Call]:
-        """The calls without a condition, whose variable is used where there is one."""
+    def in_use(self) -> list[Call]:
+        """The calls whose variable is used where there is one."""
         unused = {
             id(node.value)
             for node in ast.walk(self.tree)
@@ -170,11 +170,12 @@ class LaunchFile:
                 isinstance(t, ast.Name) and not self.uses(t.id) for t in node.targets
             )
         }
-        return [
-            call
-            for call in self.calls
-            if call.given("condition") is None and id(call.node) not in unused
-        ]
+        return [call for call in self.calls if id(call.node) not in unused]
+
+    @cached_property
+    def certain(self) -> list[Call]:
+        """Those of them without a condition."""
+        return [call for call in self.in_use if call.given("condition") is None]
 
     @cached_property
     def nodes(self) -> list[LaunchNode]:

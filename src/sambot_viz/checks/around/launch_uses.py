@@ -86,7 +86,9 @@ def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
 def unknown_programs(around: Surroundings) -> Iterator[Problem]:
     """Report programs that a well-known package does not have."""
     for launch in around.launches:
-        for call in launch.called():
+        for call in launch.in_use:
+            if call.name not in NODES:
+                continue
             package = launch.text(call, "package") or ""
             program = launch.text(call, "executable")
             here = next((p for p in around.packages if p.name == package), None)
