@@ -11,6 +11,7 @@ from sambot_viz.checks.around.running.endpoints import with_endpoints
 from sambot_viz.checks.around.running.evaluation import LaunchEvaluation
 from sambot_viz.checks.around.running.known import KnownNode, known_nodes
 from sambot_viz.checks.around.running.parameter_files import parameters_for
+from sambot_viz.checks.around.running.simulated import possible_node
 from sambot_viz.checks.around.running.system import (
     GivenParameter,
     RunningNode,
@@ -127,15 +128,5 @@ def _alone(
     given: tuple[GivenParameter, ...],
     place: Place,
 ) -> RunningNode:
-    return RunningNode(
-        known.package,
-        known.programs[0],
-        name,
-        namespace,
-        "unknown",
-        given,
-        True,
-        (),
-        (),
-        place,
-    )
+    program = known.programs[0]
+    return possible_node(known.package, program, name, namespace, given, place)

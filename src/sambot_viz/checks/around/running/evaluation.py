@@ -118,7 +118,7 @@ class LaunchEvaluation:
                 self._node(action)
             case StartProcess():
                 self._process(action)
-            case IncludeFile():
+            case IncludeFile() if self._starts != "no":
                 self._include(action)
             case ActionGroup(actions=actions, scoped=True):
                 with self._scope():
@@ -127,8 +127,8 @@ class LaunchEvaluation:
                 self._all(actions)
             case ForNodes() if self._starts != "no":
                 self._for_nodes(action)
-            case UnknownAction(what=what):
-                self._not_known(what, action.place)
+            case UnknownAction(what=what) if self._starts != "no":
+                self.unknown.append(UnknownStart(what, action.place))
             case _:
                 pass
 
@@ -181,7 +181,7 @@ class LaunchEvaluation:
         }
         name, _, below = (path or "").removeprefix(SHARE).partition("/")
         if path is None or not path.startswith(SHARE):
-            self._not_known("a launch file", action.place)
+            self.unknown.append(UnknownStart("a launch file", action.place))
             return
         package = self._find(name)
         file = None if package is None else installed_as(package, below)
@@ -190,20 +190,15 @@ class LaunchEvaluation:
         chain = self._chain
         self._chain = (*chain, action.place)
         if package is not None and file is not None:
-            if self._starts != "no":
-                self.included.add((package, file))
-                if (package, file) not in self._files:
-                    self.run(package, file)
+            self.included.add((package, file))
+            if (package, file) not in self._files:
+                self.run(package, file)
         elif known is not None:
             self._all(actions_of_known(known, action.place))
         elif package is not None or name not in known_nodes().packages:
             what = f"{below.rpartition('/')[2]} of {name}"
-            self._not_known(what, action.place)
+            self.unknown.append(UnknownStart(what, action.place))
         self._chain = chain
-
-    def _not_known(self, what: str, place: Place) -> None:
-        if self._starts != "no":
-            self.unknown.append(UnknownStart(what, place))
 
     def _process(self, action: StartProcess) -> None:
         words = " ".join(self._texts.text(word) or "" for word in action.words).split()

@@ -43,7 +43,7 @@ def sensor_node(sensor: Element) -> Iterator[RunningNode]:
 def _node(package: str, program: str, name: str, element: Element) -> RunningNode:
     given = tuple(_given(c.tag, c.text, c.place) for c in element.children)
     # Of two elements Gazebo reads the first one.
-    return _running(package, program, name, "/", given[::-1], element.place)
+    return possible_node(package, program, name, "/", given[::-1], element.place)
 
 
 def _of_classic(plugin: Plugin) -> RunningNode:
@@ -60,12 +60,12 @@ def _of_classic(plugin: Plugin) -> RunningNode:
         elif becomes:
             given.append(_given(old.removeprefix("~/"), new, child.place))
     name = element.get("name") or ""
-    return _running(
+    return possible_node(
         _CLASSIC, plugin.filename, name, namespace, tuple(given), element.place
     )
 
 
-def _running(
+def possible_node(
     package: str,
     program: str,
     name: str,
@@ -73,6 +73,7 @@ def _running(
     given: tuple[GivenParameter, ...],
     place: Place,
 ) -> RunningNode:
+    """Return a node that no launch file starts, with all of its parameters."""
     return RunningNode(
         package, program, name, namespace, "unknown", given, True, (), (), place
     )
