@@ -82,6 +82,68 @@ def test_another_name_carries_the_right_one(
     assert changed[: edit.start] + edit.text + changed[edit.end :] == text
 
 
+@pytest.mark.parametrize(
+    ("file", "right", "other"),
+    [
+        ("config/controllers.yaml", "diff_drive_controller/D", "my_drive_controller/D"),
+        ("launch/robot.launch.py", '"wheels"', '"wheel_sensors"'),
+    ],
+)
+def test_what_another_package_may_have_is_not_said(
+    package: Path, file: str, right: str, other: str
+) -> None:
+    text = (package / file).read_text("utf-8")
+    (package / file).write_text(text.replace(right, other), "utf-8")
+    assert check(package / "r.urdf") == []
+
+
+@pytest.mark.parametrize(
+    ("package_of_node", "program"),
+    [("rclcpp_components", "component_container"), ("own_driver", "driver_node")],
+)
+def test_a_node_whose_name_or_parts_are_not_known_may_read_any_file(
+    package: Path, package_of_node: str, program: str
+) -> None:
+    launch = package / "launch/robot.launch.py"
+    node = (
+        f'        Node(package="{package_of_node}", executable="{program}",\n'
+        '             parameters=["config/parts.yaml"]),\n'
+    )
+    text = launch.read_text("utf-8")
+    launch.write_text(text.replace("    ])", f"{node}    ])"), "utf-8")
+    (package / "config/parts.yaml").write_text(
+        "camera:\n  ros__parameters:\n    rate: 1.0\n", "utf-8"
+    )
+    assert check(package / "r.urdf") == []
+
+
+def test_a_file_that_another_launch_file_chooses_is_its_own_question(
+    package: Path,
+) -> None:
+    launch = package / "launch/robot.launch.py"
+    text = launch.read_text("utf-8")
+    chosen = text.replace('"config/controllers.yaml"', 'LaunchConfiguration("file")')
+    launch.write_text(
+        chosen.replace(
+            "from launch_ros",
+            "from launch.actions import DeclareLaunchArgument\n"
+            "from launch.substitutions import LaunchConfiguration\nfrom launch_ros",
+            1,
+        ).replace("[\n", '[\n        DeclareLaunchArgument("file"),\n', 1),
+        "utf-8",
+    )
+    (package / "launch/other.launch.xml").write_text(
+        '<launch><include file="$(find-pkg-share r)/launch/robot.launch.py">'
+        '<arg name="file" value="$(find-pkg-share r)/config/other.yaml"/>'
+        "</include></launch>",
+        "utf-8",
+    )
+    (package / "config/other.yaml").write_text(
+        "camera:\n  ros__parameters:\n    rate: 1.0\n", "utf-8"
+    )
+    assert "launch-parameters-unread" not in {p.code for p in check(package / "r.urdf")}
+
+
 def test_a_spawner_may_bring_the_parameters_of_its_controller(package: Path) -> None:
     launch = package / "launch/robot.launch.py"
     text = launch.read_text("utf-8")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.place import where
@@ -11,6 +11,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _MANAGER, _TYPE = "controller_manager", ".type"
 _WITH_VALUE = frozenset(
@@ -21,7 +22,7 @@ _WITH_VALUE = frozenset(
     """.split()
 )
 """Options of the spawner that have a value."""
-_LIKENESS, _LIKE_CLASS = 0.75, 0.5
+_LIKENESS, _LIKE_CLASS = 0.9, 0.5
 
 
 def _declared(around: Surroundings) -> dict[str, Parameter]:
@@ -32,6 +33,15 @@ def _declared(around: Surroundings) -> dict[str, Parameter]:
         if parameter.node.rpartition("/")[2] == _MANAGER
         and parameter.name.endswith(_TYPE)
     }
+
+
+def _meant(name: str, names: Iterable[str]) -> str | None:
+    """Return the name that is almost the same, or has all words of a name."""
+    words = set(name.split("_"))
+    for other in names:
+        if len(words) > 1 and words < set(other.split("_")):
+            return other
+    return nearest(name, names, _LIKENESS)
 
 
 def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
@@ -53,7 +63,7 @@ def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
             name, option, before = word or "", before, word or ""
             if name.startswith("-") or option in _WITH_VALUE:
                 continue
-            near = nearest(name, declared, _LIKENESS) if name not in declared else None
+            near = _meant(name, declared) if name not in declared else None
             if near is not None:
                 yield Problem.at(
                     place,
@@ -79,7 +89,7 @@ def _unread_sections(
             name = key.rpartition("/")[2]
             if name in own or name == _MANAGER or "*" in name:
                 continue
-            near = nearest(name, free, _LIKENESS)
+            near = _meant(name, free)
             place = file.keys.get(key, file.nodes[key])
             if near is not None:
                 yield Problem.at(
@@ -100,7 +110,8 @@ def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
     for parameter in _declared(around).values():
         kind = parameter.fact.value
         package = kind.partition("/")[0]
-        right = package if package in packages else nearest(package, packages, 0.8)
+        # Other packages have controllers of their own.
+        right = next((name for name in packages if is_one_slip(package, name)), None)
         alike = [name for name in classes if name.startswith(f"{right}/")]
         near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None
         if near is not None:

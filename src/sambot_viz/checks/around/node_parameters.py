@@ -21,15 +21,35 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
     """Report parameter files in which none of the nodes that get them is named."""
     files = {file.shown: file for file in around.yaml_files}
     given: dict[tuple[str, Place], list[tuple[RunningNode, GivenFile]]] = {}
-    for node in around.running.nodes:
+    for node in around.running.started:
         for each in node.files:
             given.setdefault((each.shown, each.place), []).append((node, each))
     for (shown, place), users in given.items():
-        file = files.get(shown)
+        file, node = files.get(shown), users[0][0]
         if file is None or not file.nodes or any(each.is_read for _, each in users):
             continue
-        if len({node.path for node, _ in users}) == 1 and users[0][0].name:
-            yield _unread(users[0][0], place, file)
+        # What another launch file chooses is its own question.
+        is_named = posixpath.basename(shown) in _text_of(around, place.file)
+        alone = len({node.path for node, _ in users}) == 1
+        if alone and is_named and node.starts == "yes" and _is_called(node):
+            yield _unread(node, place, file)
+
+
+def _text_of(around: Surroundings, shown: str) -> str:
+    """Return the text of a launch file; empty for others."""
+    for package in around.packages:
+        for path in package.launch_paths:
+            if package.shown(path) == shown:
+                return package.text(path) or ""
+    return ""
+
+
+def _is_called(node: RunningNode) -> bool:
+    """Tell whether the name of a node is known, and its parameters are its own."""
+    known = known_nodes().nodes.get((node.package, node.executable))
+    is_container = node.executable.startswith("component_container")
+    named = known is not None or node.name not in ("", node.executable)
+    return named and not is_container
 
 
 def _unread(node: RunningNode, given: Place, file: YamlFile) -> Problem:
@@ -83,10 +103,9 @@ def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
             continue
         ((package, file),) = files
         name = posixpath.basename(file.path)
-        is_said = any(name in text for text in (*said, *plugins))
-        if is_said and not running.is_whole:
-            continue
         if file.shown in used or any(name in text for text in plugins):
+            continue
+        if not running.is_whole and any(name in text for text in said):
             continue
         if not _gives(node, file):
             yield _left_out(around, node, file, package)
