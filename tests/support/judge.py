@@ -6,6 +6,8 @@ import numpy as np
 from desk import Desk
 from viewer_page import Pixels
 
+_CONTROLS = ("button", "tab", "slider", "checkbox", "menuitem")
+
 
 def drawn_around(desk: Desk, frame: str, size: int = 60) -> Pixels:
     """The square of the 3D view around a frame."""
@@ -58,16 +60,25 @@ def changed(before: Pixels, after: Pixels) -> int:
     return int(np.count_nonzero(difference > 10))
 
 
-def nothing_is_cut_off(desk: Desk) -> bool:
-    """Whether all controls are whole on the screen, or can be scrolled to."""
-    found: list[str] = []
-    for thing in desk.user.see().walk():
-        if thing.role not in ("button", "tab", "slider", "checkbox", "menuitem"):
-            continue
-        try:
-            if not desk.user.can_see(thing):
-                desk.user.go_to(thing)
-        except AssertionError as error:
-            found.append(str(error))
-    assert found == []
-    return True
+def nothing_is_cut_off(desk: Desk) -> None:
+    """Wait until all controls are whole on the screen, or can be scrolled to.
+
+    Scrolling replaces rows, so what was seen once is not looked for again.
+    """
+    seen: set[int] = set()
+
+    def is_whole() -> bool:
+        found: list[str] = []
+        for thing in desk.user.see().walk():
+            if thing.role not in _CONTROLS or thing.node in seen:
+                continue
+            try:
+                if not desk.user.can_see(thing):
+                    desk.user.go_to(thing)
+                seen.add(thing.node)
+            except AssertionError as error:
+                found.append(str(error))
+        assert not found, "; ".join(found)
+        return True
+
+    desk.user.until(is_whole)
