@@ -78,7 +78,7 @@ def unknown_topics(around: Surroundings) -> Iterator[Problem]:
             continue
         if around.said_elsewhere(name, as_topic=True) or _of_a_node(around, name):
             continue
-        near = _meant(name, known) or _only(known, around)
+        near = meant_topic(name, known) or _only(known, around)
         if near is not None and kind not in renamed:
             yield _unknown(one, known[near])
 
@@ -152,7 +152,7 @@ def _same(one: ReadTopic, other: ReadTopic) -> bool:
     return same and one is not other
 
 
-def _meant(name: str, known: dict[str, Published]) -> str | None:
+def meant_topic(name: str, known: Mapping[str, Published]) -> str | None:
     """The topic that is meant: the same below another name, or a similar one."""
     last = name.rpartition("/")[2]
     same = [k for k in known if k.rpartition("/")[2] == last]

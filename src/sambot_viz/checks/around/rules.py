@@ -36,6 +36,7 @@ from sambot_viz.checks.around.controllers import (
     undeclared_controllers,
     unknown_controllers,
 )
+from sambot_viz.checks.around.display_topics import unseen_topics
 from sambot_viz.checks.around.drives import (
     misspelt_elements,
     wrong_sides,
@@ -310,6 +311,7 @@ OF_ROBOT: tuple[Check, ...] = (
     unpublished_odometry,
     topics_of_other_types,
     unknown_topics,
+    unseen_topics,
     wrong_data_types,
     bridge_types,
     bridge_directions,

@@ -8,16 +8,15 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-import yaml
-
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import flag, pairs, place_of, read_yaml
+from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.running.bridge_entries import (
     BridgeEntry,
     bare,
     entries_in,
     entries_of_file,
 )
+from sambot_viz.checks.around.running.displays import displays_of
 from sambot_viz.checks.around.running.known import KnownNode, NodeRow, known_nodes
 from sambot_viz.checks.around.running.system import (
     Endpoint,
@@ -37,7 +36,6 @@ _ENDS = {
     "takes": (False, True),
 }
 """Verb of a row → whether it is a publisher, and whether its topic is in Gazebo."""
-_TOPICS = ("Topic", "Description Topic", "Depth Map Topic", "Image Topic")
 
 
 class _Said(NamedTuple):
@@ -119,6 +117,7 @@ def _of_rows(node: RunningNode, known: KnownNode) -> Iterator[Endpoint]:
                 said.parameter.name if said.parameter else "",
                 in_gazebo,
                 row.is_seldom,
+                row.latched,
             )
 
 
@@ -132,7 +131,12 @@ def _unnamed(node: RunningNode, row: NodeRow) -> Endpoint:
 
 
 def _is_off(node: RunningNode, row: NodeRow) -> bool:
-    name, value = row.unless
+    return _is(node, row.unless) or (row.when[0] != "" and not _is(node, row.when))
+
+
+def _is(node: RunningNode, condition: tuple[str, str]) -> bool:
+    """Tell whether a node is given a parameter with a value."""
+    name, value = condition
     given = node.parameter(name) if name else None
     return given is not None and flag(given.value or "") is flag(value)
 
@@ -218,42 +222,7 @@ def _of_displays(
     node: RunningNode, find: Callable[[str], Package | None]
 ) -> Iterator[Endpoint]:
     """Give the topics of the displays and tools in a config of RViz."""
-    named = dict(pairwise(node.arguments))
-    path = named.get("-d") or named.get("--display-config") or ""
-    name, _, below = path.removeprefix(SHARE).partition("/")
-    package = find(name) if path.startswith(SHARE) else None
-    text = package.text(below) if package is not None else None
-    file = read_yaml(text, below, package.shown(below)) if text and package else None
-    waiting: list[yaml.Node] = [] if file is None else [file.root]
-    while waiting and file is not None:
-        inner = waiting.pop()
-        if isinstance(inner, yaml.SequenceNode):
-            waiting += reversed(inner.value)
-            continue
-        values = {key.value: value for key, value in pairs(inner)}
-        # What is inside of a group comes in the order of the file.
-        waiting += reversed([*values.values()])
-        yield from _of_display(node, values, file.shown)
-
-
-def _of_display(
-    node: RunningNode, values: dict[str, yaml.Node], file: str
-) -> Iterator[Endpoint]:
-    said = {k: v.value for k, v in values.items() if isinstance(v, yaml.ScalarNode)}
-    displays, tools = known_nodes().displays, known_nodes().tools
-    kind = said.get("Class", "")
-    message = displays.get(kind) or tools.get(kind)
-    if message is None or flag(said.get("Enabled", "true")) is False:
-        return
-    for name in _TOPICS:
-        value = values.get(name)
-        inner = {key.value: each for key, each in pairs(value)} if value else {}
-        topic = inner.get("Value", value)
-        if isinstance(topic, yaml.ScalarNode) and topic.value:
-            yield Endpoint(
-                whole_name(node, topic.value),
-                message,
-                kind in tools,
-                place_of(topic, file),
-                topic.value,
-            )
+    for each in displays_of(node, find):
+        whole = whole_name(node, each.topic.value)
+        place, written = each.topic.place, each.topic.value
+        yield Endpoint(whole, each.message, each.is_tool, place, written)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -21,16 +21,24 @@ class NodeRow:
             code.
         words: what it says, such as a topic and its type.
         unless: the parameter and the value with which it does not hold; else empty.
+        when: the parameter and the value with which alone it holds; else empty.
     """
 
     verb: str
     words: tuple[str, ...]
     unless: tuple[str, str] = ("", "")
+    when: tuple[str, str] = ("", "")
 
     @property
     def is_seldom(self) -> bool:
         """True for what few want."""
         return self.words[-1:] == ("seldom",)
+
+    @property
+    def latched(self) -> str:
+        """How often a message for later subscribers comes: "once", "often" or ""."""
+        last = self.words[-1] if self.words else ""
+        return last if last in ("once", "often") else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +85,7 @@ class KnownNodes:
         launches: package and file → what the launch file starts.
         displays: class of a display of RViz → the type that it subscribes to.
         tools: class of a tool of RViz → the type that it publishes.
+        tool_topics: class of a tool → its topic, and those that it had in ROS 1.
         packages: the packages of the nodes.
     """
 
@@ -85,6 +94,7 @@ class KnownNodes:
     launches: Mapping[tuple[str, str], KnownLaunch]
     displays: Mapping[str, str]
     tools: Mapping[str, str]
+    tool_topics: Mapping[str, Sequence[str]]
     packages: frozenset[str]
 
 
@@ -96,6 +106,7 @@ def known_nodes() -> KnownNodes:
     launches: dict[tuple[str, str], KnownLaunch] = {}
     displays: dict[str, str] = {}
     tools: dict[str, str] = {}
+    tool_topics: dict[str, Sequence[str]] = {}
     for line in reversed(_TABLE.read_text("utf-8").splitlines()):
         words = line.split()
         match words:
@@ -110,8 +121,9 @@ def known_nodes() -> KnownNodes:
                 launches[package, file] = KnownLaunch(argument, both)
             case ["display", kind, message]:
                 displays[kind] = message
-            case ["tool", kind, message]:
+            case ["tool", kind, message, *topics]:
                 tools[kind] = message
+                tool_topics[kind] = topics
             case [verb, *rest] if line[0] == " ":
                 rows.append(_row(verb, rest))
             case _:
@@ -123,6 +135,7 @@ def known_nodes() -> KnownNodes:
         launches,
         displays,
         tools,
+        tool_topics,
         frozenset(node.package for node in nodes) | {p for p, _ in launches},
     )
 
@@ -133,8 +146,10 @@ def _halves(text: str) -> tuple[str, str]:
 
 
 def _row(verb: str, words: list[str]) -> NodeRow:
-    if "unless" not in words:
-        return NodeRow(verb, tuple(words))
-    at = words.index("unless")
-    name, _, value = words[at + 1].partition("=")
-    return NodeRow(verb, tuple(words[:at]), (name, value))
+    given: dict[str, tuple[str, str]] = {}
+    for condition in ("unless", "when"):
+        if condition in words:
+            at = words.index(condition)
+            name, _, value = words[at + 1].partition("=")
+            given[condition], words = (name, value), words[:at]
+    return NodeRow(verb, tuple(words), **given)

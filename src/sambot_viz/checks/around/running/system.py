@@ -31,6 +31,8 @@ class Endpoint:
         in_gazebo: it is a topic of Gazebo, not of ROS. One that Gazebo makes up has no
             topic here, and in written what Gazebo adds to it.
         is_seldom: few want what it sends.
+        latched: who subscribes later gets the last message too; "once" where no other
+            follows, else "often".
     """
 
     topic: str
@@ -41,6 +43,7 @@ class Endpoint:
     parameter: str = ""
     in_gazebo: bool = False
     is_seldom: bool = False
+    latched: str = ""
 
     @property
     def message(self) -> str:
@@ -175,6 +178,11 @@ class RunningNode:
     def path(self) -> str:
         """The whole name, such as /robot/ekf_filter_node."""
         return f"{self.namespace.rstrip('/')}/{self.name or self.executable}"
+
+    @property
+    def launch(self) -> str:
+        """The launch file that the user starts."""
+        return (*self.chain, self.place)[0].file
 
     @property
     def is_bridge(self) -> bool:
