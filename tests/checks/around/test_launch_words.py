@@ -84,7 +84,8 @@ CASES = [
     (PYTHON, "default_value=", "default=", "no argument default, but default_value"),
     (PYTHON, "use_sim_time", "use_simtime", "but each has use_sim_time"),
     (PYTHON, "'--log-level',\n", "'--log-level'\n", "a comma is missing at the end"),
-    (PYTHON, "('a', 'b')", "['a', 'b']", "a remapping is a tuple of two names"),
+    (PYTHON, "('a', 'b')", "['a', 'b']", "remappings are a list of tuples"),
+    (PYTHON, "[('a', 'b')]", "('a', 'b')", "remappings are a list of tuples"),
     (PYTHON, "[{'use_sim_time': True}]", "{'use_sim_time': True}", "this is a dict"),
     (PYTHON, "generate_launch_description", "generate", "this one is called generate"),
     (PYTHON, "        Node(", "        'Node'(", "Node is in quotation marks"),
@@ -108,7 +109,7 @@ UNSURE = [
     (PYTHON, "LaunchDescription([", "LaunchDescription(['gui',", "a text in a list"),
     (PYTHON, "'info'", "'$(find robot)/x'", "launch replaces $(find robot) in launch"),
     (PYTHON, "Configuration('gui')", "Configuration('quick')", "quick is not declared"),
-    (PYTHON, "remappings=[('a', 'b')]", "remappings=('a', 'b')", "and this is none"),
+    (PYTHON, "remappings=[('a', 'b')]", "remappings=['a', 'b']", "and this is none"),
     (PYTHON, "'true'),\n", "'true'),\n        [],\n", "a list in a list of actions"),
     (XML, "$(var view)", "$(var quick)", "quick is not declared"),
 ]

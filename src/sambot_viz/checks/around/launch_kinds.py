@@ -11,8 +11,7 @@ from sambot_viz.checks.around.launching.actions import Action, Expression, Joine
 from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
 from sambot_viz.checks.around.place import bracketed, rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import write_between
-from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.errors import Fix, Problem, nearest
 
 _CODE = "launch-code"
 _STOPS = "ros2 launch stops with it"
@@ -36,7 +35,6 @@ _IN_PYTHON = {
     "var": "LaunchConfiguration",
     "arg": "LaunchConfiguration",
 }
-_WORDS = ("arguments", "cmd", "ros_arguments")
 
 
 def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
@@ -86,21 +84,30 @@ def remappings_without_pairs(around: Surroundings) -> Iterator[Problem]:
     """Report remappings that are no tuples of two names."""
     for launch in around.launches:
         for call in launch.called():
-            for _, node in call.listing("remappings").items:
-                if not isinstance(node, (ast.List, ast.Constant, ast.Dict)):
-                    continue
-                right = None
+            given = call.given("remappings")
+            parts = [node for _, node in call.listing("remappings").items]
+            is_pair = len(parts) == 2 and isinstance(given, ast.Tuple)
+            if given and is_pair and all(isinstance(p, ast.Constant) for p in parts):
+                yield _no_pair(launch, given, f"[{ast.unparse(given)}]")
+                continue
+            for node in parts:
                 if isinstance(node, ast.List) and len(node.elts) == 2:
-                    right = f"({', '.join(ast.unparse(part) for part in node.elts)})"
-                yield Problem.at(
-                    launch.place(node),
-                    "error",
-                    _CODE,
-                    f"a remapping is a tuple of two names, and this is none: {_STOPS}",
-                    Fix("write ('FROM', 'TO')")
-                    if right is None
-                    else rewritten(node, launch.shown, right),
-                )
+                    inner = ", ".join(ast.unparse(part) for part in node.elts)
+                    yield _no_pair(launch, node, f"({inner})")
+                elif isinstance(node, (ast.List, ast.Constant, ast.Dict)):
+                    yield _no_pair(launch, node, None)
+
+
+def _no_pair(launch: LaunchFile, node: ast.expr, right: str | None) -> Problem:
+    return Problem.at(
+        launch.place(node),
+        "error",
+        _CODE,
+        f"remappings are a list of tuples of two names, and this is none: {_STOPS}",
+        Fix("write ('FROM', 'TO')")
+        if right is None
+        else rewritten(node, launch.shown, right),
+    )
 
 
 def plain_conditions(around: Surroundings) -> Iterator[Problem]:
@@ -198,45 +205,6 @@ def plain_substitutions(around: Surroundings) -> Iterator[Problem]:
                 "here it stays as it is",
                 f"write {written}",
             )
-
-
-def joined_texts(around: Surroundings) -> Iterator[Problem]:
-    """Report two words of a command that are one, because a comma is missing."""
-    for launch, text in around.launch_texts():
-        lines = text.splitlines()
-        for call in launch.calls:
-            for argument in _WORDS:
-                for _, node in call.listing(argument).items:
-                    if _is_joined(node, lines):
-                        yield _joined(node, launch, lines)
-
-
-def _is_joined(node: ast.expr, lines: list[str]) -> bool:
-    """True for two texts, each alone in a line, that do not look like one."""
-    last = node.end_lineno or node.lineno
-    if not isinstance(node, ast.Constant) or last != node.lineno + 1:
-        return False
-    first, second = (_alone(lines[at - 1]) for at in (node.lineno, last))
-    value = f"{first}{second}"
-    return bool(first and second) and value == node.value and " " not in value
-
-
-def _alone(line: str) -> str | None:
-    """Return the text in quotation marks that a line is."""
-    found = re.fullmatch(r"\s*(['\"])([^'\"\\]*)\1\s*,?\s*(#.*)?", line)
-    return None if found is None else found[2]
-
-
-def _joined(node: ast.expr, launch: LaunchFile, lines: list[str]) -> Problem:
-    code = lines[node.lineno - 1].partition("#")[0].rstrip()
-    place = Place(launch.shown, node.lineno, len(code) + 1)
-    return Problem.at(
-        place,
-        "warning",
-        _CODE,
-        "a comma is missing at the end of this line: Python makes one word of two",
-        write_between(place, place, ",", "add a comma there"),
-    )
 
 
 def misspelt_time(around: Surroundings) -> Iterator[Problem]:

@@ -186,31 +186,6 @@ def bridges_as_parameters(around: Surroundings) -> Iterator[Problem]:
                     )
 
 
-def joined_words(around: Surroundings) -> Iterator[Problem]:
-    """Report a Command whose program and file are one word."""
-    for launch in around.launches:
-        for call in launch.called("Command"):
-            words = call.listing("command", 0).items
-            if len(words) < 2 or words[0][0] != "xacro":
-                continue
-            first, text = words[0][1], launch.values.said(words[1][0])
-            is_text = isinstance(first, ast.Constant)
-            if is_text and (text is None or not text[:1].isspace()):
-                yield Problem.at(
-                    launch.place(first),
-                    "error",
-                    "launch-command",
-                    "Command joins its words without a blank: xacro and the name of "
-                    "the model become one word, and ros2 launch stops",
-                    write(
-                        launch.place(first),
-                        "xacro",
-                        "xacro ",
-                        hint="write 'xacro ', with a blank at the end",
-                    ),
-                )
-
-
 def times_as_text(around: Surroundings) -> Iterator[Problem]:
     """Report use_sim_time that is given to a node as a text."""
     for launch in around.launches:

@@ -79,10 +79,21 @@ from sambot_viz.checks.around.launch_code import (
     missing_entries,
     unknown_names,
 )
+from sambot_viz.checks.around.launch_events import (
+    handlers_that_wait,
+    periods,
+    plain_handlers,
+    texts_for_actions,
+)
 from sambot_viz.checks.around.launch_imports import wrong_imports
+from sambot_viz.checks.around.launch_joins import (
+    joined_paths,
+    joined_texts,
+    joined_words,
+    several_words,
+)
 from sambot_viz.checks.around.launch_kinds import (
     arguments_without_list,
-    joined_texts,
     lists_of_actions,
     misspelt_time,
     plain_conditions,
@@ -101,7 +112,6 @@ from sambot_viz.checks.around.launch_paths import (
 )
 from sambot_viz.checks.around.launch_uses import (
     bridges_as_parameters,
-    joined_words,
     spawned_topics,
     times_as_text,
     unknown_programs,
@@ -268,6 +278,12 @@ OF_FILES: tuple[Check, ...] = (
     lists_of_actions,
     plain_substitutions,
     joined_texts,
+    several_words,
+    joined_paths,
+    handlers_that_wait,
+    texts_for_actions,
+    plain_handlers,
+    periods,
     misspelt_time,
     descriptions,
     rviz_without_option,

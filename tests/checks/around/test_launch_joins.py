@@ -1,0 +1,155 @@
+"""Words, paths and event handlers that launch takes otherwise than they look."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
+
+MANIFEST = """<package format="3"><name>cart</name><version>0.0.1</version>
+<description>A cart.</description><maintainer email="a@b.c">A</maintainer>
+<license>MIT</license><exec_depend>controller_manager</exec_depend>
+<exec_depend>ros_gz_sim</exec_depend><exec_depend>teleop_twist_joy</exec_depend>
+<exec_depend>xacro</exec_depend><exec_depend>robot_state_publisher</exec_depend>
+<exec_depend>ros2launch</exec_depend><exec_depend>launch_ros</exec_depend>
+<export><build_type>ament_cmake</build_type></export></package>"""
+PYTHON = """\
+from launch import LaunchDescription
+from launch.actions import (
+    DeclareLaunchArgument,
+    ExecuteProcess,
+    IncludeLaunchDescription,
+    RegisterEventHandler,
+    TimerAction,
+)
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    model = LaunchConfiguration("model")
+    world = LaunchConfiguration("world")
+    text = Command(["xacro ", model, " sim:=", "true"])
+    gazebo = IncludeLaunchDescription(
+        PythonLaunchDescriptionSource(
+            [FindPackageShare("ros_gz_sim"), "/launch", "/gz_sim.launch.py"]
+        ),
+        launch_arguments={"gz_args": ["-r ", world]}.items(),
+    )
+    spawn = Node(
+        package="ros_gz_sim",
+        executable="create",
+        arguments=['-topic', 'robot_description', "-z", '0.2'],
+    )
+    first = Node(
+        package="controller_manager",
+        executable="spawner",
+        arguments=["a", "--controller-ros-args", "-r ~/cmd_vel:=/cmd_vel"],
+    )
+    second = Node(package="controller_manager", executable="spawner", arguments=["b"])
+    teleop = Node(
+        package="teleop_twist_joy",
+        executable="teleop_node",
+        remappings=[('cmd_vel', 'cmd_vel_joy')],
+    )
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("model"),
+            DeclareLaunchArgument("world"),
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                parameters=[{"robot_description": text}],
+            ),
+            gazebo,
+            spawn,
+            ExecuteProcess(cmd=["sh", "-c", "echo a b"]),
+            RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[first])),
+            RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[second])),
+            TimerAction(period=5.0, actions=[teleop]),
+        ]
+    )
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "package.xml").write_text(MANIFEST)
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.8)\nproject(cart)\n"
+        "find_package(ament_cmake REQUIRED)\n"
+        "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\nament_package()\n"
+    )
+    (tmp_path / "launch" / "all.launch.py").write_text(PYTHON)
+    (tmp_path / "r.urdf").write_text('<robot name="r"><link name="base"/></robot>')
+    return tmp_path
+
+
+def test_what_is_right_is_left_alone(package: Path) -> None:
+    assert check(package) == []
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "cause"),
+    [
+        ("'-topic', 'robot_description'", "'-topic robot_description'", "is one word"),
+        ("'0.2'", "0.2", "arguments takes texts, and 0.2 is a number"),
+        ("' sim:='", "'sim:='", "becomes a part of the word before it"),
+        ("'-r '", "'-r'", "without a blank: -r and what follows"),
+        ("'/launch', '/gz_sim", "'launch', 'gz_sim", "without a slash"),
+        ("5.0", "'5s'", "the period '5s' is no number of seconds"),
+        ("target_action=spawn", "target_action='spawn'", "not the text 'spawn'"),
+        (
+            "RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[first]))",
+            "OnProcessExit(target_action=spawn, on_exit=[first])",
+            "is an event handler and no action",
+        ),
+        ("target_action=first", "target_action=second", "only this handler starts"),
+        (
+            "[('cmd_vel', 'cmd_vel_joy')]",
+            "('cmd_vel', 'cmd_vel_joy')",
+            "remappings are a list of tuples",
+        ),
+    ],
+)
+def test_what_launch_takes_otherwise(
+    package: Path, right: str, wrong: str, cause: str
+) -> None:
+    launch = package / "launch" / "all.launch.py"
+    good = launch.read_text().replace('" sim:="', "' sim:='")
+    good = good.replace('"-r "', "'-r '").replace('"/launch", "/gz', "'/launch', '/gz")
+    good = good.replace('sim.launch.py"', "sim.launch.py'")
+    launch.write_text(good.replace(right, wrong, 1))
+    assert launch.read_text() != good
+
+    (problem,) = check(package)
+
+    assert cause in problem.message
+    assert apply_edits(problem.edits, launch.read_text()) == good
+
+
+def test_a_handler_of_what_never_starts(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.write_text(PYTHON.replace(f"{' ' * 12}spawn,\n", ""))
+    (problem,) = check(package)
+    assert "waits for the end of spawn, which nothing starts" in problem.message
+    assert problem.hint == "add spawn to that list (line 42)"
+
+
+def test_a_command_in_xml_without_a_blank(package: Path) -> None:
+    (package / "launch" / "all.launch.py").unlink()
+    (package / "launch" / "all.launch.xml").write_text(
+        '<launch><arg name="m"/><node pkg="robot_state_publisher" '
+        'exec="robot_state_publisher">\n'
+        '<param name="robot_description" value="$(command \'xacro$(var m)\')"/>\n'
+        "</node></launch>"
+    )
+    (problem,) = check(package)
+    assert (problem.line, problem.code) == (2, "launch-command")
