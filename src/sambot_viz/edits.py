@@ -8,6 +8,7 @@ line: a value that xacro computes, or one that is there twice, has none.
 from __future__ import annotations
 
 import os
+import posixpath
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
@@ -26,6 +27,8 @@ _NAME = re.compile(r"<([^\s<>/=\"']+)")
 _ATTRIBUTE = re.compile(r"""\s+([^\s<>/=\"']+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
 _END = re.compile(r"\s*(/?)>")
 _SKIPPED = r"<!--.*?-->|<!\[CDATA\[.*?\]\]>"
+_INCLUDE = re.compile(r"<xacro:include\b[^>]*/>")
+_ROOT = re.compile(r"<(robot|sdf)\b[^>]*>")
 _KEY = re.compile(r"[\"']?\s*:(?=\s)")
 """What is behind a key of YAML or of Python."""
 _OUTSIDE = r"(?<![\w./-])(?<!::){}(?![\w./-]|::)"
@@ -144,12 +147,63 @@ def write_attribute(
     return Fix(hint or f'write {name}="{right}"', _plain(edits))
 
 
+def write_path(place: Place | None, wrong: str, right: str) -> Fix:
+    """Return the fix that names a file by another path.
+
+    Args:
+        place: where the element begins that names it.
+        wrong: the path, with what xacro writes for the beginning of it.
+        right: the path that it should be.
+    """
+    source = None if place is None else source_of(place.file)
+    if place is None or source is None:
+        return Fix(f"write {right}")
+    for span in source.values(source.offset(place)):
+        written = source.text[span.start : span.end]
+        computed = max(written.rfind(")"), written.rfind("}")) + 1
+        end = written[computed:]
+        if not {".", "/"}.intersection(end) or not wrong.endswith(end):
+            continue
+        new = right
+        if written != wrong:
+            slash = "/" if end.startswith("/") else ""
+            base = wrong[: len(wrong) - len(end)]
+            new = slash + posixpath.relpath(right, base or ".")
+        edit = source.edit(place, Extent(span.start + computed, span.end), new)
+        return Fix(f"write {written[:computed]}{new}", _plain((edit,)))
+    return Fix(f"write {right}")
+
+
 def overwrite_attribute(place: Place | None, name: str, right: str) -> tuple[Edit, ...]:
     """Return the edit that gives an attribute another value, whatever it has."""
     found = _tag_at(place) if place is not None else None
     if place is None or found is None or name not in found[1].values:
         return ()
     return _plain((found[0].edit(place, found[1].values[name], right),))
+
+
+def include_before(place: Place, file: str) -> Fix:
+    """Return the fix that includes a xacro file before a place, behind other includes.
+
+    Args:
+        place: where a macro of the file is called.
+        file: the file, as the user would write it.
+    """
+    path = os.path.relpath(file, os.path.dirname(place.file) or ".")
+    written = f'<xacro:include filename="{path}"/>'
+    hint = f"add {written} before it"
+    source = source_of(place.file)
+    if source is None:
+        return Fix(hint)
+    before = source.text[: source.offset(place)]
+    last = [*_INCLUDE.finditer(before)] or [*_ROOT.finditer(before)][:1]
+    if not last:
+        return Fix(hint)
+    behind = before[last[-1].end() :]
+    blanks = behind[: len(behind) - len(behind.lstrip())] or "\n"
+    blanks = "\n" + blanks.rpartition("\n")[2]
+    at = Extent(last[-1].end(), last[-1].end())
+    return Fix(hint, (source.edit(place, at, blanks + written),))
 
 
 def put_into(place: Place | None, written: str) -> tuple[Edit, ...]:
@@ -270,7 +324,7 @@ class SourceFile:
 
     def words(self, word: str, offset: int) -> list[Extent]:
         """Return where a word is in an element of XML, or in the rest of a line."""
-        pieces = self._pieces(offset) or [self._rest_of_line(offset)]
+        pieces = self.values(offset) or [self._rest_of_line(offset)]
         whole = [span for span in pieces if self.text[span.start : span.end] == word]
         if whole:
             return whole
@@ -287,8 +341,8 @@ class SourceFile:
         end = self.text.find("\n", offset)
         return Extent(offset, len(self.text) if end < 0 else end)
 
-    def _pieces(self, offset: int) -> list[Extent]:
-        """Return the values of an element's attributes, and its text."""
+    def values(self, offset: int) -> list[Extent]:
+        """Return where the values of an element's attributes are, and its text."""
         tag = self.tag(offset)
         if tag is None:
             return []

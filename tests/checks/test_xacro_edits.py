@@ -16,6 +16,15 @@ BALL = (
 )
 MACRO = '<xacro:macro name="part" params="{}">\n{}\n</xacro:macro>\n'
 NAMED = BALL.replace('"a"', '"${{name}}"')
+SHIFTED = (
+    MACRO.replace("{}\n</xacro", "{{}}\n</xacro").replace(
+        "{{}}",
+        '<link name="${{name}}"><visual><xacro:insert_block name="origin"/>'
+        '<geometry><sphere radius="1"/></geometry></visual></link>',
+    )
+    + "{}"
+)
+BLOCK = '<xacro:part name="a"><origin xyz="0 0 0" rpy="0 0 0"/></xacro:part>'
 INERTIA = (
     '<link name="a"><inertial><mass value="1"/><inertia ixx="${{0.4*0.5}}" ixy="0" '
     'ixz="0" iyy="{}" iyz="0" izz="0.2"/></inertial></link>'
@@ -78,6 +87,26 @@ def macro(params: str, radius: str, call: str) -> str:
             '<xacro:arg name="r" default="1"/>\n<xacro:if value="$(arg r)">\n'
             + BALL.format("1")
             + "</xacro:if>",
+        ),
+        (
+            macro("name", "1", 'name="a"').replace('"${name}"', '"$(name)"'),
+            macro("name", "1", 'name="a"'),
+        ),
+        (
+            macro("name", "1", 'name="a"').replace('"${name}"', '"${name_link}"'),
+            macro("name", "1", 'name="a"').replace('"${name}"', '"${name}_link"'),
+        ),
+        (
+            '<xacro:arg name="r" default="1"/>\n' + BALL.format("$(args r)"),
+            '<xacro:arg name="r" default="1"/>\n' + BALL.format("$(arg r)"),
+        ),
+        (
+            SHIFTED.format("name origin", BLOCK),
+            SHIFTED.format("name *origin", BLOCK),
+        ),
+        (
+            SHIFTED.format("name *origin", '<xacro:part name="a"/>'),
+            SHIFTED.format("name *origin", BLOCK),
         ),
         (
             MACRO.format("name", NAMED.format("1")) + '<xacro:prat name="a"/>',

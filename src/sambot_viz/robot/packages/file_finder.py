@@ -6,11 +6,17 @@ from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 
-from sambot_viz.edits import write_attribute
+from sambot_viz.edits import write_path
 from sambot_viz.errors import Fix, Problem
 from sambot_viz.files import is_below
 from sambot_viz.robot.findings import ModelFindings
-from sambot_viz.robot.packages.package_index import PackageIndex, places_of
+from sambot_viz.robot.packages.near_file import near_file
+from sambot_viz.robot.packages.package_index import (
+    PackageIndex,
+    package_around,
+    package_name,
+    places_of,
+)
 from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xml.element import Element
@@ -53,6 +59,10 @@ _DOUBTS = {
     ),
     "name-form": ("file-name-form", "{cause}; {path} was used", ""),
 }
+_BY_NAME = frozenset(
+    {"other-machine", "path-only", "three-slashes", "model-scheme", "name-form"}
+)
+"""Doubts that the name of the package in package:// ends."""
 _MESHES = (".stl", ".stlb", ".dae", ".obj", ".glb", ".gltf", ".ply")
 """Endings of the mesh files that are read."""
 _NOT_FOUND, _STAND_IN = " was not found: ", "; a placeholder is drawn"
@@ -143,6 +153,12 @@ class FileFinder:
             cause, hint = found.form.cause, found.form.hint
         text = message.format(path=path, name=name, cause=cause)
         hint = self._with_near_package(filename, found, element) or hint
+        uri = _in_package(found.path) if found.doubt in _BY_NAME else ""
+        if uri:
+            hint = write_path(element.place, filename, uri)
+        elif found.path is not None and found.doubt == "letter-case":
+            tried = Path(found.searched[0])
+            hint = _named(element, filename, tried, found.path)
         self._warn(code, f"the {kind} {filename}: {text}", hint, cause, element)
 
     def _report_missing(
@@ -168,11 +184,19 @@ class FileFinder:
             folder = Path(found.searched[0]) if found.searched else None
             if folder is not None and folder.is_absolute() and folder.is_dir():
                 reason, hint = "it is a folder", _file_in(folder, filename)
+            elif folder is not None and folder.is_absolute():
+                near = near_file(folder)
+                reason += f"; the package has {_below_package(near)}" if near else ""
+                hint = _named(element, filename, folder, near) if near else hint
         if found.form is not None:
             right = found.form.right
             reason = f"{found.form.cause} (tried: {', '.join(found.searched[:4])})"
             in_package = right.startswith("pack")
-            hint = _write(element, filename, right) if in_package else found.form.hint
+            hint = (
+                write_path(element.place, filename, right)
+                if in_package
+                else found.form.hint
+            )
         stand_in = _STAND_IN if kind == "mesh" else ""
         text = f"the {kind} {filename}{_NOT_FOUND}{reason}{stand_in}"
         self._warn(f"{kind}-not-found", text, hint, _home_of(filename), element)
@@ -182,10 +206,10 @@ class FileFinder:
     ) -> str | Fix:
         """Advise to name a package with a name like it, or with words behind it."""
         if right := _with_right_package(filename, found):
-            return _write(element, filename, right)
+            return write_path(element.place, filename, right)
         right = _with_longer_name(filename, found)
         if not right or self._resolver.resolve(right).path is not None:
-            return _write(element, filename, right) if right else ""
+            return write_path(element.place, filename, right) if right else ""
         return (
             f"did you mean {right}? If not, add --package-path "
             f"FOLDER-THAT-HOLDS-{found.missing_package}"
@@ -229,10 +253,25 @@ def _with_longer_name(filename: str, found: Resolution) -> str:
     return filename.replace(package, longer[0], 1)
 
 
-def _write(element: Element, filename: str, right: str) -> Fix:
-    """Return the fix that names a file by its right package."""
-    hint = f"write {right}"
-    return write_attribute(element.place, "filename", filename, right, hint=hint)
+def _named(element: Element, filename: str, tried: Path, meant: Path) -> Fix:
+    """Return the fix that names a file in the way in which another is named."""
+    uri = _in_package(meant)
+    if filename.startswith("package://") and uri:
+        return write_path(element.place, filename, uri)
+    return write_path(element.place, str(tried), str(meant))
+
+
+def _in_package(path: Path | None) -> str:
+    """Return the package:// name of a file; empty for one that is in no package."""
+    folder = None if path is None else package_around(path)
+    if path is None or folder is None or not (folder / "package.xml").is_file():
+        return ""
+    return f"package://{package_name(folder)}/{_below_package(path)}"
+
+
+def _below_package(path: Path) -> str:
+    folder = package_around(path)
+    return path.relative_to(folder).as_posix() if folder else path.name
 
 
 def _file_in(folder: Path, filename: str) -> str:

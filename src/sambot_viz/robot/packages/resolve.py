@@ -17,7 +17,11 @@ from urllib.parse import unquote
 
 from sambot_viz import limits
 from sambot_viz.robot.packages.name_form import NameForm, name_form
-from sambot_viz.robot.packages.package_index import PackageIndex
+from sambot_viz.robot.packages.package_index import (
+    PackageIndex,
+    package_around,
+    package_name,
+)
 
 Doubt = Literal[
     "letter-case",
@@ -32,6 +36,12 @@ Doubt = Literal[
 
 _HERE = ("localhost/", "127.0.0.1/")
 """Computers that file:// may name before a path, as RViz reads it."""
+_INSTALLED = re.compile(
+    r"^\s*install\s*\(\s*DIRECTORY\s+([^()#]*?)\s+DESTINATION\s+"
+    r"\"?share/\$\{PROJECT_NAME\}/?\"?\s*\)",
+    re.MULTILINE,
+)
+"""Folders that are installed with what is in them, by their names."""
 _OF_WINDOWS = re.compile(r"[A-Za-z]:[\\/]|\\\\")
 
 
@@ -131,8 +141,11 @@ class FileResolver:
                 return Resolution(found, lookup.searched, doubt, package, lookup.known)
             return Resolution(None, lookup.searched, None, package, lookup.known)
         found = self._below(lookup.path, tail)
-        if scheme == "model" and found.path is not None and found.doubt is None:
-            return replace(found, doubt="model-scheme")
+        if found.path is not None and found.doubt is None:
+            if scheme == "model":
+                return replace(found, doubt="model-scheme")
+            if _is_inner(lookup.path):
+                return replace(found, doubt="path-only", missing_package=package)
         return found
 
     def _without_package(self, tail: str) -> Resolution:
@@ -154,7 +167,9 @@ class FileResolver:
             return Resolution(cased, (str(path),), "letter-case")
         moved = inside_package(root, PurePosixPath(tail), ())
         if moved is not None:
-            return Resolution(moved, (str(path),), "other-layout")
+            same = is_installed_as_is(root, moved)
+            doubt: Doubt = "path-only" if same else "other-layout"
+            return Resolution(moved, (str(path),), doubt)
         return Resolution(None, (str(path),))
 
     def _plain(self, name: str) -> Resolution:
@@ -192,6 +207,11 @@ class FileResolver:
             if (folder / tail).is_file():
                 return folder / tail
         return None
+
+
+def _is_inner(folder: Path) -> bool:
+    """Tell whether a folder is no package, but one in a package."""
+    return package_name(folder) is None and package_around(folder) is not None
 
 
 def other_letter_case(path: Path) -> Path | None:
@@ -236,18 +256,30 @@ def inside_package(
         return None
     matches = [
         folder / relative
-        for folder in _folders(root)
+        for folder, _ in walk_below(root)
         if (folder / relative).is_file()
         and os.path.realpath(folder / relative) not in refused
     ]
     return min(matches, key=lambda p: (len(p.parts), str(p)), default=None)
 
 
-def _folders(root: Path) -> Iterator[Path]:
+def is_installed_as_is(root: Path, file: Path) -> bool:
+    """Tell whether a file of a package is installed where it is in the source tree."""
+    try:
+        text = (root / "CMakeLists.txt").read_text("utf-8", "replace")
+    except OSError:
+        return False
+    top = file.relative_to(root).parts[0]
+    installed = (match[1].split() for match in _INSTALLED.finditer(text))
+    return any(top in names for names in installed)
+
+
+def walk_below(root: Path) -> Iterator[tuple[Path, list[str]]]:
+    """Give the folders of a package, as many as are looked at, with their files."""
     count = 0
-    for folder, children, _ in os.walk(root):
+    for folder, children, files in os.walk(root):
         children[:] = sorted(c for c in children if not c.startswith("."))
-        yield Path(folder)
+        yield Path(folder), files
         count += 1
         if count >= limits.NEAR_FOLDERS.value:
             return

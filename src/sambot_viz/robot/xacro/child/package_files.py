@@ -12,7 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from sambot_viz.robot.packages.package_index import Lookup, PackageIndex
-from sambot_viz.robot.packages.resolve import inside_package, other_letter_case
+from sambot_viz.robot.packages.resolve import (
+    inside_package,
+    is_installed_as_is,
+    other_letter_case,
+)
 from sambot_viz.robot.xacro.child.sandbox import Guard
 
 
@@ -106,5 +110,6 @@ class XacroFiles:
         for root in self._roots:
             if path.is_relative_to(root):
                 found = inside_package(root, path.relative_to(root), open_files)
-                return str(found) if found else None
+                as_is = found is not None and is_installed_as_is(root, found)
+                return None if found is None or as_is else str(found)
         return None

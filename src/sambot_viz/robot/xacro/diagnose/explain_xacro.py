@@ -16,7 +16,10 @@ from sambot_viz.robot.xacro.diagnose.failing_values import (
     broken_yaml,
     placeholder,
 )
-from sambot_viz.robot.xacro.diagnose.macro_parameters import unknown_parameter
+from sambot_viz.robot.xacro.diagnose.macro_parameters import (
+    unknown_parameter,
+    unused_block,
+)
 from sambot_viz.robot.xacro.diagnose.reports import CALL, ELEMENT, EXPRESSION, ROWS
 from sambot_viz.robot.xacro.diagnose.source_slips import source_slip
 from sambot_viz.robot.xacro.diagnose.text_for_number import wrong_value
@@ -31,6 +34,7 @@ _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r"unknown macro name: (?:xacro:)?(\S+)", unknown_macro),
     (r"Undefined substitution argument:?\s*(\w[\w.\-]*)", undefined_argument),
     (r'Invalid parameter "([^"]*)"', unknown_parameter),
+    (r'Unused block "([^"]*)"', unused_block),
     (r"^ArgException.*?(\S+)$", undefined_argument),
 )
 """Reports about an unknown name, and the function that finds the one meant."""

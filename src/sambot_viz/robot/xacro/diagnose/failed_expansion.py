@@ -6,8 +6,9 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from sambot_viz.edits import Extent, source_of
+from sambot_viz.edits import Extent, source_of, write_path
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
+from sambot_viz.robot.packages.near_file import near_file
 from sambot_viz.robot.packages.package_index import places_of
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xacro.child_result import XacroFailure
@@ -16,6 +17,9 @@ from sambot_viz.robot.xacro.diagnose.source_files import (
     SourceSet,
     read_source,
 )
+
+CORRECT_PATH = "correct the path, or put the file there"
+"""What to do about a file that is not there and resembles none."""
 
 _IN_EXPRESSION = r"\$(?:\{[^}\"]*(?:\}|(?=\"))|\([^)\"]*(?:\)|(?=\")))"
 _REPAIRS = {
@@ -32,6 +36,20 @@ _REPAIRS = {
     ),
 }
 """Hint → what is wrong in the expression, and what is written for it."""
+
+_WORDS = (
+    (re.compile(r"did you mean '([\w.-]+)'\? If not"), "{}"),
+    (re.compile(r"write (\$[{(][^)}]*[)}])(?=;|$)"), "$({})"),
+)
+"""Hint that says a word → the word that it is written for."""
+
+_SUBSTITUTIONS = ("find", "arg", "env", "optenv", "cwd", "dirname", "eval")
+
+_EXAMPLES = {
+    "origin": '<origin xyz="0 0 0" rpy="0 0 0"/>',
+    "pose": "<pose>0 0 0 0 0 0</pose>",
+}
+"""Block → what can be written for it in any call."""
 
 
 @dataclass(frozen=True)
@@ -122,8 +140,23 @@ class FailedExpansion:
 
     def repair(self, hint: str) -> str | Fix:
         """Return a hint with what it changes in the failed expression."""
+        if hint == CORRECT_PATH:
+            return self._file_fix
+        for said, wrong in _WORDS:
+            right = said.match(hint)
+            if right is not None:
+                return self._replace(wrong.format(self.found[0]), right[1], hint)
         known = _REPAIRS.get(hint)
         return hint if known is None else self.rewrite(*known, hint)
+
+    def _replace(self, wrong: str, right: str, hint: str) -> Fix:
+        """Return the fix that writes a word for the next that is there."""
+        source = source_of(self.at.file)
+        start = 0 if source is None else source.offset(self.at)
+        at = -1 if source is None else source.text.find(wrong, start)
+        if source is None or at < 0 or "\n" in source.text[start:at]:
+            return Fix(hint)
+        return Fix(hint, (source.edit(self.at, Extent(at, at + len(wrong)), right),))
 
     @property
     def trail(self) -> str:
@@ -192,19 +225,23 @@ class FailedExpansion:
                 known.update(parameters(macro.params))
         if name in known:
             return f"write ${{{name}}}; "
-        is_argument = any(arg.name == name for arg in self.named("arg"))
-        return f"write $(arg {name}); " if is_argument else ""
+        if any(arg.name == name for arg in self.named("arg")):
+            return f"write $(arg {name}); "
+        command, _, rest = name.partition(" ")
+        near = meant(command, _SUBSTITUTIONS) if rest else None
+        return f"write $({near} {rest}); " if near else ""
 
     @property
-    def near_file(self) -> str:
-        """A file of the folder with nearly the name: "did you mean …? If not, "."""
-        folder = Path(self.found[0].strip()).parent
-        try:
-            files = sorted(path.name for path in folder.iterdir() if path.is_file())
-        except OSError:
-            return ""
-        near = did_you_mean(self.found[1], files[:500])
-        return f"{near} If not, " if near.startswith("did") else ""
+    def _file_fix(self) -> Fix:
+        """The fix that names the file of the package that was meant, if one was."""
+        missing = Path(self.found[0].strip())
+        near = near_file(missing)
+        if near is None:
+            return Fix(CORRECT_PATH)
+        fix = write_path(self.at, str(missing), str(near))
+        if not fix.edits and near.parent == missing.parent:
+            return self._replace(missing.name, near.name, f"write {near.name}")
+        return fix if fix.edits else Fix(f"write the path of {near}")
 
     @property
     def near_key(self) -> str:
@@ -248,6 +285,16 @@ class FailedExpansion:
         macro = self._called_macro
         names = re.findall(r"\*+([^\s:]+)", macro.params) if macro else []
         return f" ({', '.join('*' + name for name in names)})" if names else ""
+
+    @property
+    def missing_block(self) -> str:
+        """What to write in a call of a macro that takes a block."""
+        macro = self._called_macro
+        names = re.findall(r"\*+([^\s:]+)", macro.params) if macro else []
+        if len(names) == 1 and names[0] in _EXAMPLES:
+            return f"add {_EXAMPLES[names[0]]} inside it"
+        tag = f"xacro:{self.called}"
+        return f"write the elements inside: <{tag} …> <origin …/> </{tag}>"
 
     @property
     def listed(self) -> list[str]:

@@ -39,6 +39,35 @@ def unknown_parameter(failed: FailedExpansion, name: str) -> Problem:
     return _other_parameter(here, message, name, macro, call)
 
 
+def unused_block(failed: FailedExpansion, name: str) -> Problem:
+    """Explain an element in a call that the macro does not take, or not as one."""
+    here = failed.pointing_at(failed.call_place())
+    macro = next((m for m in here.named("macro") if m.name == here.called), None)
+    tag = here.sources.tag_at(macro.place, "xacro:macro") if macro else None
+    source = here.sources.get(macro.place.file) if macro else None
+    if macro is not None and source is not None and tag is not None:
+        end = source.text.find("</xacro:macro>", tag.end)
+        names = re.findall(
+            r"<xacro:insert_block\s+name\s*=\s*[\"'](\w+)", source.text[tag.end : end]
+        )
+        plain = [n for n in names if f"*{n}" not in macro.params.split()]
+        if len(set(plain)) == 1:
+            words = [w for w in macro.params.split() if w != plain[0]]
+            params = " ".join([*words, f"*{plain[0]}"])
+            return here.pointing_at(macro.place).error(
+                "xacro-block",
+                f"the macro {macro.name} inserts the block {plain[0]}, which its "
+                "params do not have with a * before it; the call on "
+                f"{line_in(here.at, macro.place)} gives it",
+                f'write params="{params}"',
+            )
+    return here.error(
+        "xacro-block",
+        f"the call of {here.called} contains <{name}>, which the macro does not take",
+        f"delete it, or add *{name} to the params of {here.called}",
+    )
+
+
 def _defined_twice(
     here: FailedExpansion, macros: list[NamedElement], name: str
 ) -> Problem | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from sambot_viz import limits
+from sambot_viz.robot.xacro.diagnose.failed_expansion import CORRECT_PATH
 
 ELEMENT = "the element that xacro was working on"
 EXPRESSION = "the expression that failed"
@@ -40,18 +41,10 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         r"<xacro:insert_block[^>]*name\s*=\s*[\"']%s",
     ),
     (
-        r'Unused block "([^"]*)"',
-        "xacro-block",
-        "the call of {x.called} contains <{0}>, which the macro does not take",
-        "delete it, or add *{0} to the params of {x.called}",
-        CALL,
-    ),
-    (
         r"Not enough blocks",
         "xacro-block",
         "the call of {x.called} contains fewer elements than it takes{x.blocks}",
-        "write the elements inside: <xacro:{x.called} …> <origin …/> "
-        "</xacro:{x.called}>",
+        "{x.missing_block}",
         CALL,
     ),
     (
@@ -82,7 +75,7 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         "xacro-include-missing",
         "the yaml file {1} was not found: {0} does not exist{x.folder_missing}"
         "{x.trail}",
-        "{x.near_file}correct the path, or put the file there",
+        CORRECT_PATH,
         r"load_yaml\([^\n]*?%2s",
     ),
     (
@@ -90,7 +83,7 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         "xacro-include-missing",
         "the included file {1} was not found: {0} does not exist{x.folder_missing}"
         "{x.trail}",
-        "{x.near_file}correct the path, or put the file there",
+        CORRECT_PATH,
         r"(?s)<xacro:include\b[^>]*%2s|load_yaml\([^\n]*?%2s",
     ),
     (

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.edits import Extent, rename_element, source_of, write
+from sambot_viz.edits import (
+    Extent,
+    include_before,
+    rename_element,
+    source_of,
+    write,
+)
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
 from sambot_viz.robot.slips.vocabulary import meant
@@ -116,6 +122,11 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
         if any(macro.name == running for running, _ in failed.failure.macros):
             own += parameters(macro.params)
             things.update({p: macro.place for p in parameters(macro.params)})
+    longer = next((each for each in own if name.startswith(f"{each}_")), None)
+    if longer is not None and failed.expression == name:
+        right = f"${{{longer}}}{name.removeprefix(longer)}"
+        pattern = rf"\$\{{\s*{re.escape(name)}\s*\}}"
+        return failed.rewrite(pattern, right, f"write {right}")
     alike = [each for each in things if each.lower() == name.lower()]
     alike += [
         each
@@ -214,7 +225,7 @@ def unknown_macro(failed: FailedExpansion, name: str) -> Problem:
             "xacro-include-forgotten",
             f"the macro {name} is not known here: {there.file} defines it on line "
             f"{there.line}, but no file that is read includes that file{here.trail}",
-            'add <xacro:include filename="…"/> with that file before the call',
+            include_before(here.at, there.file),
         )
     message = f"the macro {name} does not exist{here.trail}"
     return here.error("xacro-unknown-macro", message, _near_macro(name, macros, at))

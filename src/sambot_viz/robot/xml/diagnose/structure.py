@@ -76,7 +76,7 @@ class _Walk:
             if len(self.problems) > _MOST:
                 return
             if token.kind == "close":
-                self._close(token)
+                self._close(token, tags[index + 1] if tags[index + 1 :] else None)
             else:
                 self._start(token)
             if not self.stack and self.root is not None:
@@ -102,7 +102,7 @@ class _Walk:
         if token.kind == "open":
             self.stack.append(_Open(token))
 
-    def _close(self, token: Token) -> None:
+    def _close(self, token: Token, following: Token | None) -> None:
         names = [entry.token.name for entry in self.stack]
         if not names:
             self._surplus(token)
@@ -121,7 +121,11 @@ class _Walk:
             del self.stack[depth:]
         elif difflib.SequenceMatcher(None, name, opened.name).ratio() >= 0.7:
             self._misspelt(opened, token)
-        elif not self._closed_early(self.stack[-1], token):
+        elif self._closed_early(self.stack[-1], token):
+            return
+        elif names[1:] and following and following.shown == f"</{names[-2]}>":
+            self._misspelt(opened, token)
+        else:
             self._surplus(token)
 
     def _misspelt(self, opened: Token, closed: Token) -> None:
@@ -133,7 +137,12 @@ class _Walk:
             message = f"<{opened.name}> opened on line {first} {ends}"
             code, hint = "xml-closing-tag-misspelt", f"write </{opened.name}>"
             change = (closed.start, closed.end, f"</{opened.name}>")
-            self._add(code, closed.start, message, hint, change)
+            at = closed.start
+            if self._is_used(closed.name) and not self._is_used(opened.name, opened):
+                at, begin = opened.start, opened.start + 1
+                hint = f"write <{closed.name}>, as other elements are called"
+                change = (begin, begin + len(opened.name), closed.name)
+            self._add(code, at, message, hint, change)
             return
         wrong = closed if opened.name.islower() else opened
         right = opened.name if opened.name.islower() else opened.name.lower()
@@ -147,6 +156,11 @@ class _Walk:
             for start in (opened.start + 1, closed.start + 2)
         ]
         self._add("xml-tag-case", wrong.start, message, hint, *changes)
+
+    def _is_used(self, name: str, but: Token | None = None) -> bool:
+        """Tell whether elements have a name, without the one of a tag."""
+        tags = self.source.tags
+        return any(t.name == name and not t.closes and t is not but for t in tags)
 
     def _unclosed(self, entry: _Open, closed: Token | None) -> None:
         opened = entry.token
