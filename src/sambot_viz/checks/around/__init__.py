@@ -31,10 +31,9 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     robot = subject.robot
     if not subject.packages and not robot.gazebo:
         return
-    # The import is late: most models have nothing for these rules.
-    from sambot_viz.checks.around.other_robots import of_this_robot
-    from sambot_viz.checks.around.rules import IN_MODEL, OF_FILES, OF_ROBOT, OF_ROS2
-    from sambot_viz.checks.around.surroundings import Surroundings
+    # The imports are late: most models have nothing for these rules, and many are in
+    # no package.
+    from sambot_viz.checks.around.in_model import IN_MODEL, IN_MODEL_OF_ROS2
 
     if any(p.code in _INCOMPLETE for p in robot.problems):
         # A part of the robot is missing, and with it what others name.
@@ -42,11 +41,15 @@ def names_that_must_meet(subject: Subject) -> Iterator[Problem]:
     # Packages for the other ROS are not started together with that of the model.
     is_ros1 = bool(subject.packages) and subject.packages[0].is_ros1
     packages = tuple(p for p in subject.packages if p.is_ros1 == is_ros1)
-    left_out = OF_ROS2 if is_ros1 else ()
+    left_out = IN_MODEL_OF_ROS2 if is_ros1 else ()
     for rule in IN_MODEL:
         if rule not in left_out:
             yield from rule(robot)
     if packages and not _is_part(robot):
+        from sambot_viz.checks.around.other_robots import of_this_robot
+        from sambot_viz.checks.around.rules import OF_FILES, OF_ROBOT
+        from sambot_viz.checks.around.surroundings import Surroundings
+
         around = Surroundings(robot, packages)
         yield from of_this_robot(around, _found((*OF_FILES, *OF_ROBOT), around))
 

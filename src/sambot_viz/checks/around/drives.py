@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.wheel_joints import meant_wheel, side_in
 from sambot_viz.checks.rule import axis_text, listed, number
 from sambot_viz.edits import rename_element, together, write
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.surroundings import Surroundings
 
 _LIMITS = {
     f"{end}_{kind}{what}"

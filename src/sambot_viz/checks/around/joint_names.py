@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact, facts, plugins
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.wheel_joints import Side, meant_wheel, side_in
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write, write_attribute
@@ -15,6 +14,9 @@ from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.xml.element import Element
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.surroundings import Surroundings
 
 _JOINTS = (
     "left_joint",

@@ -1,4 +1,7 @@
-"""The rules about a model and the files around it, in the order in which they run."""
+"""The rules about a model and the files around it, in the order in which they run.
+
+Those that need only the model are in `in_model.py`.
+"""
 
 from __future__ import annotations
 
@@ -37,11 +40,7 @@ from sambot_viz.checks.around.controllers import (
     unknown_controllers,
 )
 from sambot_viz.checks.around.display_topics import unseen_topics
-from sambot_viz.checks.around.drives import (
-    misspelt_elements,
-    wrong_sides,
-    wrong_sides_of_controllers,
-)
+from sambot_viz.checks.around.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints
 from sambot_viz.checks.around.footprint_text import unreadable_footprints
@@ -60,11 +59,7 @@ from sambot_viz.checks.around.generations import (
     xacro_py,
 )
 from sambot_viz.checks.around.installed import not_installed
-from sambot_viz.checks.around.joint_names import (
-    joints_of_controllers,
-    unknown_joints,
-    unknown_references,
-)
+from sambot_viz.checks.around.joint_names import joints_of_controllers
 from sambot_viz.checks.around.joint_states import no_joint_states
 from sambot_viz.checks.around.launch_arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_calls import (
@@ -149,14 +144,6 @@ from sambot_viz.checks.around.parameter_names import (
 )
 from sambot_viz.checks.around.parameter_values import wrong_values
 from sambot_viz.checks.around.read_topics import unknown_topics
-from sambot_viz.checks.around.sensors import (
-    frames_of_sensors,
-    lidars_of_the_other,
-    misspelt_frames,
-    sensor_values,
-    sensors_without_link,
-    unknown_types,
-)
 from sambot_viz.checks.around.setup_files import (
     joined_scripts,
     missing_data_files,
@@ -171,18 +158,13 @@ from sambot_viz.checks.around.setup_words import (
 )
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.systems import (
-    both_generations,
-    malformed_numbers,
-    unknown_systems,
-)
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
     misspelt_key,
     unreadable_python,
     unreadable_yaml,
 )
-from sambot_viz.checks.around.wheels import wheel_sizes, wheel_sizes_of_controllers
+from sambot_viz.checks.around.wheels import wheel_sizes_of_controllers
 from sambot_viz.checks.around.world_systems import (
     missing_systems,
     plugins_of_worlds,
@@ -190,25 +172,6 @@ from sambot_viz.checks.around.world_systems import (
     values_of_worlds,
 )
 from sambot_viz.errors import Problem
-from sambot_viz.robot.model import Robot
-
-IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
-    unknown_joints,
-    unknown_references,
-    wheel_sizes,
-    wrong_sides,
-    misspelt_elements,
-    both_generations,
-    unknown_systems,
-    malformed_numbers,
-    sensors_without_link,
-    unknown_types,
-    lidars_of_the_other,
-    sensor_values,
-    misspelt_frames,
-    frames_of_sensors,
-)
-"""The rules that need only the model."""
 
 Check = Callable[[Surroundings], Iterable[Problem]]
 """A rule about packages."""
@@ -352,10 +315,5 @@ OF_ROS2: frozenset[Callable[..., Iterable[Problem]]] = frozenset(
     setup_name,
     unknown_packages,
     no_joint_states,
-} | {
-    misspelt_elements,
-    both_generations,
-    unknown_systems,
-    lidars_of_the_other,
 }
 """The rules that know only the plugins, parameters and launch files of ROS 2."""

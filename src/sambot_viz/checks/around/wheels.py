@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import number
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem
 from sambot_viz.geometry import UP, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, Joint, Sphere
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.surroundings import Surroundings
 
 _SEPARATION_OFF = 0.15
 _SEPARATION_OFF_MESH = 0.25

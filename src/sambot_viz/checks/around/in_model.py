@@ -1,0 +1,51 @@
+"""The rules that need only the model, in the order in which they run.
+
+They are a table of their own because a model in no package needs no other: reading
+those costs more than checking it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from sambot_viz.checks.around.drives import misspelt_elements, wrong_sides
+from sambot_viz.checks.around.joint_names import unknown_joints, unknown_references
+from sambot_viz.checks.around.sensors import (
+    frames_of_sensors,
+    lidars_of_the_other,
+    misspelt_frames,
+    sensor_values,
+    sensors_without_link,
+    unknown_types,
+)
+from sambot_viz.checks.around.systems import (
+    both_generations,
+    malformed_numbers,
+    unknown_systems,
+)
+from sambot_viz.checks.around.wheels import wheel_sizes
+from sambot_viz.errors import Problem
+from sambot_viz.robot.model import Robot
+
+IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
+    unknown_joints,
+    unknown_references,
+    wheel_sizes,
+    wrong_sides,
+    misspelt_elements,
+    both_generations,
+    unknown_systems,
+    malformed_numbers,
+    sensors_without_link,
+    unknown_types,
+    lidars_of_the_other,
+    sensor_values,
+    misspelt_frames,
+    frames_of_sensors,
+)
+"""The rules."""
+
+IN_MODEL_OF_ROS2: frozenset[Callable[[Robot], Iterable[Problem]]] = frozenset(
+    {misspelt_elements, both_generations, unknown_systems, lidars_of_the_other}
+)
+"""Those that know only what Gazebo for ROS 2 reads."""
