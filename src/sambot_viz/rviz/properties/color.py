@@ -73,7 +73,7 @@ def _parse_hex(text: str) -> Rgb | None:
     return (r, g, b)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class ColorProperty(Property):
     """A colour, (r, g, b) with integers from 0 to 255."""
 

@@ -23,7 +23,7 @@ _MEANT_FALSE = frozenset({"no", "off", "n"})
 _MEANT_TRUE = frozenset({"1", "true", "yes", "on", "y"})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class BoolProperty(Property):
     """True or false.
 
@@ -73,7 +73,6 @@ def read_bool(node: Scalar, report: Report, name: str) -> bool:
     return True
 
 
-@dataclass(frozen=True)
 class _NumberProperty(Property):
     """Base of integers and floats: limits."""
 
@@ -113,7 +112,7 @@ class _NumberProperty(Property):
         return clamped
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class IntProperty(_NumberProperty):
     """An integer of 32 bits, clamped to its limits.
 
@@ -153,7 +152,7 @@ class IntProperty(_NumberProperty):
         return f"a whole number{self._range}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class FloatProperty(_NumberProperty):
     """A finite number, clamped to its limits.
 

@@ -55,6 +55,9 @@ def silent(node: Node, message: str, hint: str, right: str = "") -> None:
 class Property:
     """A property of a display, view or tool; the subclasses say of which type.
 
+    A subclass with no more fields has this one's methods: making such methods again
+    for each class takes as long as reading a config.
+
     Attributes:
         name: the label, and the key in the file.
         default: the value while the file gives none.
@@ -191,7 +194,7 @@ class Property:
         return f"the default {text}" if text else "the default"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class KeptProperty(Property):
     """A key that RViz writes, or wrote, and that has no effect here.
 
@@ -208,7 +211,6 @@ class KeptProperty(Property):
         return False
 
 
-@dataclass(frozen=True)
 class GroupProperty(Property):
     """A container: it has children and no value."""
 

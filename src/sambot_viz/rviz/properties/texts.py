@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import re2 as _re2  # pyright: ignore[reportMissingTypeStubs]
-
 from sambot_viz import limits
 from sambot_viz.errors import nearest
 from sambot_viz.rviz.properties.numbers import IntProperty
@@ -23,7 +21,7 @@ FIXED_FRAME = "<Fixed Frame>"
 """What a frame property says when it means the fixed frame, whatever that is."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class StringProperty(Property):
     """Any text."""
 
@@ -56,12 +54,10 @@ def checked_text(name: str, value: object) -> str:
     return str(value)
 
 
-@dataclass(frozen=True)
 class FileProperty(StringProperty):
     """The path of a file, as it was written."""
 
 
-@dataclass(frozen=True)
 class RegexProperty(StringProperty):
     """A regular expression, searched anywhere; empty or broken it filters nothing."""
 
@@ -90,7 +86,7 @@ class RegexProperty(StringProperty):
         return node.text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class EnumProperty(Property):
     """One of some texts; an unknown text is kept and means the first one."""
 
@@ -140,12 +136,10 @@ def report_option(prop: Property, node: Scalar, used: str, report: Report) -> No
     )
 
 
-@dataclass(frozen=True)
 class EditableEnumProperty(StringProperty):
     """One of some texts, or any other that is typed."""
 
 
-@dataclass(frozen=True)
 class PolicyProperty(EditableEnumProperty):
     """A policy of the quality of service; RViz takes other texts for the default."""
 
@@ -156,7 +150,7 @@ class PolicyProperty(EditableEnumProperty):
         return node.text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class TfFrameProperty(Property):
     """The name of a frame, without the leading "/" of ROS 1; or "<Fixed Frame>"."""
 
@@ -223,7 +217,7 @@ FILTER_SIZE = IntProperty(
 """One more child of the topics of displays that wait for transforms."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class TopicProperty(StringProperty):
     """The name of a topic, with its quality of service below it."""
 
@@ -262,6 +256,9 @@ def compile_pattern(expression: str) -> Pattern | None:
     """
     if len(expression) > limits.PATTERN.value:
         return None
+    # The import is late: most configs have no expression.
+    import re2 as _re2  # pyright: ignore[reportMissingTypeStubs]
+
     re2: Any = _re2
     options = re2.Options()
     options.log_errors = False

@@ -14,7 +14,6 @@ from sambot_viz.errors import ConfigError, Findings, Fix, Place, Problem
 from sambot_viz.files import is_recording, read_limited, write_atomically
 from sambot_viz.rviz.yaml.explain_yaml import explain_yaml, other_format
 from sambot_viz.rviz.yaml.parser import ParseFault, parse
-from sambot_viz.rviz.yaml.writer import Writer
 from sambot_viz.rviz.yaml.yaml_nodes import Entry, Map, Node, Scalar, copied, same
 
 _SECTIONS = ("Visualization Manager", "Panels", "Window Geometry")
@@ -170,7 +169,7 @@ class Document:
         """
         if not self.root.changed and self.root.span is not None:
             return self._bom + self._text
-        for text in (self._patched(), Writer("", self._newline).document(self.root)):
+        for text in (self._patched(), self._written("")):
             if _reads_as(text, self.root):
                 return self._bom + text
         raise AssertionError("the plain writer writes what the parser reads")
@@ -179,8 +178,14 @@ class Document:
         if self.root.span is None:
             # The file had comments only, or nothing.
             kept = self._text if self._text.strip() else ""
-            return kept + Writer("", self._newline).document(self.root)
-        return Writer(self._text, self._newline).document(self.root)
+            return kept + self._written("")
+        return self._written(self._text)
+
+    def _written(self, text: str) -> str:
+        # The import is late: most configs are only read.
+        from sambot_viz.rviz.yaml.writer import Writer
+
+        return Writer(text, self._newline).document(self.root)
 
     @property
     def modified(self) -> bool:
