@@ -8,7 +8,6 @@ log passes `outlet`, which uses the same functions.
 
 from __future__ import annotations
 
-import html
 import json
 import re
 import unicodedata
@@ -84,6 +83,9 @@ def capitalized(words: str) -> str:
 
 def html_text(value: object, limit: int = 2000) -> str:
     """Escape HTML's special characters too, for `gui.add_html`."""
+    # The import is late: commands write no HTML.
+    import html
+
     return html.escape(text(value, limit), quote=True)
 
 

@@ -43,3 +43,20 @@ def test_a_model_with_plugins_in_no_package_needs_no_rules_about_packages(
 def test_a_model_without_plugins_needs_no_rules_about_names() -> None:
     loaded = loaded_by_check(bundled.model_path())
     assert f"{AROUND}in_model" not in loaded
+
+
+def test_a_right_package_needs_no_module_about_what_is_wrong(repository: Path) -> None:
+    loaded = loaded_by_check(repository / "tests" / "data" / "around" / "gz")
+    assert f"{AROUND}rules" in loaded
+    late = {
+        "re2",
+        "sambot_viz.checks.rewritten",
+        "sambot_viz.robot.slips.follow_ups",
+        "sambot_viz.rviz.yaml.writer",
+        f"{AROUND}files.python_repair",
+        f"{AROUND}files.yaml_repair",
+        f"{AROUND}in_setup",
+        f"{AROUND}launching.frontend_reader",
+        f"{AROUND}setup_file",
+    }
+    assert loaded & late == set()

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess
-from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.checks.volumes import volume_of
 from sambot_viz.errors import Edit, Fix, Problem
@@ -22,6 +21,9 @@ from sambot_viz.robot.parts import (
     Origin,
     Sphere,
 )
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.rewritten import Rewriting
 
 LENGTHS = ("size", "radius", "length")
 """What has the lengths of a shape."""
@@ -72,6 +74,8 @@ def lengths_in_another_unit(subject: Subject) -> Iterator[Problem]:
     lengths = _lengths_of(subject.robot)
     if lengths is None:
         return
+    from sambot_viz.checks.rewritten import Rewriting
+
     rewriting = Rewriting(subject.files, lambda length: length * lengths.metres)
     edits: dict[tuple[str, tuple[float, ...]], list[Edit]] = {}
     for _, shape in subject.shapes():

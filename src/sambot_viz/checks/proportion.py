@@ -15,7 +15,6 @@ from sambot_viz.checks.lengths import (
     is_lighter_than_foam,
     written_lengths,
 )
-from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.edits import write_attribute
 from sambot_viz.errors import Edit, Fix, Place, Problem
@@ -251,6 +250,8 @@ def _single(
 def _in_metres(
     subject: Subject, element: _Written, usual: float, factor: float
 ) -> tuple[Edit, ...]:
+    from sambot_viz.checks.rewritten import Rewriting
+
     rewriting = Rewriting(
         subject.files, lambda value: value * factor if abs(value) > usual else value
     )

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from sambot_viz.checks.clues import Clues, guess
 from sambot_viz.checks.lengths import written_lengths
-from sambot_viz.checks.rewritten import Rewriting
 from sambot_viz.checks.rule import Subject, number
 from sambot_viz.edits import together, write_attribute
 from sambot_viz.errors import Fix, Place, Problem
@@ -99,6 +98,8 @@ def _rpy(
         return
     if not all(_is_round(v) for v in origin.rpy):
         return
+    from sambot_viz.checks.rewritten import Rewriting
+
     written = " ".join(number(v) for v in origin.rpy)
     corrected = " ".join(number(math.radians(v)) for v in origin.rpy)
     yield guess(

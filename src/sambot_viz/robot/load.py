@@ -20,7 +20,6 @@ from sambot_viz.robot.model_source import (
 )
 from sambot_viz.robot.packages.file_finder import FileFinder
 from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
-from sambot_viz.robot.slips.follow_ups import report_slips
 from sambot_viz.robot.slips.misspelt import find_slips
 from sambot_viz.robot.slips.needs_xacro import (
     OWN_TAGS,
@@ -226,14 +225,18 @@ class _Loader:
         macros = frozenset[str]()
         if expanded is not None:
             macros = expanded.macros.union(OWN_TAGS)
-        report_slips(
-            root,
-            find_slips(root, URDF, macros),
-            findings,
-            lambda other, found: read_urdf(
-                other, found, _no_file, _no_file, expanded is not None
-            ),
-        )
+        if slips := find_slips(root, URDF, macros):
+            # The import is late, as below: most models have none.
+            from sambot_viz.robot.slips.follow_ups import report_slips
+
+            report_slips(
+                root,
+                slips,
+                findings,
+                lambda other, found: read_urdf(
+                    other, found, _no_file, _no_file, expanded is not None
+                ),
+            )
         return tree
 
     def _sdf(
@@ -244,12 +247,15 @@ class _Loader:
 
         written = self.opened.document
         tree = read_sdf(root, written, findings, files.mesh)
-        report_slips(
-            root,
-            sdf_slips(root),
-            findings,
-            lambda other, found: read_sdf(other, written, found, _no_file),
-        )
+        if slips := sdf_slips(root):
+            from sambot_viz.robot.slips.follow_ups import report_slips
+
+            report_slips(
+                root,
+                slips,
+                findings,
+                lambda other, found: read_sdf(other, written, found, _no_file),
+            )
         return tree
 
 

@@ -72,7 +72,14 @@ def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
     from sambot_viz.checks.around.rules import OF_BUILD
     from sambot_viz.checks.around.surroundings import Surroundings
 
-    yield from _found(OF_BUILD, Surroundings(robot, (package,)))
+    around = Surroundings(robot, (package,))
+    yield from _found(OF_BUILD, around)
+    if package.setup is not None and not package.is_ros1:
+        # The import is late: most packages have no setup.py.
+        from sambot_viz.checks.around.in_setup import IN_SETUP
+
+        for rule in IN_SETUP:
+            yield from rule(package.setup, around)
 
 
 def _found(checks: Iterable[Check], around: Surroundings) -> Iterator[Problem]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.build_file import folders_as_files, near_folder
 from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
@@ -12,12 +13,14 @@ from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.installs import Installed, Piece
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.around.setup_file import DataFiles, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.parts import MeshFile
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.setup_file import DataFiles, SetupFile
 
 _UNCERTAIN = frozenset(
     {"foreach", "macro", "function", "include", "add_subdirectory", "file"}

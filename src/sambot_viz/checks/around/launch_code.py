@@ -5,15 +5,18 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.launch_imports import modules
 from sambot_viz.checks.around.place import rewritten
-from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.setup_file import SetupFile
 
 _ENTRY = "generate_launch_description"
 _DESCRIPTION = "LaunchDescription"

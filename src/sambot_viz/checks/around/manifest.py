@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz import limits
-from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.checks.around.files.fault import Fault
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import line_fix, where

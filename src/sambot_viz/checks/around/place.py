@@ -11,7 +11,7 @@ from sambot_viz.errors import Fix, Place
 
 # A model that is in no package needs no YAML.
 if TYPE_CHECKING:
-    from sambot_viz.checks.around.files.yaml_repair import Fault
+    from sambot_viz.checks.around.files.fault import Fault
 
 
 def where(other: Place | None, here: Place | str | None) -> str:

@@ -1,6 +1,7 @@
 """The rules about a model and the files around it, in the order in which they run.
 
-Those that need only the model are in `in_model.py`.
+Those that need only the model are in `in_model.py`, those about setup.py in
+`in_setup.py`.
 """
 
 from __future__ import annotations
@@ -144,18 +145,6 @@ from sambot_viz.checks.around.parameter_names import (
 )
 from sambot_viz.checks.around.parameter_values import wrong_values
 from sambot_viz.checks.around.read_topics import unknown_topics
-from sambot_viz.checks.around.setup_files import (
-    joined_scripts,
-    missing_data_files,
-    missing_entry_points,
-    missing_marks,
-    programs_elsewhere,
-)
-from sambot_viz.checks.around.setup_words import (
-    malformed_entry_points,
-    misspelt_arguments,
-    texts_for_lists,
-)
 from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.unreadable import (
@@ -191,14 +180,6 @@ OF_BUILD: tuple[Check, ...] = (
     commands_after_the_end,
     folders_as_files,
     setup_name,
-    misspelt_arguments,
-    joined_scripts,
-    texts_for_lists,
-    malformed_entry_points,
-    missing_data_files,
-    missing_marks,
-    missing_entry_points,
-    programs_elsewhere,
     xacro_py,
     project_name,
     missing_folders,

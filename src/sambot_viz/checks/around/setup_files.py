@@ -22,29 +22,26 @@ _SCRIPTS = (("develop", "script_dir"), ("install", "install_scripts"))
 _IN_BASE = "$base/lib/"
 
 
-def missing_data_files(around: Surroundings) -> Iterator[Problem]:
+def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report files and folders in data_files that setup.py cannot copy."""
-    setup = around.setup
-    for entry, node, path in setup.not_files if setup is not None else ():
-        if setup is not None:
-            is_folder = (around.files.folder / path).is_dir()
-            what = "is a folder" if is_folder else "does not exist"
-            yield Problem.at(
-                setup.place(node),
-                "error",
-                "setup-file-missing",
-                f"data_files lists {path}, which {what}: colcon build stops",
-                _of_folder(path, node, setup, around)
-                if is_folder
-                else _instead(path, entry, around),
-            )
+    for entry, node, path in setup.not_files:
+        is_folder = (around.files.folder / path).is_dir()
+        what = "is a folder" if is_folder else "does not exist"
+        yield Problem.at(
+            setup.place(node),
+            "error",
+            "setup-file-missing",
+            f"data_files lists {path}, which {what}: colcon build stops",
+            _of_folder(path, node, setup, around)
+            if is_folder
+            else _instead(path, entry, around),
+        )
 
 
-def missing_marks(around: Surroundings) -> Iterator[Problem]:
+def missing_marks(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report data_files without the mark by which ROS finds the package."""
-    setup, name = around.setup, around.files.name
-    given = setup.given("data_files") if setup is not None else None
-    if setup is None or given is None or not setup.installs_only_known:
+    name, given = around.files.name, setup.given("data_files")
+    if given is None or not setup.installs_only_known:
         return
     installed = {
         f"{entry.target}/{posixpath.basename(path or '')}"
@@ -101,11 +98,10 @@ def _instead(path: str, entry: DataFiles, around: Surroundings) -> str:
     return f"write {near}" if near else f"delete {path} here, or make that file"
 
 
-def joined_scripts(around: Surroundings) -> Iterator[Problem]:
+def joined_scripts(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report two programs of console_scripts that are one text."""
-    setup = around.setup
-    for node, text in setup.scripts.items if setup is not None else ():
-        if setup is not None and text is not None and text.count("=") > 1:
+    for node, text in setup.scripts.items:
+        if text is not None and text.count("=") > 1:
             second = node.end_lineno if node.end_lineno != node.lineno else None
             yield Problem.at(
                 setup.place(node),
@@ -117,10 +113,9 @@ def joined_scripts(around: Surroundings) -> Iterator[Problem]:
             )
 
 
-def missing_entry_points(around: Surroundings) -> Iterator[Problem]:
+def missing_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report programs of console_scripts whose module or function does not exist."""
-    setup = around.setup
-    if setup is None or not setup.certain or setup.given("package_dir") is not None:
+    if not setup.certain or setup.given("package_dir") is not None:
         return
     advised: set[str] = set()
     for program in setup.programs:
@@ -210,10 +205,10 @@ def _no_function(
     )
 
 
-def programs_elsewhere(around: Surroundings) -> Iterator[Problem]:
+def programs_elsewhere(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report a setup.cfg that does not install programs where ros2 run looks."""
-    setup, name = around.setup, around.files.name
-    if setup is None or not setup.programs or around.cmake is not None:
+    name = around.files.name
+    if not setup.programs or around.cmake is not None:
         return
     text = around.files.text("setup.cfg") or ""
     config = configparser.RawConfigParser()

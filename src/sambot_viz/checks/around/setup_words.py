@@ -28,11 +28,10 @@ _NEARLY = re.compile(
 )
 
 
-def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
+def misspelt_arguments(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report arguments of setup, and kinds of entry points, that nothing reads."""
-    setup = around.setup
-    call = setup.call if setup is not None else None
-    if setup is None or call is None:
+    call = setup.call
+    if call is None:
         return
     given = {k.arg for k in call.keywords if k.arg}
     words = [
@@ -54,14 +53,12 @@ def misspelt_arguments(around: Surroundings) -> Iterator[Problem]:
     yield from misspelt(words, _UNREAD)
 
 
-def texts_for_lists(around: Surroundings) -> Iterator[Problem]:
+def texts_for_lists(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report entries of data_files whose files are one text and no list."""
-    setup = around.setup
-    entries = setup.values.items(setup.given("data_files")).items if setup else ()
-    for value, _ in entries:
+    for value, _ in setup.values.items(setup.given("data_files")).items:
         pair = value.items if isinstance(value, Listing) else ()
         text, node = pair[1] if len(pair) == 2 else (None, None)
-        if setup is None or node is None or not isinstance(text, str):
+        if node is None or not isinstance(text, str):
             continue
         yield Problem.at(
             setup.place(node),
@@ -83,12 +80,11 @@ def _listed(node: ast.expr, text: str, setup: SetupFile) -> Fix:
     return rewritten(node, setup.shown, right)
 
 
-def malformed_entry_points(around: Surroundings) -> Iterator[Problem]:
+def malformed_entry_points(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     """Report programs whose text is not NAME = MODULE:FUNCTION, but nearly."""
-    setup = around.setup
-    for node, text in setup.scripts.items if setup is not None else ():
+    for node, text in setup.scripts.items:
         meant = _meant(text, around) if text is not None else None
-        if setup is None or text is None or meant is None:
+        if text is None or meant is None:
             continue
         name, module, function = meant
         right, place = f"{name} = {module}:{function}", setup.place(node)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.gazebo import Plugin, plugins
@@ -17,11 +18,13 @@ from sambot_viz.checks.around.running.bridge_entries import BridgeEntry
 from sambot_viz.checks.around.running.endpoints import entries_of
 from sambot_viz.checks.around.running.simulated import simulated
 from sambot_viz.checks.around.running.system import RunningSystem
-from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
 from sambot_viz.robot.xml.element import Element
+
+if TYPE_CHECKING:
+    from sambot_viz.checks.around.setup_file import SetupFile
 
 _SOURCES = (".py", ".cpp", ".hpp", ".h", ".ino", ".xml", ".lua")
 _MODELS = (".xacro", ".urdf", ".sdf", ".gazebo")

@@ -8,8 +8,6 @@ from collections.abc import Iterator
 import yaml
 
 from sambot_viz.checks.around.files.parameters import YamlFile, pairs
-from sambot_viz.checks.around.files.python_repair import fault_in_python
-from sambot_viz.checks.around.files.yaml_repair import fault_in
 from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
@@ -32,6 +30,9 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
         text = package.text(path) if shown not in read else None
         if text is None or _TEMPLATE.search(text):
             continue
+        # The import is late, as below: most files can be read.
+        from sambot_viz.checks.around.files.yaml_repair import fault_in
+
         fault = fault_in(text)
         if fault is not None:
             place = Place(shown, fault.line)
@@ -118,8 +119,12 @@ def unreadable_python(around: Surroundings) -> Iterator[Problem]:
         paths = [p for p in package.ending("launch.py") if p not in read]
         for path in paths if package.setup is not None else (*paths, "setup.py"):
             text = package.text(path)
-            fault = fault_in_python(text) if text else None
-            if text is not None and fault is not None:
+            if not text:
+                continue
+            from sambot_viz.checks.around.files.python_repair import fault_in_python
+
+            fault = fault_in_python(text)
+            if fault is not None:
                 place = Place(package.shown(path), fault.line)
                 stops = "colcon build" if path == "setup.py" else "ros2 launch"
                 yield Problem.at(

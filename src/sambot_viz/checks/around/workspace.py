@@ -19,15 +19,15 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
 from sambot_viz.checks.around.launch_file import LaunchFile, read_launch
-from sambot_viz.checks.around.setup_file import SetupFile, read_setup
 from sambot_viz.files import is_below, read_limited
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
-from sambot_viz.robot.packages.resolve import FileResolver, inside_package
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
 
 if TYPE_CHECKING:
     from sambot_viz.checks.around.launching.actions import Action
+    from sambot_viz.checks.around.setup_file import SetupFile
+    from sambot_viz.robot.packages.resolve import FileResolver
 
 _SKIPPED = frozenset(
     {"build", "install", "log", "meshes", "node_modules", "test", "tests"}
@@ -242,6 +242,9 @@ class Package:
         text = self.text(name) if name in self.paths else None
         if text is None or len(text) > limits.BUILD_FILE.value:
             return None
+        # The import is late: most packages have none.
+        from sambot_viz.checks.around.setup_file import read_setup
+
         return read_setup(text, self.shown(name), self.folder, trusted=self.trusted)
 
 
@@ -268,13 +271,20 @@ class Workspace:
         read: set[Path] | None = None,
     ) -> None:
         self._index = PackageIndex(start, package_path)
-        self._resolver = FileResolver(self._index, start)
+        self._start = start
         self._given = PackageIndex(None, given)
         self._chosen = {Path(folder).resolve() for folder in given}
         self._made: dict[Path, Package] = {}
         self.relative = relative
         self._trusted = trusted
         self._read = set[Path]() if read is None else read
+
+    @cached_property
+    def _resolver(self) -> FileResolver:
+        # The import is late: few checks look for a file of an unknown package.
+        from sambot_viz.robot.packages.resolve import FileResolver
+
+        return FileResolver(self._index, self._start)
 
     def at(self, folder: Path) -> Package | None:
         """Return the package in a folder; None for other folders."""
@@ -323,6 +333,8 @@ class Workspace:
             return None if found.doubt in ("path-only", "letter-case") else found.path
         if (package.folder / below).is_file():
             return package.folder / below
+        from sambot_viz.robot.packages.resolve import inside_package
+
         return inside_package(package.folder, PurePosixPath(below), ())
 
     def shown(self, path: Path) -> str:

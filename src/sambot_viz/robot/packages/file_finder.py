@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 
 from sambot_viz.edits import write_path
 from sambot_viz.errors import Fix, Problem
@@ -17,9 +18,11 @@ from sambot_viz.robot.packages.package_index import (
     package_name,
     places_of,
 )
-from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 from sambot_viz.robot.slips.vocabulary import is_one_slip, meant
 from sambot_viz.robot.xml.element import Element
+
+if TYPE_CHECKING:
+    from sambot_viz.robot.packages.resolve import FileResolver, Resolution
 
 _DOUBTS = {
     "letter-case": (
@@ -107,6 +110,9 @@ class FileFinder:
 
     @cached_property
     def _resolver(self) -> FileResolver:
+        # The import is late: most robots have no meshes.
+        from sambot_viz.robot.packages.resolve import FileResolver
+
         return FileResolver(PackageIndex(*self._where), self._where[0])
 
     def mesh(self, filename: str, element: Element) -> Path | None:
@@ -122,7 +128,7 @@ class FileFinder:
             return None
         found = self._resolver.resolve(filename)
         if self._is_outside(found):
-            found = Resolution(None, (_OUTSIDE,))
+            found = type(found)(None, (_OUTSIDE,))
         if filename in self._seen:
             return found.path
         self._seen.add(filename)

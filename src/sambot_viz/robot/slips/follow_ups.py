@@ -35,8 +35,6 @@ def report_slips(
         findings: what was found in it, which changes.
         read: finds the problems of a corrected document.
     """
-    if not slips:
-        return
     copies = _copied(document)
     corrected = copies[id(document)]
     before = first = _reading(corrected, read, frozenset())

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.checks.around.files.fault import Fault
 from sambot_viz.errors import Place, nearest
 
 _TOKEN = re.compile(

@@ -6,7 +6,7 @@ import ast
 import re
 import warnings
 
-from sambot_viz.checks.around.files.yaml_repair import Fault
+from sambot_viz.checks.around.files.fault import Fault
 
 _CERTAIN = re.compile(
     "forgot a comma|was never closed|unmatched|does not match|unterminated|"

@@ -12,6 +12,7 @@ from yaml.parser import ParserError
 from yaml.scanner import ScannerError
 
 from sambot_viz import limits
+from sambot_viz.checks.around.files.fault import Fault
 
 _YAML: Any = yaml
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -22,22 +23,6 @@ _KEY = re.compile(r"\s*[\w.]+:(\s|$)")
 _BEFORE = 3
 _TWICE = ("local_costmap:", "global_costmap:")
 """The node of a costmap has the name of its namespace."""
-
-
-class Fault(NamedTuple):
-    """What is wrong in a text.
-
-    Attributes:
-        line: its line, from 1.
-        cause: what is wrong there.
-        hint: what to write.
-        better: the line as it should be, where one line is all that changes.
-    """
-
-    line: int
-    cause: str
-    hint: str
-    better: str | None = None
 
 
 def fault_in(text: str) -> Fault | None:

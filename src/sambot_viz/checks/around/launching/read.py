@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
 from sambot_viz.checks.around.launching.actions import Action
-from sambot_viz.checks.around.launching.frontend_reader import (
-    element_of,
-    read_frontend,
-)
 from sambot_viz.checks.around.launching.python_calls import CALLS
 from sambot_viz.checks.around.launching.python_reader import PythonReader
 from sambot_viz.checks.launch_files import parse_python
@@ -30,7 +26,12 @@ def read_actions(
         tree = parse_python(text)
         return None if tree is None else PythonReader(tree, shown, CALLS).read()
     root = read_root(text, path, shown, read)
-    return None if root is None else read_frontend(root)
+    if root is None:
+        return None
+    # The import is late, as below: most launch files are in Python.
+    from sambot_viz.checks.around.launching.frontend_reader import read_frontend
+
+    return read_frontend(root)
 
 
 def read_root(
@@ -45,6 +46,8 @@ def read_root(
         read: as for `read_actions`.
     """
     if path.endswith((".yaml", ".yml")):
+        from sambot_viz.checks.around.launching.frontend_reader import element_of
+
         file = read or read_yaml(text, path, shown)
         return None if file is None else element_of(file)
     try:

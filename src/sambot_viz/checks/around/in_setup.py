@@ -1,0 +1,36 @@
+"""The rules about setup.py, in the order in which they run.
+
+They are a table of their own because most packages have no setup.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from sambot_viz.checks.around.setup_file import SetupFile
+from sambot_viz.checks.around.setup_files import (
+    joined_scripts,
+    missing_data_files,
+    missing_entry_points,
+    missing_marks,
+    programs_elsewhere,
+)
+from sambot_viz.checks.around.setup_words import (
+    malformed_entry_points,
+    misspelt_arguments,
+    texts_for_lists,
+)
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.errors import Problem
+
+IN_SETUP: tuple[Callable[[SetupFile, Surroundings], Iterable[Problem]], ...] = (
+    misspelt_arguments,
+    joined_scripts,
+    texts_for_lists,
+    malformed_entry_points,
+    missing_data_files,
+    missing_marks,
+    missing_entry_points,
+    programs_elsewhere,
+)
+"""The rules; they know only what builds packages of ROS 2."""
