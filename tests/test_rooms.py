@@ -231,7 +231,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/dds/ends.py": "asyncio",
     "sources/dds/participant.py": "threading",
     "sources/dds/services.py": "asyncio",
-    "sources/zenoh/session.py": "asyncio",
+    "sources/zenoh/readings.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process

@@ -1,17 +1,14 @@
 """A session of zenoh: the one place that knows its Python package.
 
-zenoh calls back in threads of its own, and all is handed to the loop. Messages wait a
-moment for others: to wake the loop for each of a thousand in a second costs more than
-they do.
+zenoh calls back in threads of its own, and all is handed to the loop; messages wait
+until that takes them.
 """
 
 from __future__ import annotations
 
-import asyncio
 import json
 import os
 import time
-from collections import deque
 from collections.abc import Callable
 from functools import partial
 from itertools import count
@@ -22,16 +19,18 @@ from sambot_viz.errors import SourceError
 from sambot_viz.sources.live.address import Address
 from sambot_viz.sources.ros_graph import RosEndpoint
 from sambot_viz.sources.zenoh.names import attachment, endpoint_token
+from sambot_viz.sources.zenoh.readings import (
+    OnSample,
+    ZenohReadings,
+    content_of,
+    waiting_room,
+)
 
 LONGEST_OPENING = 10.0
 """A router that has not answered by then is given up [s]."""
-_TOGETHER = 0.008
-"""Messages that come within this time are handed on together [s]."""
 _CERTIFICATES = "SSL_CERT_FILE"
 
 Post = Callable[[Callable[[], object]], object]
-OnSample = Callable[[str, bytes, bytes], object]
-"""Called with the key, the payload and what is attached."""
 
 
 class ZenohDeclaration(Protocol):
@@ -60,8 +59,7 @@ class ZenohSession:
 
         self._session = session
         self._post = post
-        self._waiting: deque[Callable[[], object]] = deque()
-        self._is_planned = False
+        self._readings = ZenohReadings()
         self._numbers = count(1)
         self.name = str(session.zid())
         found = [*session.info.routers_zid(), *session.info.peers_zid()]
@@ -76,6 +74,7 @@ class ZenohSession:
 
     def close(self) -> None:
         """End it."""
+        self._readings.clear()
         self._session.close()
 
     @property
@@ -119,25 +118,19 @@ class ZenohSession:
             take: gets the messages.
             on_large: gets the size of those that are too large [bytes].
         """
+        if is_latched:
+            import zenoh.ext
 
-        def came(sample: Any) -> None:
-            size = len(sample.payload)
-            if size > limits.MESSAGE.value:
-                self._post(lambda: on_large(size))
-                return
-            self._together(partial(take, *_content(sample)))
-
-        if not is_latched:
-            return self._session.declare_subscriber(key, _at_once(came))
-        import zenoh.ext
-
-        extensions: Any = zenoh.ext
-        history = extensions.HistoryConfig(
-            detect_late_publishers=True, max_samples=limits.LATCHED_KEPT.value
-        )
-        return extensions.declare_advanced_subscriber(
-            self._session, key, _at_once(came), history=history
-        )
+            extensions: Any = zenoh.ext
+            history = extensions.HistoryConfig(
+                detect_late_publishers=True, max_samples=limits.LATCHED_KEPT.value
+            )
+            subscriber = extensions.declare_advanced_subscriber(
+                self._session, key, waiting_room(), history=history
+            )
+        else:
+            subscriber = self._session.declare_subscriber(key, waiting_room())
+        return self._readings.add(subscriber, take, on_large)
 
     def ask_kept(self, key: str, take: OnSample) -> None:
         """Ask the caches of older publishers for what they keep."""
@@ -145,7 +138,7 @@ class ZenohSession:
 
         def answered(reply: Any) -> None:
             if reply.ok is not None and len(reply.ok.payload) <= limits.MESSAGE.value:
-                self._together(partial(take, *_content(reply.ok)))
+                self._post(partial(take, *content_of(reply.ok)))
 
         self._session.get(
             f"*/{key}",
@@ -191,22 +184,6 @@ class ZenohSession:
             payload=request,
             attachment=attachment(number, time.time_ns(), os.urandom(16)),
         )
-
-    def _together(self, action: Callable[[], object]) -> None:
-        """Have something done soon, with what else comes until then."""
-        self._waiting.append(action)
-        if not self._is_planned:
-            self._is_planned = True
-            self._post(self._plan)
-
-    def _plan(self) -> None:
-        asyncio.get_running_loop().call_later(_TOGETHER, self._do_waiting)
-
-    def _do_waiting(self) -> None:
-        # First: what is added from now on is planned again.
-        self._is_planned = False
-        while self._waiting:
-            self._waiting.popleft()()
 
     def publisher(self, key: str) -> ZenohPublisher:
         """Begin to publish on a key."""
@@ -281,15 +258,6 @@ def _refused(address: Address) -> str:
     return (
         f"{place} does not speak zenoh: is {address.port} the port of rmw_zenohd? If "
         f"it speaks TLS, --source {address.with_tls(True)}"
-    )
-
-
-def _content(sample: Any) -> tuple[str, bytes, bytes]:
-    attached = sample.attachment
-    return (
-        str(sample.key_expr),
-        bytes(sample.payload),
-        b"" if attached is None else bytes(attached),
     )
 
 
