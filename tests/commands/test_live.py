@@ -12,6 +12,7 @@ from itertools import count
 from pathlib import Path
 
 import pytest
+from dds_peer import DdsPeer
 from live_peers import WAIT, FoxglovePeer, free_port
 from patience import patience, until
 from program import address, serving
@@ -52,6 +53,23 @@ def test_topics_lists_what_came_and_what_did_not(
     silent = rows["/chatter"]
     assert (silent["count"], silent["rate"], silent["code"]) == (0, None, "no-message")
     assert "--for" in silent["reason"]
+
+
+def test_topics_names_the_nodes_and_who_of_them_gets_nothing(capsys: Capture) -> None:
+    robot = DdsPeer()
+    robot.advertise("/words", is_loose=True, node="/lab/talker")
+    robot.listen_as("/words", "/lab/logger")
+    robot.listen_as("/goal", "/lab/planner")
+    try:
+        assert main(["topics", "--source", robot.uri, *FOR]) == 0
+        lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+        assert "publishes   /lab/talker (Best Effort, Volatile)" in lines
+        [deaf] = [line for line in lines if line.startswith("subscribes  /lab/logger")]
+        assert "gets nothing from /lab/talker, which offers Best Effort" in deaf
+        [wanted] = [line for line in lines if line.startswith("/goal")]
+        assert "awaited: nobody publishes it, /lab/planner waits for it" in wanted
+    finally:
+        robot.stop()
 
 
 def test_echo_and_frames_look_at_the_last_that_came(

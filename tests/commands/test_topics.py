@@ -9,7 +9,11 @@ from shutil import copy
 import pytest
 
 from sambot_viz.cli import main
-from sambot_viz.commands.topics import topics_text
+from sambot_viz.commands.topics import topic_json, topics_text
+from sambot_viz.messages import Schema
+from sambot_viz.sources.message import SourceTopic
+from sambot_viz.sources.qos import Qos
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint, TopicEndpoints
 from sambot_viz.topics.account import Account
 from sambot_viz.topics.reasons import TopicReason
 
@@ -49,6 +53,7 @@ def test_json_has_the_same_with_full_names(square: str, capsys: Capture) -> None
         "readable": True,
         "reason": None,
         "code": None,
+        "nodes": None,
     }
     assert rows["/scan"]["code"] is None
 
@@ -165,3 +170,18 @@ def test_a_remedy_is_never_cut_off() -> None:
     words = "0 0 0 0 0 0 map " + "warehouse_robot_number_seven/" * 20
     reason = TopicReason("no-transform", f'add it: --static-transform "{words}"')
     assert words in topics_text([Account("/a", "", 1, None, True, reason)])
+
+
+def test_json_has_the_nodes_of_a_topic_of_a_robot() -> None:
+    offered = RosEndpoint(
+        Kind.PUBLISHER, "/lidar", "/scan", "a/msg/B", "", Qos("best_effort")
+    )
+    ends = TopicEndpoints((offered,), ())
+    topic = SourceTopic("/scan", Schema("a/msg/B"), "cdr", endpoints=ends)
+    row = Account("/scan", "a/msg/B", 3, 10.0, True, None)
+    lidar = {"node": "/lidar", "publishes": True, "qos": "Best Effort", "trouble": ""}
+    assert topic_json(row, {"/scan": topic})["nodes"] == [lidar]
+    assert topics_text([row], {"/scan": topic}).splitlines()[1:] == [
+        "/scan  a/msg/B      3  10.0",
+        "    publishes   /lidar (Best Effort)",
+    ]

@@ -22,7 +22,8 @@ from sambot_viz.messages import MessageTypes
 from sambot_viz.sources import registry
 from sambot_viz.sources.dds import names, raw
 from sambot_viz.sources.dds.trouble import nothing
-from sambot_viz.sources.ros_graph import NO_HASH, Kind
+from sambot_viz.sources.ros_endpoint import Kind
+from sambot_viz.sources.ros_graph import NO_HASH
 from sambot_viz.sources.source import Source
 
 Open = Callable[[str], Source]

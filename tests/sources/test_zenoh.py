@@ -22,7 +22,8 @@ from sambot_viz.errors import DecodeError, UsageError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources import registry
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import NO_HASH, Kind
+from sambot_viz.sources.ros_endpoint import Kind
+from sambot_viz.sources.ros_graph import NO_HASH
 from sambot_viz.sources.source import Receivers, Source
 from sambot_viz.sources.zenoh.names import parse_token, stamp_of
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from sambot_viz.messages import Schema
@@ -20,6 +22,13 @@ def test_a_topic_that_nobody_publishes_says_so(publishers: int | tuple[()]) -> N
     reason = reasons.unreceived(topic(publishers))
     assert reason is not None and reason.code == "no-publisher"
     assert "ros2 topic info /scan" in reason.text
+
+
+def test_a_topic_that_a_node_waits_for_names_it() -> None:
+    wanted = replace(topic(()), subscribers=("/costmap", "/amcl"))
+    reason = reasons.unreceived(wanted)
+    assert reason is not None and reason.code == "awaited"
+    assert "/costmap, /amcl wait for it" in reason.text
 
 
 @pytest.mark.parametrize("publishers", [None, 1, ("/laser",)])

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os.path
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
+from dataclasses import asdict
 from operator import attrgetter
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from sambot_viz.commands.command_line import Parser, parse
@@ -16,9 +18,11 @@ from sambot_viz.moved_by import open_moved_by, refuse_mixture, refuse_time_of_li
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_json, write_lines
 from sambot_viz.problems import write_problems
+from sambot_viz.sources.message import SourceTopic
 from sambot_viz.text import text
 from sambot_viz.topics import reasons
 from sambot_viz.topics.account import Account
+from sambot_viz.topics.ends import ends_of
 from sambot_viz.topics.report import TopicReport
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
@@ -27,6 +31,7 @@ from sambot_viz.topics.transforms import problems_of_transforms
 if TYPE_CHECKING:
     from sambot_viz.listened import Listened
 
+_NONE: Mapping[str, SourceTopic] = MappingProxyType({})
 _HEAD = ("TOPIC", "TYPE", "COUNT", "RATE", "REASON")
 _WIDEST = 60
 _SENTENCE = 2000
@@ -36,7 +41,7 @@ _SENTENCE = 2000
 def run(words: list[str]) -> int:
     """Print the topics of recordings or of a live robot; 1 when errors were found."""
     given, options = parse(parser(), words)
-    statuses, found = _looked_at(options, given.listen)
+    statuses, found, topics = _looked_at(options, given.listen)
     if options.model is not None:
         found = [p for p in found if p.code != "no-description"]
     # That it has no messages says it all.
@@ -44,14 +49,16 @@ def run(words: list[str]) -> int:
         found = [p for p in found if p.severity == "error"]
     write_problems(found, most=None)
     if given.format == "json":
-        write_json({"topics": [topic_json(row) for row in statuses]})
+        write_json({"topics": [topic_json(row, topics) for row in statuses]})
     else:
-        write_lines(f"{topics_text(statuses)}\n")
+        write_lines(f"{topics_text(statuses, topics)}\n")
     return int(any(problem.severity == "error" for problem in found))
 
 
-def _looked_at(options: Options, seconds: float) -> tuple[list[Account], list[Problem]]:
-    """Return what is to be said of each topic, and what is wrong with all of it."""
+def _looked_at(
+    options: Options, seconds: float
+) -> tuple[list[Account], list[Problem], Mapping[str, SourceTopic]]:
+    """Return what is to be said of each topic, what is wrong, and a robot's topics."""
     refuse_time_of_live(options)
     refuse_mixture(options)
     moved_by = open_moved_by(options)
@@ -62,11 +69,11 @@ def _looked_at(options: Options, seconds: float) -> tuple[list[Account], list[Pr
         from sambot_viz.listened import Listened
 
         with closing(Listened(moved_by, seconds, None)) as listened:
-            return _of_live(listened)
+            return *_of_live(listened), listened.topics
     with closing(moved_by):
         if not any(one.name for one in moved_by.given):
             _say_together(moved_by.recording.paths)
-        return _of_recording(moved_by, moved_by.at_ns)
+        return *_of_recording(moved_by, moved_by.at_ns), _NONE
 
 
 def _say_together(paths: Sequence[Path]) -> None:
@@ -140,9 +147,9 @@ def parser() -> Parser:
     return made
 
 
-def topic_json(row: Account) -> dict[str, Any]:
-    """Return the fields of ``topics --format json``."""
-    reason = row.reason
+def topic_json(row: Account, topics: Mapping[str, SourceTopic]) -> dict[str, Any]:
+    """Return the fields of ``topics --format json``; `topics` are those of a robot."""
+    reason, topic = row.reason, topics.get(row.name)
     return {
         "name": row.name,
         "type": row.type_name,
@@ -151,14 +158,33 @@ def topic_json(row: Account) -> dict[str, Any]:
         "readable": row.readable,
         "reason": None if reason is None else reason.text,
         "code": None if reason is None else reason.code,
+        "nodes": None if topic is None else [asdict(one) for one in ends_of(topic)],
     }
 
 
-def topics_text(rows: Iterable[Account]) -> str:
-    """Return a table, without a line break at the end."""
-    cells = [_HEAD, *(_cells(row) for row in rows)]
-    widths = [max(len(line[column]) for line in cells) for column in range(4)]
-    return "\n".join(_line(line, widths) for line in cells)
+def topics_text(
+    rows: Iterable[Account], topics: Mapping[str, SourceTopic] = _NONE
+) -> str:
+    """Return a table, without a line break at the end.
+
+    Args:
+        rows: its topics.
+        topics: those of a robot; the nodes of each stand below it.
+    """
+    rows = [*rows]
+    cells = [_cells(row) for row in rows]
+    widths = [max(map(len, column)) for column in zip(_HEAD, *cells, strict=True)][:4]
+    lines = [_line(_HEAD, widths)]
+    for row, of_row in zip(rows, cells, strict=True):
+        lines.append(_line(of_row, widths))
+        if row.name in topics:
+            lines += _of_nodes(topics[row.name])
+    return "\n".join(lines)
+
+
+def _of_nodes(topic: SourceTopic) -> Iterable[str]:
+    for one in ends_of(topic):
+        yield f"    {'publishes' if one.publishes else 'subscribes':<10}  {one}"
 
 
 def _cells(row: Account) -> tuple[str, str, str, str, str]:

@@ -6,10 +6,14 @@ Nothing is decoded here: `messages/` does that, and only for messages that are s
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.messages import Schema
 from sambot_viz.sources.qos import Qos
+
+if TYPE_CHECKING:
+    from sambot_viz.sources.ros_endpoint import TopicEndpoints
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,6 +53,7 @@ class SourceTopic:
             a recording they hold at any time, see `bag/latched.py`.
         publishers: their names, how many they are, or None when that is not said.
         subscribers: names of the nodes that read it; None when that is not said.
+        endpoints: both with their QoS; None when that is not said of each.
         reason: why it cannot be read, with the remedy; None if it may be read.
         count: how many messages a recording has that can be read; None while that is
             not known, and of a live robot.
@@ -64,6 +69,7 @@ class SourceTopic:
     is_latched: bool = False
     publishers: tuple[str, ...] | int | None = None
     subscribers: tuple[str, ...] | None = None
+    endpoints: TopicEndpoints | None = None
     reason: str | None = None
     count: int | None = None
     left_out: str = ""

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from enum import Enum
 
 from sambot_viz import limits
 from sambot_viz.sources.qos import Qos, parse_qos, profile_text
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint, TopicEndpoints
 from sambot_viz.sources.source import Receivers
 
 _MANGLED = re.compile(r"(\w+)::(msg|srv|action)::dds_::(\w+?)_", re.ASCII)
@@ -23,39 +22,15 @@ NO_HASH = "TypeHashNotSupported"
 """What ROS 2 Humble has where later ones have the hash of a type."""
 
 
-class Kind(Enum):
-    """What an endpoint does."""
+class RosGraph:
+    """The endpoints of a robot by the key with which they come and go.
 
-    PUBLISHER = "publisher"
-    SUBSCRIBER = "subscriber"
-    SERVICE = "service"
-
-
-@dataclass(frozen=True, slots=True)
-class RosEndpoint:
-    """A publisher, a subscriber or a service of a node.
-
-    Attributes:
-        kind: which of them.
-        node: its full name; "" where it is not known.
-        name: of the topic or the service.
-        type_name: as ROS 2 writes it, such as sensor_msgs/msg/LaserScan.
-        type_hash: of the definition, such as RIHS01_…; "" where it is not known.
-        qos: what it offers or asks for.
+    Args:
+        matches_qos: as `TopicEndpoints.matches_qos`.
     """
 
-    kind: Kind
-    node: str
-    name: str
-    type_name: str
-    type_hash: str = ""
-    qos: Qos | None = None
-
-
-class RosGraph:
-    """The endpoints of a robot by the key with which they come and go."""
-
-    def __init__(self) -> None:
+    def __init__(self, matches_qos: bool) -> None:
+        self._matches_qos = matches_qos
         self._endpoints: dict[str, RosEndpoint] = {}
         self._named: dict[tuple[Kind, str], dict[str, RosEndpoint]] = {}
 
@@ -85,9 +60,16 @@ class RosGraph:
         """Whether names are left out."""
         return len(self._named) >= limits.TOPICS.value
 
-    def published(self) -> Iterator[str]:
-        """Yield the topics that are published."""
-        return (name for kind, name in self._named if kind is Kind.PUBLISHER)
+    def topics(self) -> Iterator[str]:
+        """Yield the topics that are published, then those that only are wanted."""
+        published = [name for kind, name in self._named if kind is Kind.PUBLISHER]
+        yield from published
+        others = dict.fromkeys(
+            name for kind, name in self._named if kind is Kind.SUBSCRIBER
+        )
+        for name in published:
+            others.pop(name, None)
+        yield from (name for name in others if self.takers(name))
 
     def of(self, kind: Kind, name: str) -> tuple[RosEndpoint, ...]:
         """Return the endpoints of a kind with a name, the first one first."""
@@ -99,6 +81,11 @@ class RosGraph:
         Others that show the robot by this program take nothing.
         """
         return [one for one in self.of(Kind.SUBSCRIBER, topic) if one.node != NODE]
+
+    def endpoints(self, topic: str) -> TopicEndpoints:
+        """Return who publishes a topic and who subscribes to it."""
+        publishers = self.of(Kind.PUBLISHER, topic)
+        return TopicEndpoints(publishers, (*self.takers(topic),), self._matches_qos)
 
     def receivers(self, topic: str) -> Receivers:
         """Return who has subscribed to a topic, and the type that the robot knows."""

@@ -89,7 +89,7 @@ class LiveEvidence:
         is_whole = live is None or live.status.is_whole
         if found is None and own is not None and own.last is None and is_whole:
             waited = self._now() - own.since
-            return reasons.no_message_yet(name) if waited > SILENT_AFTER else None
+            return reasons.no_message_yet(topic) if waited > SILENT_AFTER else None
         return found
 
     def of_robot(self, name: str) -> TopicReason | None:

@@ -13,11 +13,13 @@ from sambot_viz.errors import Severity, did_you_mean, nearest
 from sambot_viz.meanings import Meaning, meaning_of
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.qos import Qos
+from sambot_viz.text import text
 from sambot_viz.topics.robot_topics import describes_robot
 
 SEVERITIES: Mapping[str, Severity] = {
     "no-such-topic": "warning",
     "no-publisher": "warning",
+    "awaited": "info",
     "no-message": "warning",
     "not-connected": "info",
     "not-listened": "info",
@@ -56,6 +58,7 @@ QOS_WORDS = {
 STALE, PERIODS = 5.0, 3
 """A topic that was silent for so long [s], and so many of its periods, is stale."""
 _FIELDS = 6
+_NAMES = 3
 _LOOK = "look at what publishes it"
 
 
@@ -152,15 +155,17 @@ def wrong_type(wanted: str, type_name: str) -> TopicReason:
     return TopicReason("wrong-type", text)
 
 
-def qos_mismatch(offered: Qos | None, wanted: Qos) -> TopicReason | None:
-    """Say that publishers offer less than a display wants, so that nothing comes.
+def weaker_policy(offered: Qos, wanted: Qos) -> tuple[str, str, str] | None:
+    """Return the policy of which publishers offer less than is wanted.
 
     Args:
-        offered: by all publishers together, None when it is not known.
-        wanted: by the display; what is empty adapts, as System Default does.
+        offered: by all publishers together.
+        wanted: what is empty takes all.
+
+    Returns:
+        Its name, what is offered, and what is wanted, in RViz's words; None where all
+        of them suit.
     """
-    if offered is None:
-        return None
     pairs = (
         ("Reliability", "best_effort", "reliable"),
         ("Durability", "volatile", "transient_local"),
@@ -168,13 +173,26 @@ def qos_mismatch(offered: Qos | None, wanted: Qos) -> TopicReason | None:
     for policy, weak, strong in pairs:
         field = policy.lower()
         if (getattr(offered, field), getattr(wanted, field)) == (weak, strong):
-            return TopicReason(
-                "qos",
-                f"a publisher offers {QOS_WORDS[weak]}, the display wants "
-                f"{QOS_WORDS[strong]}: set its {policy} Policy to {QOS_WORDS[weak]} or "
-                "System Default",
-            )
+            return policy, QOS_WORDS[weak], QOS_WORDS[strong]
     return None
+
+
+def qos_mismatch(offered: Qos | None, wanted: Qos) -> TopicReason | None:
+    """Say that publishers offer less than a display wants, so that nothing comes.
+
+    Args:
+        offered: by all publishers together, None when it is not known.
+        wanted: by the display; what is empty adapts, as System Default does.
+    """
+    found = None if offered is None else weaker_policy(offered, wanted)
+    if found is None:
+        return None
+    policy, weak, strong = found
+    return TopicReason(
+        "qos",
+        f"a publisher offers {weak}, the display wants {strong}: set its {policy} "
+        f"Policy to {weak} or System Default",
+    )
 
 
 def transforms_qos(offered: Qos | None, *, is_static: bool) -> TopicReason | None:
@@ -217,18 +235,27 @@ def unreceived(topic: SourceTopic) -> TopicReason | None:
         )
     if topic.publishers is None or topic.publishers:
         return None
+    if topic.subscribers:
+        names = ", ".join(topic.subscribers[:_NAMES])
+        waits = "wait for it" if len(topic.subscribers) > 1 else "waits for it"
+        return TopicReason(
+            "awaited",
+            f"nobody publishes it, {text(names, 200)} {waits}: start the node that "
+            f"should, or see whether one has it under another name (ros2 topic list)",
+        )
     return TopicReason(
         "no-publisher",
         f"nobody publishes it: start the node that should (ros2 topic info {name})",
     )
 
 
-def no_message_yet(name: str) -> TopicReason:
+def no_message_yet(topic: SourceTopic) -> TopicReason:
     """Say that a topic has a publisher, and nothing has come."""
+    name, silent = topic.name, "whatever publishes it is silent"
+    if topic.endpoints is None:
+        silent += ", or offers a QoS that the bridge does not ask for"
     return TopicReason(
-        "no-message",
-        "nothing has come yet: whatever publishes it is silent, or offers a QoS that "
-        f"the bridge does not ask for (ros2 topic info -v {name})",
+        "no-message", f"nothing has come yet: {silent} (ros2 topic info -v {name})"
     )
 
 

@@ -20,6 +20,9 @@ from sambot_viz.topics.survey import Survey
 SOON_NS = 1_000_000_000
 """What begins so soon after a recording was there when it began [ns]."""
 
+AT_ONCE_NS = 1_000_000
+"""Messages between which there is no more time come at once [ns]."""
+
 
 class TopicReport:
     """Knows each topic of a recording (see `Evidence`).
@@ -87,7 +90,8 @@ class TopicReport:
         """Return how often messages of a topic come, between its first and last [Hz].
 
         Latched messages come when somebody asks for them: they have none. As long as
-        its last message was not met, the end of the recording counts.
+        its last message was not met, the end of the recording counts. What has come at
+        once was kept by its publisher.
         """
         count, looked = self._topics[name].count, self.survey.of(name)
         first, last = looked.first_ns, looked.last_ns
@@ -95,7 +99,7 @@ class TopicReport:
             last = self._recording.end_ns or 0
         if self._topics[name].is_latched:
             return None
-        if first is None or not count or count < 2 or last <= first:
+        if first is None or not count or count < 2 or last <= first + AT_ONCE_NS:
             return None
         return (count - 1) / ((last - first) * 1e-9)
 

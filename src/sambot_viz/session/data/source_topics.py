@@ -14,6 +14,7 @@ from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.topics import reasons
 from sambot_viz.topics.account import Account, DrawingOf, account_of, unheard
+from sambot_viz.topics.ends import ends_of
 from sambot_viz.topics.heard import Heard
 from sambot_viz.topics.live_evidence import LiveEvidence, is_large
 from sambot_viz.topics.reasons import TopicReason
@@ -222,13 +223,15 @@ class SourceTopics:
         return None if heard is None or live is None else heard.age(live.clock_ns())
 
     def facts(self, name: str) -> Mapping[str, str]:
-        """Return what else is known of a topic: who publishes it, and how."""
+        """Return what else is known of a topic: who has it, and how."""
         topic, told = self._known[name], dict[str, str]()
+        ends = [*ends_of(topic)]
         if topic.publishers is not None:
-            names = topic.publishers
-            told["Publishers"] = (
-                str(names) if isinstance(names, int) else ", ".join(names) or "none"
-            )
+            named = [str(one) for one in ends if one.publishes]
+            count = topic.publishers if isinstance(topic.publishers, int) else 0
+            told["Publishers"] = "; ".join(named) or str(count or "none")
+        if named := [str(one) for one in ends if not one.publishes]:
+            told["Subscribers"] = "; ".join(named)
         if topic.qos is not None and (words := reasons.qos_words(topic.qos)):
             told["QoS"] = words
         return told

@@ -19,7 +19,8 @@ from sambot_viz.sources.live.conversation import Ends
 from sambot_viz.sources.live.graph_conversation import GraphConversation
 from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import NO_HASH, UNNAMED, RosEndpoint, mangled
+from sambot_viz.sources.ros_endpoint import RosEndpoint
+from sambot_viz.sources.ros_graph import NO_HASH, UNNAMED, mangled
 
 _PREFIX = 12
 """The first bytes of the id of an endpoint are those of its participant."""
@@ -35,6 +36,7 @@ class DdsConversation(GraphConversation):
     """
 
     protocol = "DDS"
+    matches_qos = True
 
     def __init__(
         self, participant: DdsParticipant, peers: dict[bytes, DdsPeer], ends: Ends

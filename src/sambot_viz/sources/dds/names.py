@@ -11,7 +11,8 @@ import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sambot_viz.sources.ros_graph import NO_HASH, Kind, demangled, mangled
+from sambot_viz.sources.ros_endpoint import Kind
+from sambot_viz.sources.ros_graph import NO_HASH, demangled, mangled
 
 DISCOVERY = "ros_discovery_info"
 DISCOVERY_TYPE = mangled("rmw_dds_common/msg/ParticipantEntitiesInfo")

@@ -18,7 +18,8 @@ from sambot_viz.sources.dds.participant import DdsParticipant
 from sambot_viz.sources.dds.raw import unfilled
 from sambot_viz.sources.live.service_calls import LONGEST_ANSWER
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import RosEndpoint, mangled
+from sambot_viz.sources.ros_endpoint import RosEndpoint
+from sambot_viz.sources.ros_graph import mangled
 from sambot_viz.text import text
 
 _HEAD = 4

@@ -18,7 +18,8 @@ from sambot_viz.sources.live.graph_subscriptions import (
 )
 from sambot_viz.sources.live.type_descriptions import TypeDescriptions
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import RosEndpoint, RosGraph, mangled
+from sambot_viz.sources.ros_endpoint import RosEndpoint
+from sambot_viz.sources.ros_graph import RosGraph, mangled
 
 
 class DdsSubscriptions(GraphSubscriptions):

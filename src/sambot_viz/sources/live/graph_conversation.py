@@ -21,7 +21,8 @@ from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.live.service_calls import ServiceCalls
 from sambot_viz.sources.live.type_descriptions import TypeDescriptions
 from sambot_viz.sources.message import SourceTopic, is_latched_name
-from sambot_viz.sources.ros_graph import NO_HASH, Kind, RosEndpoint, RosGraph
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint, nodes_of
+from sambot_viz.sources.ros_graph import NO_HASH, RosGraph
 from sambot_viz.sources.source import Capability, Encoding, OutgoingAction, Source
 from sambot_viz.text import text
 
@@ -59,13 +60,15 @@ class GraphConversation(Conversation):
     publishes: Encoding = "cdr"
     protocol: str
     """What hands out no files."""
+    matches_qos: bool
+    """As `TopicEndpoints.matches_qos`."""
 
     def __init__(self, ends: Ends) -> None:
         super().__init__(ends)
         self.calls = ServiceCalls(self._call, self.publishes)
         self._types = TypeDescriptions(self.calls)
         self._domain = ends.address.domain
-        self._graph = RosGraph()
+        self._graph = RosGraph(self.matches_qos)
         self._ids = count(1)
         self._published: dict[int, _Published] = {}
         self._ticks = 0
@@ -163,18 +166,20 @@ class GraphConversation(Conversation):
         return notes
 
     def topics(self) -> dict[str, SourceTopic]:
-        """Return the topics that nodes publish."""
+        """Return the topics that nodes publish, or wait for."""
         found: dict[str, SourceTopic] = {}
-        for name in self._graph.published():
-            publishers = self._graph.of(Kind.PUBLISHER, name)
-            first = publishers[0]
+        for name in self._graph.topics():
+            ends = self._graph.endpoints(name)
+            first = (*ends.publishers, *ends.subscribers)[0]
             found[name] = SourceTopic(
                 name,
                 self._types.schema(first.type_name, first.type_hash),
                 "cdr",
                 qos=self._graph.offered(name),
                 is_latched=is_latched_name(name),
-                publishers=tuple(one.node for one in publishers if one.node),
+                publishers=nodes_of(ends.publishers) or len(ends.publishers),
+                subscribers=nodes_of(ends.subscribers),
+                endpoints=ends,
                 left_out=self.left_out(name),
             )
         return found
@@ -191,11 +196,11 @@ class GraphConversation(Conversation):
                 self._begin(outgoing)
             else:
                 outgoing.refused = self._unheard(outgoing)
-        if endpoint.kind is Kind.PUBLISHER:
+        if endpoint.kind is Kind.SERVICE:
+            self._subscriptions.follow(endpoint)
+        else:
             # `update` follows when somebody has been told of them.
             self.topics_changed = True
-        elif endpoint.kind is Kind.SERVICE:
-            self._subscriptions.follow(endpoint)
 
     def _begin(self, outgoing: OutgoingTopic) -> None:
         """Publish a topic with the definition that its receivers have."""

@@ -16,7 +16,8 @@ from sambot_viz.sources.live.conversation import Conversation
 from sambot_viz.sources.live.type_descriptions import TypeDescriptions, service_of
 from sambot_viz.sources.message import Recorded, TopicChannel, is_latched_name
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import Kind, RosEndpoint, RosGraph
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint
+from sambot_viz.sources.ros_graph import RosGraph
 
 
 class Closing(Protocol):

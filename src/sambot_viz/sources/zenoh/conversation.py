@@ -13,7 +13,8 @@ from sambot_viz.sources.live.conversation import Ends
 from sambot_viz.sources.live.graph_conversation import GraphConversation
 from sambot_viz.sources.live.outgoing_topic import OutgoingTopic
 from sambot_viz.sources.live.service_calls import LONGEST_ANSWER
-from sambot_viz.sources.ros_graph import NODE, Kind, RosEndpoint
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint
+from sambot_viz.sources.ros_graph import NODE
 from sambot_viz.sources.zenoh import names
 from sambot_viz.sources.zenoh.session import (
     ZenohDeclaration,
@@ -48,6 +49,7 @@ class ZenohConversation(GraphConversation):
     """
 
     protocol = "zenoh"
+    matches_qos = False
 
     def __init__(self, session: ZenohSession, ends: Ends) -> None:
         super().__init__(ends)

@@ -12,7 +12,8 @@ import struct
 from dataclasses import dataclass
 
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import Kind, RosEndpoint, demangled, mangled
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint
+from sambot_viz.sources.ros_graph import demangled, mangled
 
 TOKENS = "@ros2_lv/**"
 _NODE = "NN"

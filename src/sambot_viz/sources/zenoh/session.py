@@ -17,7 +17,7 @@ from typing import Any, Protocol
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
 from sambot_viz.sources.live.address import Address
-from sambot_viz.sources.ros_graph import RosEndpoint
+from sambot_viz.sources.ros_endpoint import RosEndpoint
 from sambot_viz.sources.zenoh.names import attachment, endpoint_token
 from sambot_viz.sources.zenoh.readings import (
     OnSample,

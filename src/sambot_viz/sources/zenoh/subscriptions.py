@@ -15,7 +15,8 @@ from sambot_viz.sources.live.graph_subscriptions import (
 )
 from sambot_viz.sources.live.type_descriptions import TypeDescriptions
 from sambot_viz.sources.qos import Qos
-from sambot_viz.sources.ros_graph import NODE, Kind, RosEndpoint, RosGraph
+from sambot_viz.sources.ros_endpoint import Kind, RosEndpoint
+from sambot_viz.sources.ros_graph import NODE, RosGraph
 from sambot_viz.sources.zenoh import names
 from sambot_viz.sources.zenoh.session import ZenohSession
 
