@@ -102,6 +102,7 @@ PURE = (
     "meanings",
     "topics",
     "graph",
+    "lessons",
 )
 """Rooms that work in a notebook or a grader: no viser, no socket, no thread."""
 
@@ -127,6 +128,7 @@ ROOMS: Mapping[str, Row] = {
     "publishing": Row("frames messages sources topics"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     "graph": Row("checks robot sources"),
+    "lessons": Row("bundled checks frames robot rviz", "yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row(
@@ -169,14 +171,14 @@ ROOMS: Mapping[str, Row] = {
     ),
     "commands": Row(
         "_version bundled checks export fixes flags frames graph inputs joints "
-        "listened moved_by options problems publishing robot rviz server session "
-        "sources topics visualizer",
+        "lessons listened moved_by options problems publishing robot rviz server "
+        "session sources topics visualizer",
         "PIL",
         "signal threading webbrowser",
     ),
     "jupyter": Row("bundled cli flags options", "", "http signal socket ssl threading"),
     # The hall.
-    "__init__": Row("_version checks frames inputs robot rviz visualizer"),
+    "__init__": Row("_version checks frames inputs lessons robot rviz visualizer"),
     "__main__": Row("cli"),
     "_version": Row(),
     "advice": Row(),
@@ -234,7 +236,8 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/zenoh/readings.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",
     "session/worker.py": "asyncio threading",  # each session has one worker thread
-    "robot/xacro/expansion.py": "signal subprocess",  # xacro runs in a child process
+    # xacro and graders run in a child process.
+    "robot/child_process.py": "signal subprocess",
     # In that child: the one thread of the pure rooms watches for the parent's end.
     "robot/xacro/child/main.py": "_thread signal",
 }
@@ -561,6 +564,7 @@ def rings(graph: Mapping[str, set[str]]) -> Iterator[set[str]]:
         ["expand", "MODEL"],
         ["echo", "MODEL", "base_link", "front_caster"],
         ["frames", "MODEL"],
+        ["grade", "MODEL", "--lesson", "LESSON"],
         ["graph", "MODEL"],
         ["topics", "RECORDING"],
     ],
@@ -570,7 +574,8 @@ def test_a_light_command_imports_neither_viser_nor_a_mesh_library(
 ) -> None:
     model = str(repository / "assets" / "sam_bot.urdf.xacro")
     recording = str(repository / "assets" / "square.mcap")
-    named = {"MODEL": model, "RECORDING": recording}
+    lesson = str(repository / "tests" / "data" / "lessons" / "base")
+    named = {"MODEL": model, "RECORDING": recording, "LESSON": lesson}
     words = [named.get(word, word) for word in words]
     # To decode messages is what it is for.
     known = {"rosbags"} if words[0] == "topics" else set[str]()
@@ -593,8 +598,10 @@ def test_a_light_command_imports_neither_viser_nor_a_mesh_library(
 PUBLIC_NAMES = [
     "ConfigError",
     "FrameError",
+    "Grade",
     "Joint",
     "JointError",
+    "LessonError",
     "Link",
     "Problem",
     "Robot",
@@ -607,6 +614,7 @@ PUBLIC_NAMES = [
     "Visualizer",
     "__version__",
     "check",
+    "grade",
     "load_config",
     "load_robot",
 ]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from sambot_viz.errors import ConfigError as ConfigError
     from sambot_viz.errors import FrameError as FrameError
     from sambot_viz.errors import JointError as JointError
+    from sambot_viz.errors import LessonError as LessonError
     from sambot_viz.errors import Problem as Problem
     from sambot_viz.errors import RobotError as RobotError
     from sambot_viz.errors import SambotVizError as SambotVizError
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from sambot_viz.errors import UsageError as UsageError
     from sambot_viz.frames import Transform as Transform
     from sambot_viz.inputs import load_config as load_config
+    from sambot_viz.lessons import Grade as Grade
+    from sambot_viz.lessons import grade as grade
     from sambot_viz.robot.model import Robot as Robot
     from sambot_viz.robot.model import load_robot as load_robot
     from sambot_viz.robot.parts import Joint as Joint
@@ -33,10 +36,11 @@ if TYPE_CHECKING:
 
 _MODULES = {
     "checks": "check",
-    "errors": "ConfigError FrameError JointError Problem RobotError SambotVizError "
-    "ServerError UsageError",
+    "errors": "ConfigError FrameError JointError LessonError Problem RobotError "
+    "SambotVizError ServerError UsageError",
     "frames": "Transform",
     "inputs": "load_config",
+    "lessons": "Grade grade",
     "robot.model": "Robot load_robot",
     "robot.parts": "Joint Link",
     "rviz": "RvizConfig",

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 
 from sambot_viz.errors import (
     ConfigError,
+    LessonError,
     Problem,
     RobotError,
     SambotVizError,
@@ -36,6 +37,7 @@ COMMANDS = (
     "export",
     "frames",
     "goal",
+    "grade",
     "graph",
     "snapshot",
     "topics",
@@ -65,7 +67,7 @@ def _run(words: list[str], notes: Sequence[Problem]) -> int:
             _refuse_mistyped(words[0])
         command = importlib.import_module(f"sambot_viz.commands.{name}")
         return int(command.run(words, notes) if notes else command.run(words))
-    except (RobotError, ConfigError, SourceError) as error:
+    except (RobotError, ConfigError, LessonError, SourceError) as error:
         if not error.problems:
             return _complain(error, ERRORS)
         write_problems(error.problems)

@@ -6,6 +6,7 @@ The tree of errors; nothing else is raised to a caller on purpose::
     ├── RobotError                  a model that cannot be shown (.problems)
     │   └── MeshError               a mesh file that cannot be read
     ├── ConfigError                 a file that is not a .rviz document (.problems)
+    ├── LessonError                 a lesson that cannot be read (.problems)
     ├── NamedFileError              a file that a mesh names and that cannot be used
     │   └── LfsPointerError         a git-LFS pointer in place of the file itself
     ├── TextureError                an image that cannot be used
@@ -275,6 +276,10 @@ class RobotError(_ErrorWithProblems):
 
 class ConfigError(_ErrorWithProblems):
     """The file is not a .rviz document; `problems` says why."""
+
+
+class LessonError(_ErrorWithProblems):
+    """The file is not a lesson; `problems` says why."""
 
 
 class SourceError(_ErrorWithProblems):

@@ -244,6 +244,24 @@ JOINTS_FILE = LimitRow(
     "bytes",
     "it is refused, with an error",
 )
+LESSON = LimitRow(
+    "a lesson.yaml",
+    1_000_000,
+    "bytes",
+    "it is refused, with an error",
+)
+GRADE_TIME = LimitRow(
+    "grading what a student has written",
+    60,
+    "seconds",
+    "it is stopped; every step has failed and says so",
+)
+GRADE_MEMORY = LimitRow(
+    "memory of grading what a student has written",
+    2048,
+    "MB",
+    "it is stopped; every step has failed and says so",
+)
 NUMBER = LimitRow(
     "a number of a model, and a position of a joint",
     10**18,

@@ -6,20 +6,17 @@ child with limits on time, memory and output does it.
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
 import json
 import os
 import re
-import signal
-import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import limits as table
+from sambot_viz.robot.child_process import ChildTimeoutError, ask_child
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
     ExpansionError,
@@ -112,62 +109,17 @@ def _import_path() -> list[str]:
 
 
 def _run_child(job: Job, limits: Limits) -> ChildAnswer:
-    own = {name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ}
     order = json.dumps(job).encode()
-    # The child reads EOF from this pipe when this process has died, and exits too.
-    # Therefore the pipe stays open until the answer is there; `communicate` would
-    # close it earlier.
-    read_end, lifeline = os.pipe()
     try:
-        process = subprocess.Popen(
-            [sys.executable, "-I", "-S", "-X", "utf8", str(_CHILD)],
-            stdin=read_end,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env=own,
-            start_new_session=True,
-        )
-    except BaseException:
-        os.close(lifeline)
-        raise
-    finally:
-        os.close(read_end)
-    try:
-        _send(lifeline, b"%16d" % len(order) + order)
-        output, _ = process.communicate(timeout=limits.seconds)
-    except subprocess.TimeoutExpired:
+        output, status = ask_child(_CHILD, order, limits.seconds)
+    except ChildTimeoutError:
         text = f"expansion took longer than {limits.seconds:g} s"
         raise _own_failure("Timeout", text, job) from None
-    finally:
-        os.close(lifeline)
-        _end(process)
     try:
         return json.loads(output)
     except ValueError:
-        text = f"the expansion ended without a result (status {process.returncode})"
+        text = f"the expansion ended without a result (status {status})"
         raise _own_failure("Crash", text, job) from None
-
-
-def _send(pipe: int, data: bytes) -> None:
-    left = memoryview(data)
-    # A child that ended early gives no answer, which is reported as a crash.
-    with contextlib.suppress(BrokenPipeError):
-        while left:
-            left = left[os.write(pipe, left) :]
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """End the child and everything it has started, and collect it."""
-    if os.name == "posix":
-        try:
-            os.killpg(process.pid, signal.SIGKILL)
-        except (ProcessLookupError, PermissionError):
-            pass
-    elif process.poll() is None:
-        process.kill()
-    process.wait()
-    if process.stdout is not None:
-        process.stdout.close()
 
 
 def _own_failure(kind: str, text: str, job: Job) -> ExpansionError:

@@ -1,0 +1,45 @@
+"""The program of the child process that grades what a student has written.
+
+`lessons/grading.py` starts it as a script: an order as JSON on standard input, the
+answer as JSON on standard output.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+
+
+def main() -> None:
+    """Read the order, grade, write the answer."""
+    size = int(sys.stdin.buffer.read(16))
+    order = json.loads(sys.stdin.buffer.read(size))
+    # Nothing of the package, and of others, is found before this.
+    sys.path[:] = order["import_path"]
+    from sambot_viz.robot.xacro.child.main import (
+        end_with_parent,
+        keep_result_channel,
+        limit_resources,
+    )
+
+    end_with_parent()
+    channel = keep_result_channel()
+    limit_resources(order["megabytes"], order["seconds"])
+    from pathlib import Path
+
+    from sambot_viz.lessons.evaluation import messages
+    from sambot_viz.lessons.read_lesson import read_lesson
+    from sambot_viz.lessons.student_files import handed_in
+
+    lesson = read_lesson(Path(order["lesson"]))
+    given = handed_in(lesson, Path(order["path"]))
+    said, refusal = messages(lesson, given, map(lesson.step, order["steps"]))
+    answer = {"messages": said, "refusal": refusal}
+    with os.fdopen(channel, "wb") as stream:
+        stream.write(json.dumps(answer).encode())
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+"""One thing that a step demands: a condition, or one of several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import yaml
+
+from sambot_viz.checks.around.files.parameters import flag, pairs
+from sambot_viz.errors import RobotError
+from sambot_viz.lessons.conditions.condition import Condition, Unmet, UnmetError
+from sambot_viz.lessons.conditions.kinds import KINDS
+from sambot_viz.lessons.reading.records import read_record
+from sambot_viz.lessons.reading.report import LessonReport
+from sambot_viz.lessons.reading.values import ValueKind
+from sambot_viz.lessons.work import Work
+
+_COMMON = ("only", "hidden", "says")
+
+
+@dataclass(frozen=True, slots=True)
+class Demand:
+    """A condition, with what holds for all kinds.
+
+    Attributes:
+        conditions: one of them has to hold.
+        only: the track that it is for; empty for all.
+        hidden: what is expected is not said before the last hint.
+        says: what is said when it does not hold, in place of what is expected.
+    """
+
+    conditions: tuple[Condition, ...]
+    only: str = ""
+    hidden: bool = False
+    says: str = ""
+
+    def unmet(self, work: Work) -> Sequence[Unmet]:
+        """Return what does not hold; of several conditions, of the nearest one.
+
+        Raises:
+            RobotError: the model cannot be read.
+        """
+        faults = [_unmet(condition, work) for condition in self.conditions]
+        return min(faults, key=len)
+
+
+def _unmet(condition: Condition, work: Work) -> list[Unmet]:
+    try:
+        return list(condition.unmet(work))
+    except UnmetError as error:
+        return [error.unmet]
+
+
+def _read_demand(node: yaml.Node, report: LessonReport) -> Demand | None:
+    kinds = [(k, v) for k, v in pairs(node) if k.value not in _COMMON]
+    if len(kinds) != 1:
+        report.wrong_value(
+            node,
+            "a condition has one kind",
+            f"write one of {', '.join(KINDS)} with its keys below it",
+        )
+        return None
+    key, value = kinds[0]
+    if key.value == "any":
+        items: list[yaml.Node] = getattr(value, "value", [])
+        rows = items if isinstance(value, yaml.SequenceNode) else []
+        found = [_read_demand(item, report) for item in rows]
+        inner = [c for demand in found if demand for c in demand.conditions]
+        conditions = tuple(inner) if len(inner) == len(found) else ()
+    else:
+        conditions = _read_condition(key, value, report)
+    common = {k.value: v for k, v in pairs(node) if k.value in _COMMON}
+    texts = {
+        k: v.value if isinstance(v, yaml.ScalarNode) else "" for k, v in common.items()
+    }
+    hidden = flag(texts.get("hidden", "no"))
+    if hidden is None:
+        report.wrong_value(common["hidden"], "'hidden' is no flag", "write true")
+        return None
+    if not conditions:
+        return None
+    return Demand(conditions, texts.get("only", ""), hidden, texts.get("says", ""))
+
+
+def _read_condition(
+    key: yaml.ScalarNode, value: yaml.Node, report: LessonReport
+) -> tuple[Condition, ...]:
+    if key.value not in KINDS:
+        report.unknown(key, "kind", "the table of conditions", [*KINDS, "any"])
+        return ()
+    if isinstance(value, yaml.ScalarNode) and not value.value:
+        # A kind without keys, such as "- no-errors:", is right where none is needed.
+        value = yaml.MappingNode("map", [], key.start_mark, key.end_mark)
+    of = f"the condition {key.value}"
+    read = read_record(KINDS[key.value], of, value, report)
+    return () if read is None else (read,)
+
+
+DEMAND = ValueKind("a condition, such as link: {name: base_link}", _read_demand)
+
+
+def explained(error: RobotError) -> Unmet:
+    """Say why a model cannot be read, without how to fix it."""
+    problem = error.problems[0]
+    place = f"{problem.place}: " if problem.place else ""
+    return Unmet(
+        f"the model cannot be read: {place}{problem.message}",
+        "a model that can be read",
+    )

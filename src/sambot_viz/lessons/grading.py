@@ -1,0 +1,126 @@
+"""Grade what a student has written, in a child process with limits."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sambot_viz import limits
+from sambot_viz.lessons.evaluation import StepResult
+from sambot_viz.lessons.lesson import Lesson, LessonStep
+from sambot_viz.lessons.read_lesson import open_lesson
+from sambot_viz.lessons.student_files import HandedIn, handed_in
+from sambot_viz.robot.child_process import ChildTimeoutError, ask_child
+
+_CHILD = Path(__file__).parent / "child" / "main.py"
+_PACKAGE = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True, slots=True)
+class Grade:
+    """What a student has reached.
+
+    Attributes:
+        lesson: the name of the lesson.
+        steps: what became of each step.
+        refusal: why no model could be read; empty where one was.
+    """
+
+    lesson: str
+    steps: tuple[StepResult, ...]
+    refusal: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether all steps hold."""
+        return all(step.passed for step in self.steps)
+
+    @property
+    def score(self) -> float:
+        """The points of all steps together."""
+        return sum(step.points for step in self.steps)
+
+    @property
+    def max_score(self) -> float:
+        """The points that they can earn."""
+        return sum(step.max_points for step in self.steps)
+
+    def as_json(self) -> dict[str, object]:
+        """Return the fields of the JSON output."""
+        return {
+            "lesson": self.lesson,
+            "passed": self.passed,
+            "score": self.score,
+            "max_score": self.max_score,
+            "steps": [step.as_json() for step in self.steps],
+        }
+
+
+def grade(
+    path: str | os.PathLike[str],
+    lesson: str | os.PathLike[str] = "nav2-first-robot",
+    *,
+    step: str | int | None = None,
+) -> Grade:
+    """Grade a model, or a folder with one.
+
+    The files are read as those of an unknown person: in a child process with limits
+    of time and memory, and without files outside their folder.
+
+    Args:
+        path: the model file, or the folder with the student's files.
+        lesson: the name of a lesson that ships, a lesson.yaml, or the folder of one.
+        step: only this step, by its number from 1 or its name; None for all.
+
+    Raises:
+        UsageError: there is no such file, lesson or step.
+        LessonError: the lesson cannot be read.
+    """
+    opened = open_lesson(Path(lesson))
+    steps = opened.steps if step is None else (opened.step(step),)
+    given = handed_in(opened, Path(path))
+    if given.is_file and step is None:
+        # One of several models was handed in, and no others.
+        own = [one for one in steps if one.model == given.model.name]
+        steps = tuple(own) or steps
+    return Grade(opened.name, *_in_child(opened, steps, given))
+
+
+def _in_child(
+    lesson: Lesson, steps: Sequence[LessonStep], given: HandedIn
+) -> tuple[tuple[StepResult, ...], str]:
+    """Return the results of a child process, and why no model could be read."""
+    seconds = limits.GRADE_TIME.value
+    order = {
+        "import_path": [str(_PACKAGE), *filter(None, sys.path)],
+        "megabytes": limits.GRADE_MEMORY.value,
+        "seconds": seconds,
+        "lesson": str(lesson.file),
+        "steps": [step.name for step in steps],
+        "path": str(given.model if given.is_file else given.folder),
+    }
+    try:
+        output, status = ask_child(
+            _CHILD, json.dumps(order).encode(), seconds, OPENBLAS_NUM_THREADS="1"
+        )
+    except ChildTimeoutError:
+        return _all_failed(steps, f"grading took longer than {seconds} s")
+    try:
+        answer: dict[str, Any] = json.loads(output)
+    except ValueError:
+        text = f"grading ended without a result (status {status}): too much memory?"
+        return _all_failed(steps, text)
+    found = zip(steps, answer["messages"], strict=True)
+    done = tuple(StepResult.of(step, message) for step, message in found)
+    return done, answer["refusal"]
+
+
+def _all_failed(
+    steps: Sequence[LessonStep], message: str
+) -> tuple[tuple[StepResult, ...], str]:
+    return tuple(StepResult.of(step, message) for step in steps), message

@@ -1,0 +1,167 @@
+"""A lesson: its steps, what has to hold, hints and points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.lessons.demand import DEMAND, Demand
+from sambot_viz.lessons.reading.records import given, read_record
+from sambot_viz.lessons.reading.report import LessonReport
+from sambot_viz.lessons.reading.values import (
+    COUNT,
+    NUMBER,
+    TEXT,
+    ValueKind,
+    all_of,
+    map_of,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hint:
+    """A help that comes after some tries.
+
+    Attributes:
+        after: so many tries that failed.
+        text: Markdown.
+        only: the track that it is for; empty for all.
+    """
+
+    after: int = given(COUNT)
+    text: str = given(TEXT)
+    only: str = given(TEXT, "")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Track:
+    """A way through a lesson, such as one for each format of models.
+
+    Attributes:
+        model: the model file, in the student's folder.
+        start: a folder or a file to begin with, beside the lesson; empty for nothing.
+    """
+
+    model: str = given(TEXT)
+    start: str = given(TEXT, "")
+
+
+def _record(record: type[Any], of: str, words: str) -> ValueKind:
+    def read(node: yaml.Node, report: LessonReport) -> Any:
+        return read_record(record, of, node, report)
+
+    return ValueKind(words, read)
+
+
+_HINT = _record(Hint, "a hint", "after: and text:")
+_TRACK = _record(Track, "a track", "model: and start:")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LessonStep:
+    """One step.
+
+    Attributes:
+        name: how it is called on the command line and in results.
+        title: its heading.
+        text: Markdown.
+        in_track: tracks, and the Markdown that follows it there.
+        conditions: what has to hold.
+        hints: in the order in which they come.
+        points: for the whole step.
+        model: the model file, where it is not that of the track.
+    """
+
+    name: str = given(TEXT)
+    title: str = given(TEXT)
+    text: str = given(TEXT)
+    in_track: tuple[tuple[str, str], ...] = given(
+        map_of(TEXT, "a map of tracks to texts"), ()
+    )
+    conditions: tuple[Demand, ...] = given(all_of(DEMAND, "a list of conditions"))
+    hints: tuple[Hint, ...] = given(all_of(_HINT, "a list of hints"), ())
+    points: float = given(NUMBER, 1.0)
+    model: str = given(TEXT, "")
+
+    def demands(self, track: str) -> Sequence[Demand]:
+        """Return what has to hold in a track."""
+        return [one for one in self.conditions if one.only in ("", track)]
+
+    def shown_hints(self, track: str, tries: int) -> Sequence[Hint]:
+        """Return the hints of a track after so many tries that failed."""
+        return [h for h in self._hints(track) if h.after <= tries]
+
+    def is_exhausted(self, track: str, tries: int) -> bool:
+        """Tell whether the last hint has come, so that nothing is hidden any longer."""
+        hints = self._hints(track)
+        return bool(hints) and len(self.shown_hints(track, tries)) == len(hints)
+
+    def _hints(self, track: str) -> Sequence[Hint]:
+        return [one for one in self.hints if one.only in ("", track)]
+
+
+_STEP = _record(LessonStep, "a step", "a map with name, title, text and conditions")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lesson:
+    """A lesson.
+
+    Attributes:
+        file: its lesson.yaml, as the user wrote it.
+        name: how it is called.
+        title: its heading.
+        about: what is learnt, one or two sentences.
+        model: the model file, in the student's folder; empty with tracks.
+        start: a folder or a file to begin with; empty for nothing.
+        solution: a folder or a file that passes; with tracks, one folder for each.
+        given_tracks: names and tracks.
+        steps: in order.
+    """
+
+    file: Path
+    name: str = given(TEXT)
+    title: str = given(TEXT)
+    about: str = given(TEXT, "")
+    model: str = given(TEXT, "")
+    start: str = given(TEXT, "")
+    solution: str = given(TEXT, "")
+    given_tracks: tuple[tuple[str, Track], ...] = given(
+        map_of(_TRACK, "a map of names to tracks"), (), key="tracks"
+    )
+    steps: tuple[LessonStep, ...] = given(all_of(_STEP, "a list of steps"))
+
+    @property
+    def folder(self) -> Path:
+        """The folder with its pictures and files to begin with."""
+        return self.file.parent
+
+    @property
+    def tracks(self) -> Mapping[str, Track]:
+        """The tracks; a lesson that names none has one without a name."""
+        alone = Track(model=self.model or self.steps[0].model, start=self.start)
+        return dict(self.given_tracks) or {"": alone}
+
+    def step(self, wanted: str | int) -> LessonStep:
+        """Return a step by its number from 1, or its name.
+
+        Raises:
+            UsageError: there is no such step.
+        """
+        if str(wanted).isdigit():
+            if 1 <= int(wanted) <= len(self.steps):
+                return self.steps[int(wanted) - 1]
+            raise UsageError(
+                f"the lesson {self.name} has no step {wanted}: its steps are 1 to "
+                f"{len(self.steps)}"
+            )
+        for step in self.steps:
+            if step.name == wanted:
+                return step
+        near = did_you_mean(str(wanted), [step.name for step in self.steps])
+        raise UsageError(f"the lesson {self.name} has no step '{wanted}'; {near}")

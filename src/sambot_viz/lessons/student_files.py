@@ -1,0 +1,71 @@
+"""Which model a student hands in, and which track of a lesson it is for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from sambot_viz.errors import UsageError
+from sambot_viz.lessons.lesson import Lesson, LessonStep
+
+_BEGIN = 4096
+"""A model of SDF says so in its first bytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class HandedIn:
+    """What a student hands in.
+
+    Attributes:
+        folder: the folder with all files; None for that of the model.
+        track: the way through the lesson.
+        model: the model file of the track; it need not exist.
+        is_file: one file was handed in, not a folder.
+    """
+
+    folder: Path | None
+    track: str
+    model: Path
+    is_file: bool
+
+    def model_of(self, step: LessonStep) -> Path:
+        """Return the model file of a step."""
+        if not step.model or (self.is_file and self.model.name == step.model):
+            return self.model
+        return (self.folder or self.model.parent) / step.model
+
+
+def handed_in(lesson: Lesson, path: Path) -> HandedIn:
+    """Find out what a file or a folder is for a lesson.
+
+    Args:
+        lesson: the lesson.
+        path: a model, or a folder with one.
+
+    Raises:
+        UsageError: there is no such file.
+    """
+    if not path.exists():
+        raise UsageError(f"'{path}' does not exist; name a model file or a folder")
+    tracks = lesson.tracks
+    if path.is_dir():
+        for name, track in tracks.items():
+            for file in (path / track.model, *sorted(path.glob(f"*/**/{track.model}"))):
+                if file.is_file():
+                    return HandedIn(path, name, file, False)
+        name, track = next(iter(tracks.items()))
+        return HandedIn(path, name, path / track.model, False)
+    for name, track in tracks.items():
+        if path.name == Path(track.model).name:
+            return HandedIn(None, name, path, True)
+    return HandedIn(None, _track_by_content(lesson, path), path, True)
+
+
+def _track_by_content(lesson: Lesson, path: Path) -> str:
+    with path.open("rb") as stream:
+        begin = stream.read(_BEGIN)
+    is_sdf = b"<sdf" in begin or path.suffix == ".sdf"
+    for name, track in lesson.tracks.items():
+        if track.model.endswith(".sdf") == is_sdf:
+            return name
+    return next(iter(lesson.tracks))

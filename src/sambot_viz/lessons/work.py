@@ -1,0 +1,105 @@
+"""What a student has written, read once for all conditions of all steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+
+from sambot_viz.checks import check_robot
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package, Workspace
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot.model import Robot, load_robot
+from sambot_viz.robot.packages.package_index import package_around
+
+
+class Work:
+    """A model, and the folder it is in.
+
+    Args:
+        model: the model file; it need not exist.
+        folder: the student's folder; default the package of the model, or its folder.
+        trusted: as for `load_robot`.
+        loaded: the robot, or why there is none, where that is known already.
+        problems: what `check` says, where that is known already.
+
+    Attributes:
+        model: the model file.
+        folder: the student's folder.
+    """
+
+    def __init__(
+        self,
+        model: Path,
+        folder: Path | None = None,
+        *,
+        trusted: bool = True,
+        loaded: Robot | RobotError | None = None,
+        problems: Iterable[Problem] | None = None,
+    ) -> None:
+        self.model = model
+        self.folder = folder or package_around(model) or model.parent
+        self._trusted = trusted
+        self._known = loaded
+        self._given = problems
+
+    @cached_property
+    def _loaded(self) -> Robot | RobotError:
+        if self._known is not None:
+            return self._known
+        try:
+            return load_robot(self.model, trusted=self._trusted)
+        except RobotError as error:
+            return error
+
+    @property
+    def refusal(self) -> RobotError | None:
+        """Why there is no robot; None when there is one."""
+        loaded = self._loaded
+        return loaded if isinstance(loaded, RobotError) else None
+
+    @property
+    def robot(self) -> Robot:
+        """The robot.
+
+        Raises:
+            RobotError: the model cannot be read.
+        """
+        loaded = self._loaded
+        if isinstance(loaded, RobotError):
+            raise loaded
+        return loaded
+
+    @cached_property
+    def problems(self) -> tuple[Problem, ...]:
+        """What `check` says about the model and its package."""
+        if self._given is not None:
+            return tuple(self._given)
+        if self.refusal is not None:
+            return self.refusal.problems
+        return tuple(check_robot(self.robot, self.model))
+
+    @cached_property
+    def files(self) -> Package:
+        """The files of the folder; it need not be a package of ROS."""
+        found = Workspace(self.folder, trusted=self._trusted).at(self.folder)
+        if found is not None:
+            return found
+        folder = self.folder.absolute()
+        relative = not self.folder.is_absolute()
+        return Package(folder, folder.name, relative, self._trusted, set())
+
+    @cached_property
+    def around(self) -> Surroundings:
+        """The robot, if there is one, and all that the files of the folder say."""
+        robot = None if self.refusal is not None else self.robot
+        return Surroundings(robot, (self.files,))
+
+    def sources(self) -> Iterator[tuple[str, str]]:
+        """Give the files of the model that are in the folder, each with its text."""
+        found = [] if self.refusal is not None else [*self.robot.files]
+        for file in dict.fromkeys([self.model.absolute(), *found]):
+            if file.is_relative_to(self.files.folder):
+                path = file.relative_to(self.files.folder).as_posix()
+                yield self.files.shown(path), self.files.text(path) or ""
