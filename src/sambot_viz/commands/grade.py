@@ -67,9 +67,9 @@ def parser() -> Parser:
 
 
 def _in_words(found: Grade) -> Iterator[Line]:
-    for number, step in enumerate(found.steps, 1):
+    for step in found.steps:
         mark = Painted("passed", "added") if step.passed else Painted("failed", "error")
-        yield [mark, f"  {number}. {step.title} ({step.name})"]
+        yield [mark, f"  {step.number}. {step.title} ({step.name})"]
         for message in step.message.splitlines():
             yield f"        {message}"
     points = f"{found.score:g} of {found.max_score:g} points"

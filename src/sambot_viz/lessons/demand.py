@@ -102,7 +102,7 @@ DEMAND = ValueKind("a condition, such as link: {name: base_link}", _read_demand)
 
 def explained(error: RobotError) -> Unmet:
     """Say why a model cannot be read, without how to fix it."""
-    problem = error.problems[0]
+    problem = next(p for p in error.problems if p.severity == "error")
     place = f"{problem.place}: " if problem.place else ""
     return Unmet(
         f"the model cannot be read: {place}{problem.message}",

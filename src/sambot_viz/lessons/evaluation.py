@@ -34,6 +34,7 @@ class StepResult:
     """What became of a step.
 
     Attributes:
+        number: of the step in the lesson, from 1.
         name: of the step.
         title: its heading.
         points: what it has earned.
@@ -41,6 +42,7 @@ class StepResult:
         message: what does not hold, one line each; empty when all holds.
     """
 
+    number: int
     name: str
     title: str
     points: float
@@ -48,10 +50,10 @@ class StepResult:
     message: str
 
     @classmethod
-    def of(cls, step: LessonStep, message: str) -> StepResult:
+    def of(cls, lesson: Lesson, step: LessonStep, message: str) -> StepResult:
         """Return the result of a step from what does not hold in it."""
-        points = 0.0 if message else step.points
-        return cls(step.name, step.title, points, step.points, message)
+        number, points = lesson.steps.index(step) + 1, 0.0 if message else step.points
+        return cls(number, step.name, step.title, points, step.points, message)
 
     @property
     def passed(self) -> bool:

@@ -109,18 +109,18 @@ def _in_child(
             _CHILD, json.dumps(order).encode(), seconds, OPENBLAS_NUM_THREADS="1"
         )
     except ChildTimeoutError:
-        return _all_failed(steps, f"grading took longer than {seconds} s")
+        return _all_failed(lesson, steps, f"grading took longer than {seconds} s")
     try:
         answer: dict[str, Any] = json.loads(output)
     except ValueError:
         text = f"grading ended without a result (status {status}): too much memory?"
-        return _all_failed(steps, text)
+        return _all_failed(lesson, steps, text)
     found = zip(steps, answer["messages"], strict=True)
-    done = tuple(StepResult.of(step, message) for step, message in found)
+    done = tuple(StepResult.of(lesson, step, message) for step, message in found)
     return done, answer["refusal"]
 
 
 def _all_failed(
-    steps: Sequence[LessonStep], message: str
+    lesson: Lesson, steps: Sequence[LessonStep], message: str
 ) -> tuple[tuple[StepResult, ...], str]:
-    return tuple(StepResult.of(step, message) for step in steps), message
+    return tuple(StepResult.of(lesson, step, message) for step in steps), message

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from sambot_viz.errors import UsageError
 from sambot_viz.lessons.lesson import Lesson, LessonStep
+from sambot_viz.robot.packages.package_index import package_around
 
 _BEGIN = 4096
 """A model of SDF says so in its first bytes."""
+_BUILT = frozenset({"build", "install", "log"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +53,8 @@ def handed_in(lesson: Lesson, path: Path) -> HandedIn:
     tracks = lesson.tracks
     if path.is_dir():
         for name, track in tracks.items():
-            for file in (path / track.model, *sorted(path.glob(f"*/**/{track.model}"))):
-                if file.is_file():
-                    return HandedIn(path, name, file, False)
+            for file in _models(path, track.model):
+                return HandedIn(_folder_of(file, path), name, file, False)
         name, track = next(iter(tracks.items()))
         return HandedIn(path, name, path / track.model, False)
     for name, track in tracks.items():
@@ -69,3 +71,17 @@ def _track_by_content(lesson: Lesson, path: Path) -> str:
         if track.model.endswith(".sdf") == is_sdf:
             return name
     return next(iter(lesson.tracks))
+
+
+def _models(folder: Path, name: str) -> Iterator[Path]:
+    """Give the files of a name at and below a folder; what is built is left out."""
+    for file in (folder / name, *sorted(folder.glob(f"*/**/{name}"))):
+        if file.is_file() and _BUILT.isdisjoint(file.relative_to(folder).parts):
+            yield file
+
+
+def _folder_of(model: Path, folder: Path) -> Path:
+    """Return the package of a model that is below a folder, else the folder."""
+    package = package_around(model)
+    inside = package is not None and package.resolve().is_relative_to(folder.resolve())
+    return package if package is not None and inside else folder

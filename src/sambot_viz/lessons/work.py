@@ -96,6 +96,11 @@ class Work:
         robot = None if self.refusal is not None else self.robot
         return Surroundings(robot, (self.files,))
 
+    @cached_property
+    def launches(self) -> frozenset[str]:
+        """The launch files, as the user would write them."""
+        return frozenset(self.files.shown(path) for path in self.files.launch_paths)
+
     def sources(self) -> Iterator[tuple[str, str]]:
         """Give the files of the model that are in the folder, each with its text."""
         found = [] if self.refusal is not None else [*self.robot.files]

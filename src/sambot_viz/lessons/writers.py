@@ -36,7 +36,7 @@ def _gradescope(grade: Grade) -> str:
     """Write the results.json of an autograder of Gradescope."""
     tests = [
         {
-            "number": str(number),
+            "number": str(step.number),
             "name": step.title,
             "score": step.points,
             "max_score": step.max_points,
@@ -45,7 +45,7 @@ def _gradescope(grade: Grade) -> str:
             "output_format": "text",
             "visibility": "visible",
         }
-        for number, step in enumerate(grade.steps, 1)
+        for step in grade.steps
     ]
     output = f"{grade.lesson}: {_count(grade)}"
     return json_text({"output": output, "output_format": "text", "tests": tests})

@@ -88,14 +88,15 @@ def _counted(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoProblemCondition:
-    """`check` reports nothing with one of these codes; * stands for any letters."""
+    """`check` warns of nothing with one of these codes; * stands for any letters."""
 
     code: tuple[str, ...] = given(TEXTS)
 
     def unmet(self, work: Work) -> Iterator[Unmet]:
         """Give each such problem."""
         for problem in work.problems:
-            if any(fnmatchcase(problem.code, code) for code in self.code):
+            named = any(fnmatchcase(problem.code, code) for code in self.code)
+            if named and problem.severity != "info":
                 yield _of(problem.message, problem.place, "no such finding")
 
 

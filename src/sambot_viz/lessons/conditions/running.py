@@ -19,23 +19,27 @@ from sambot_viz.lessons.work import Work
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NodeCondition:
-    """A launch file starts a node of a package."""
+    """A launch file starts a node of one of these packages."""
 
-    package: str = given(TEXT)
+    package: tuple[str, ...] = given(TEXTS)
     executable: tuple[str, ...] = given(TEXTS, ())
 
     def unmet(self, work: Work) -> Iterator[Unmet]:
         """Look for it among the nodes that start."""
-        started = [node for node in work.around.running.started if node.place]
+        started = [
+            node
+            for node in work.around.running.started
+            if node.starts != "no" and node.place.file in work.launches
+        ]
         for node in started:
             fits = not self.executable or node.executable in self.executable
-            if node.package == self.package and fits and node.starts == "yes":
+            if node.package in self.package and fits:
                 return
-        names = [f"{n.package}/{n.executable}" for n in started if n.starts == "yes"]
-        found = listed(names) or "nothing"
+        names = [f"{node.package}/{node.executable}" for node in started]
+        packages = " or ".join(self.package)
         which = " or ".join(self.executable)
-        expected = f"{self.package}/{which}" if which else f"a node of {self.package}"
-        yield Unmet(f"the launch files start {found}", expected)
+        expected = f"{packages}/{which}" if which else f"a node of {packages}"
+        yield Unmet(f"the launch files start {listed(names) or 'nothing'}", expected)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

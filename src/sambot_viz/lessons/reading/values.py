@@ -143,8 +143,8 @@ def some_of(*words: str) -> ValueKind:
         texts = _texts(node, report)
         for word in texts or ():
             if word not in words:
-                near = did_you_mean(text, words)
-                report.wrong_value(node, f"'{text}' is not a word that fits", near)
+                near = did_you_mean(word, words)
+                report.wrong_value(node, f"'{word}' is not a word that fits", near)
                 return None
         return texts
 
