@@ -39,6 +39,7 @@ COMMANDS = (
     "goal",
     "grade",
     "graph",
+    "lesson",
     "snapshot",
     "topics",
 )

@@ -102,7 +102,8 @@ DEMAND = ValueKind("a condition, such as link: {name: base_link}", _read_demand)
 
 def explained(error: RobotError) -> Unmet:
     """Say why a model cannot be read, without how to fix it."""
-    problem = next(p for p in error.problems if p.severity == "error")
+    errors = (p for p in error.problems if p.severity == "error")
+    problem = next(errors, error.problems[0])
     place = f"{problem.place}: " if problem.place else ""
     return Unmet(
         f"the model cannot be read: {place}{problem.message}",

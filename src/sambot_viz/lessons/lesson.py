@@ -9,8 +9,9 @@ from typing import Any
 
 import yaml
 
-from sambot_viz.errors import UsageError, did_you_mean
+from sambot_viz.errors import Place, UsageError, did_you_mean
 from sambot_viz.lessons.demand import DEMAND, Demand
+from sambot_viz.lessons.markdown import faults, pictures
 from sambot_viz.lessons.reading.records import given, read_record
 from sambot_viz.lessons.reading.report import LessonReport
 from sambot_viz.lessons.reading.values import (
@@ -21,6 +22,28 @@ from sambot_viz.lessons.reading.values import (
     all_of,
     map_of,
 )
+
+
+def _read_markdown(node: yaml.Node, report: LessonReport) -> str | None:
+    text = TEXT.read(node, report)
+    # The text of a block begins in the line below its key.
+    style = getattr(node, "style", None)
+    first = report.place(node).line + (style in ("|", ">"))
+    good = True
+    for line, message, hint in faults(text or ""):
+        place = Place(report.file, first + line)
+        report.findings.add("error", "lesson-text", message, hint, place)
+        good = False
+    for name in pictures(text or "") if good else ():
+        if not (report.folder / name).is_file():
+            place = report.place(node)
+            message, hint = f"there is no picture {name}", "put it beside the lesson"
+            report.findings.add("error", "lesson-text", message, hint, place)
+            good = False
+    return text if good else None
+
+
+MARKDOWN = ValueKind("a text", _read_markdown)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,7 +57,7 @@ class Hint:
     """
 
     after: int = given(COUNT)
-    text: str = given(TEXT)
+    text: str = given(MARKDOWN)
     only: str = given(TEXT, "")
 
 
@@ -79,9 +102,9 @@ class LessonStep:
 
     name: str = given(TEXT)
     title: str = given(TEXT)
-    text: str = given(TEXT)
+    text: str = given(MARKDOWN)
     in_track: tuple[tuple[str, str], ...] = given(
-        map_of(TEXT, "a map of tracks to texts"), ()
+        map_of(MARKDOWN, "a map of tracks to texts"), ()
     )
     conditions: tuple[Demand, ...] = given(all_of(DEMAND, "a list of conditions"))
     hints: tuple[Hint, ...] = given(all_of(_HINT, "a list of hints"), ())

@@ -119,6 +119,14 @@ def _faults(lesson: Lesson) -> Iterator[Problem]:
                 f"the hints of {step.name} come after {after} tries, out of order",
                 "order them by after:",
             )
+        for track in lesson.tracks:
+            hides = any(one.hidden for one in step.demands(track))
+            if hides and not step.shown_hints(track, 10**9):
+                yield wrong(
+                    f"the step {step.name} hides what is expected, and has no hint "
+                    "that would end it",
+                    "add hints:, the answer last",
+                )
         named = {*dict(step.in_track), *(h.only for h in step.hints if h.only)}
         named |= {one.only for one in step.conditions if one.only}
         for track in sorted(named - lesson.tracks.keys()):

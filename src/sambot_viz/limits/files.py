@@ -245,10 +245,10 @@ JOINTS_FILE = LimitRow(
     "it is refused, with an error",
 )
 LESSON = LimitRow(
-    "a lesson.yaml",
+    "a lesson.yaml, and a file with the progress of a student",
     1_000_000,
     "bytes",
-    "it is refused, with an error",
+    "it is refused, with an error; a student begins again",
 )
 GRADE_TIME = LimitRow(
     "grading what a student has written",

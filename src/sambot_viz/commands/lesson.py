@@ -1,0 +1,118 @@
+"""``sambot-viz lesson``: the lessons that there are, a new one, and its check."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from sambot_viz.bundled import assets_folder
+from sambot_viz.commands.command_line import Parser
+from sambot_viz.errors import LessonError, UsageError, did_you_mean
+from sambot_viz.lessons.check_lesson import check_lesson
+from sambot_viz.lessons.lesson import Lesson
+from sambot_viz.lessons.read_lesson import lesson_names, open_lesson
+from sambot_viz.outlet import write_json, write_out
+from sambot_viz.problems import write_problems
+
+ACTIONS = ("list", "new", "check")
+
+
+def run(words: list[str]) -> int:
+    """List, begin or check lessons; 0 when a lesson has no errors, else 1."""
+    given = parser().parse_args(words)
+    if given.action == "list":
+        return _list(given.format)
+    if given.action not in ACTIONS:
+        near = did_you_mean(given.action, ACTIONS)
+        raise UsageError(f"sambot-viz lesson cannot '{given.action}'; {near}")
+    if given.path is None:
+        what = "a new folder" if given.action == "new" else "a lesson.yaml"
+        raise UsageError(f"sambot-viz lesson {given.action} needs {what}")
+    if given.action == "new":
+        return _new(Path(given.path))
+    solution = Path(given.solution) if given.solution else None
+    if solution is not None and not solution.exists():
+        raise UsageError(f"--solution {solution}: it does not exist")
+    return _check(Path(given.path), solution, given.format)
+
+
+def parser() -> Parser:
+    """Return the flags of the command."""
+    made = Parser(
+        prog="sambot-viz lesson",
+        description="list: name the lessons that ship. new DIR: write a lesson of one "
+        "step to begin with. check FILE: try a lesson with its solution, which has to "
+        "pass, and its start, which must not. Exit status: 0 fine (there may be "
+        "warnings), 1 errors found, 2 usage.",
+    )
+    made.add_argument(
+        "action", metavar="ACTION", help="one of list, new and check", default="list"
+    )
+    made.add_argument(
+        "path",
+        metavar="FILE",
+        nargs="?",
+        help="the folder of a new lesson; the lesson to check, a file or a name",
+    )
+    made.add_argument(
+        "--solution",
+        metavar="DIR",
+        help="with check: what has to pass, in place of the solution that it names",
+    )
+    made.add_format()
+    return made
+
+
+def _list(how: str) -> int:
+    lessons = [open_lesson(name) for name in lesson_names()]
+    if how == "json":
+        write_json({"lessons": [_as_json(lesson) for lesson in lessons]})
+        return 0
+    for lesson in lessons:
+        points = sum(step.points for step in lesson.steps)
+        amount = f"{len(lesson.steps)} steps, {points:g} points"
+        tracks = ", ".join(name for name in lesson.tracks if name)
+        write_out(f"{lesson.name}: {lesson.title} ({amount})")
+        write_out(f"    {' '.join(lesson.about.split())}")
+        if tracks:
+            write_out(f"    tracks: {tracks}")
+    return 0
+
+
+def _as_json(lesson: Lesson) -> dict[str, object]:
+    return {
+        "name": lesson.name,
+        "title": lesson.title,
+        "about": lesson.about,
+        "tracks": [name for name in lesson.tracks if name],
+        "steps": [
+            {"name": step.name, "title": step.title, "points": step.points}
+            for step in lesson.steps
+        ],
+    }
+
+
+def _new(folder: Path) -> int:
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise UsageError(f"'{folder}' is there already; name a new folder")
+    try:
+        shutil.copytree(assets_folder() / "new-lesson", folder, dirs_exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"cannot write '{folder}': {error.strerror}") from error
+    write_out(f"{folder}/lesson.yaml: change it, then sambot-viz lesson check {folder}")
+    return 0
+
+
+def _check(path: Path, solution: Path | None, how: str) -> int:
+    try:
+        problems = check_lesson(open_lesson(path), solution)
+    except LessonError as error:
+        problems = list(error.problems)
+    if how == "json":
+        rows = [problem.as_json() for problem in problems]
+        write_json({"lesson": str(path), "problems": rows})
+    elif problems:
+        write_problems(problems, write_out, most=None)
+    else:
+        write_out(f"{path}: the solution passes, and the start does not")
+    return int(any(problem.severity == "error" for problem in problems))

@@ -1,0 +1,99 @@
+"""``sambot-viz lesson``: list, new and check, for teachers."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from lesson_files import BASE
+
+from sambot_viz.cli import main
+from sambot_viz.lessons.read_lesson import lesson_names
+
+Capture = pytest.CaptureFixture[str]
+SOLUTIONS = Path(__file__).parents[1] / "data" / "lessons"
+
+
+def test_the_lessons_that_ship_are_listed(capsys: Capture) -> None:
+    assert main(["lesson", "list"]) == 0
+    text = capsys.readouterr().out
+    assert "nav2-first-robot: The first robot of Nav2 (20 steps, 29 points)" in text
+    assert main(["lesson", "list", "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)["lessons"]
+    assert [lesson["name"] for lesson in found] == lesson_names()
+
+
+def test_a_new_lesson_passes_its_check(capsys: Capture, tmp_path: Path) -> None:
+    folder = str(tmp_path / "mine")
+    assert main(["lesson", "new", folder]) == 0
+    assert main(["lesson", "check", folder]) == 0
+    assert "the solution passes, and the start does not" in capsys.readouterr().out
+    assert main(["lesson", "new", folder]) == 2
+    assert "is there already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", lesson_names())
+def test_a_lesson_that_ships_passes_with_its_solution(
+    capsys: Capture, name: str
+) -> None:
+    solution = str(SOLUTIONS / name)
+    assert main(["lesson", "check", name, "--solution", solution]) == 0
+    assert capsys.readouterr().out == (
+        f"{name}: the solution passes, and the start does not\n"
+    )
+
+
+@pytest.fixture
+def lesson(tmp_path: Path) -> Path:
+    main(["lesson", "new", str(tmp_path / "mine")])
+    return tmp_path / "mine"
+
+
+def test_a_solution_that_fails_is_an_error(capsys: Capture, lesson: Path) -> None:
+    model = lesson / "solution" / "robot.urdf"
+    model.write_text(model.read_text().replace("0.2 0 0.05", "0.2 0 0.5"))
+    assert main(["lesson", "check", str(lesson)]) == 1
+    assert "the solution fails the step lamp: lamp, seen from table, is at" in (
+        capsys.readouterr().out
+    )
+
+
+def test_a_start_that_passes_is_an_error(capsys: Capture, lesson: Path) -> None:
+    text = (lesson / "solution" / "robot.urdf").read_text()
+    (lesson / "start" / "robot.urdf").write_text(text)
+    assert main(["lesson", "check", str(lesson)]) == 1
+    assert "the start passes all steps" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("solution: nothing", "the solution has no file robot.urdf"),
+        ("start: nothing", "there is no start nothing"),
+    ],
+)
+def test_files_that_are_not_there_are_errors(
+    capsys: Capture, lesson: Path, line: str, said: str
+) -> None:
+    file, key = lesson / "lesson.yaml", line.partition(":")[0]
+    file.write_text(file.read_text().replace(f"{key}: {key}", line))
+    capsys.readouterr()
+    assert main(["lesson", "check", str(file), "--format", "json"]) == 1
+    problems = json.loads(capsys.readouterr().out)["problems"]
+    assert said in problems[0]["message"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["chekc"], "did you mean 'check'?"),
+        (["check"], "needs a lesson.yaml"),
+        (["new"], "needs a new folder"),
+        (["check", "nav2"], "no lesson 'nav2'"),
+        (["check", str(BASE), "--solution", "nowhere"], "--solution nowhere"),
+    ],
+)
+def test_usage_errors_exit_with_2(capsys: Capture, words: list[str], said: str) -> None:
+    assert main(["lesson", *words]) == 2
+    assert said in capsys.readouterr().err
