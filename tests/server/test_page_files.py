@@ -131,6 +131,32 @@ def test_a_page_that_a_browser_has_is_not_sent_again(port: int) -> None:
     assert content
 
 
+def test_the_editor_is_no_part_of_the_page_and_comes_when_it_is_asked_for(
+    port: int,
+) -> None:
+    page = ask(port, "/")[1]
+    vendored = (PAGE / "vendor" / "codemirror.js").read_bytes()
+    assert not any("codemirror" in n for n in scripts_in(page.decode()))
+    plain, content = ask(port, "/sambot/codemirror.js")
+    assert content == vendored
+    assert plain.headers["Content-Type"] == "text/javascript; charset=utf-8"
+    packed, smaller = ask(port, "/sambot/codemirror.js", Accept_Encoding="gzip")
+    assert gzip.decompress(smaller) == vendored and len(smaller) < 200_000
+    tag = packed.headers["ETag"]
+    again, nothing = ask(port, "/sambot/codemirror.js", If_None_Match=tag)
+    assert (again.status, nothing) == (304, b"")
+
+
+def test_each_package_in_the_editor_has_its_version_and_its_licence(port: int) -> None:
+    folder = PAGE / "vendor" / "codemirror"
+    wanted = json.loads((folder / "package.json").read_text("utf-8"))["dependencies"]
+    locked = json.loads((folder / "package-lock.json").read_text("utf-8"))["packages"]
+    licenses = ask(port, "/sambot/licenses.txt")[1].decode()
+    for name, version in wanted.items():
+        assert locked[f"node_modules/{name}"]["version"] == version
+        assert f"== {name} {version}\n" in licenses
+
+
 def test_the_script_of_viser_is_unpacked_and_a_browser_keeps_it(port: int) -> None:
     page = ask(port, "/")[1].decode()
     address = script_of_viser(page)

@@ -187,7 +187,13 @@ def _modules(first: str) -> dict[str, str]:
 
 def licenses() -> bytes:
     """The licences of the libraries that are in the page."""
-    return _FOLDER.joinpath("vendor", "LICENSES.txt").read_bytes()
+    names = ("LICENSES.txt", "CODEMIRROR_LICENSES.txt")
+    return b"\n".join(_FOLDER.joinpath("vendor", name).read_bytes() for name in names)
+
+
+def codemirror() -> bytes:
+    """The editor of the panel Model, a module that the page asks for when it opens."""
+    return _FOLDER.joinpath("vendor", "codemirror.js").read_bytes()
 
 
 def _address(name: str) -> tuple[str, list[str]]:

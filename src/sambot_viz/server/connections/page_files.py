@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import http
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Literal
@@ -27,6 +28,8 @@ _FOLDER = "sambot/"
 """Where the files beside the page are."""
 LICENSES = f"/{_FOLDER}licenses.txt"
 """Where the licences of the libraries in the page are."""
+CODEMIRROR = f"/{_FOLDER}codemirror.js"
+"""Where the editor is, which no page asks for before its panel is opened."""
 _PLAIN_PAGE = """\
 <!doctype html><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>sambot-viz</title>
@@ -60,20 +63,34 @@ def answer(
     path = request.path.partition("?")[0]
     if path == LICENSES:
         return _text(page.licenses())
+    if path == CODEMIRROR:
+        return _codemirror(request)
     apart = _taken_apart()
     if apart is not None and path == f"/{_FOLDER}{apart.name}":
         return _script(request, apart.script)
     if not is_page(request):
         return None
     parts = _parts(request, panels)
-    headers = Headers(
-        {"Content-Type": "text/html; charset=utf-8", "ETag": _tag(parts, look)}
-    )
+    tag = _tag(parts, look)
+    return _kept(request, "text/html", tag, lambda: _page(parts, look))
+
+
+def _codemirror(request: Request) -> Response:
+    """The editor: its name is the same in all versions."""
+    tag = _tag_of(page.codemirror())
+    return _kept(request, "text/javascript", tag, page.codemirror)
+
+
+def _kept(
+    request: Request, kind: str, tag: str, content: Callable[[], bytes]
+) -> Response:
+    """Return a file that a browser keeps, and asks for whether it has changed."""
+    headers = Headers({"Content-Type": f"{kind}; charset=utf-8", "ETag": tag})
     headers["Cache-Control"] = "no-cache"
     headers["Vary"] = "Accept-Encoding"
-    if request.headers.get("If-None-Match") == _tag(parts, look):
+    if request.headers.get("If-None-Match") == tag:
         return Response(http.HTTPStatus.NOT_MODIFIED, "Not Modified", headers)
-    return _packable(request, headers, _page(parts, look))
+    return _packable(request, headers, content())
 
 
 def _script(request: Request, content: bytes) -> Response:
@@ -145,7 +162,11 @@ def _packed(content: bytes) -> bytes:
 
 @cache
 def _tag(parts: Parts, look: str | None) -> str:
-    return f'"{hashlib.sha256(_page(parts, look)).hexdigest()[:20]}"'
+    return _tag_of(_page(parts, look))
+
+
+def _tag_of(content: bytes) -> str:
+    return f'"{hashlib.sha256(content).hexdigest()[:20]}"'
 
 
 def plain_page(
