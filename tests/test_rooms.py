@@ -30,6 +30,7 @@ FOUNDATIONS = {
     "matrices",
     "outlet",
     "text",
+    "unsaved",
 }
 """Any room may import these; they import nothing of the package but each other."""
 
@@ -204,6 +205,7 @@ ROOMS: Mapping[str, Row] = {
     "outlet": Row("", "segno"),
     "problems": Row(),
     "text": Row(),
+    "unsaved": Row(),
     "visualizer": Row(
         "export flags inputs jupyter options scripting server",
         "viser",

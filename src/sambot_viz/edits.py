@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.errors import Edit, Fix, Place
+from sambot_viz.unsaved import unsaved_text
 
 _ENCODING = re.compile(
     rb"""\s*<\?xml\b[^>]{0,200}?\bencoding\s*=\s*["']([\w.-]+)["']"""
@@ -400,6 +401,8 @@ class SourceFile:
 
 def source_of(file: str) -> SourceFile | None:
     """Return what is in a file; None when it cannot be read as text."""
+    if (text := unsaved_text(file)) is not None:
+        return _of_text(text)
     try:
         stat = os.stat(file)
         if not os.path.isfile(file) or stat.st_size > limits.FIXED_FILE.value:
@@ -410,9 +413,24 @@ def source_of(file: str) -> SourceFile | None:
 
 
 @lru_cache(maxsize=8)
+def _of_text(text: str) -> SourceFile:
+    """Return a text that is not saved; its lines are counted once."""
+    return SourceFile(text, "utf-8")
+
+
+@lru_cache(maxsize=8)
 def _read(file: str, saved: int, size: int) -> SourceFile:
     """Read a file once for many problems, until it is saved."""
-    data = Path(file).read_bytes()
+    return decoded(Path(file).read_bytes())
+
+
+def decoded(data: bytes) -> SourceFile:
+    """Return the content of a file as text.
+
+    Raises:
+        ValueError: it is not in the encoding that it claims.
+        LookupError: there is no such encoding.
+    """
     if data.startswith(b"\xef\xbb\xbf"):
         return SourceFile(data.decode("utf-8-sig"), "utf-8-sig")
     declared = _ENCODING.match(data)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os.path
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, InvalidStateError, wait
 from dataclasses import replace
 from functools import cache, partial
@@ -307,12 +307,18 @@ class Inputs:
         with contextlib.suppress(InvalidStateError):
             self._robot.set_exception(KeyboardInterrupt())
 
-    def load(self, model: PathLike | OpenedModel, trusted: bool = True) -> Robot:
+    def load(
+        self,
+        model: PathLike | OpenedModel,
+        trusted: bool = True,
+        edited: Mapping[str, str] | None = None,
+    ) -> Robot:
         """Load a model with the xacro arguments and packages of the options.
 
         Args:
             model: the file.
             trusted: False for a file that a browser named, whose code must not run.
+            edited: as for `load_robot`.
 
         Raises:
             RobotError: the model cannot be shown.
@@ -327,6 +333,7 @@ class Inputs:
             xacro_args=self._options.xacro_args,
             package_path=packages,
             trusted=trusted and self._options.trusted,
+            edited=edited,
         )
 
     def load_described(self, model: OpenedModel, packages: Path) -> Robot:

@@ -18,6 +18,7 @@ from pathlib import Path
 from sambot_viz.errors import Edit, Problem, Severity
 from sambot_viz.outlet import Line, Painted, write_err
 from sambot_viz.text import line
+from sambot_viz.unsaved import unsaved_text
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
 """The order in which problems are shown."""
@@ -172,8 +173,7 @@ def problem_lines(problem: Problem, context: int = 2) -> list[tuple[int, str]]:
     if problem.file is None or problem.line is None:
         return []
     try:
-        stat = os.stat(problem.file)
-        lines = _lines(problem.file, stat.st_mtime_ns, stat.st_size)
+        lines = _lines_of(problem.file)
     except (OSError, ValueError):
         return []
     if not 1 <= problem.line <= len(lines):
@@ -187,16 +187,24 @@ def _shown(written: str) -> str:
     return line(written[:_LONGEST_LINE]).rstrip()
 
 
+def _lines_of(file: str) -> list[str]:
+    text = unsaved_text(file)
+    if text is not None:
+        return _split(file, text)
+    stat = os.stat(file)
+    return _lines(file, stat.st_mtime_ns, stat.st_size)
+
+
 @lru_cache(maxsize=4)
 def _lines(file: str, saved: int, size: int) -> list[str]:
-    """Return the lines of a file, read once for many problems until it is saved.
+    """Return the lines of a file, read once for many problems until it is saved."""
+    return _split(file, Path(file).read_text("utf-8", "replace"))
 
-    They are counted as whoever read the file has counted them.
-    """
+
+def _split(file: str, text: str) -> list[str]:
+    """Return the lines of a text, counted as whoever reads its file counts them."""
     is_yaml = file.endswith((".rviz", ".yaml", ".yml"))
-    lines = (_LINE_BREAK_OF_YAML if is_yaml else _LINE_BREAK).split(
-        Path(file).read_text("utf-8", "replace")
-    )
+    lines = (_LINE_BREAK_OF_YAML if is_yaml else _LINE_BREAK).split(text)
     return lines if lines[-1] else lines[:-1]
 
 

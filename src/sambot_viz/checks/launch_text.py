@@ -15,6 +15,7 @@ from pathlib import Path
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.rule import Subject
 from sambot_viz.errors import Place, Problem
+from sambot_viz.unsaved import unsaved_text
 
 _DESCRIPTION = "robot_description"
 _TRAP = re.compile(r":(?=[ \t\n]|$)|(?<=[ \t\n])#|(?<=\n)\t", re.MULTILINE)
@@ -140,7 +141,8 @@ def _place(files: tuple[str, ...], words: str) -> Place | None:
         return None
     for file in files:
         try:
-            text = Path(file).read_text("utf-8", "replace")
+            text = unsaved_text(file)
+            text = Path(file).read_text("utf-8", "replace") if text is None else text
         except OSError:
             continue
         at = text.find(words)

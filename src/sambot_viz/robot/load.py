@@ -68,8 +68,10 @@ def load_model(
     edited: Mapping[str, str],
 ) -> LoadedModel:
     """Load a model; arguments and errors are those of `load_robot`."""
-    opened = model if isinstance(model, OpenedModel) else open_model(model)
-    opened = edited_model(opened, edited)
+    if isinstance(model, OpenedModel):
+        opened = edited_model(model, edited)
+    else:
+        opened = open_model(model, edited)
     return _Loader(opened, xacro_args, package_path, trusted, edited).load()
 
 

@@ -241,7 +241,8 @@ def load_robot(
         trusted=trusted,
     )
     loaded = load_model(model, xacro_args or {}, package_path, trusted, edited or {})
-    return Robot(*loaded, edited=lambda texts: again(edited=texts))
+    before = edited or {}
+    return Robot(*loaded, edited=lambda texts: again(edited={**before, **texts}))
 
 
 def asset_of(shape: Shape, file_roots: tuple[Path, ...] | None = None) -> Asset | None:

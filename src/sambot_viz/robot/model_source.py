@@ -56,15 +56,21 @@ class OpenedModel:
     document: Element
 
 
-def open_model(model: PathLike) -> OpenedModel:
+def open_model(model: PathLike, edited: Mapping[str, str] | None = None) -> OpenedModel:
     """Read the text of a model as XML, for `load_robot`.
 
     Args:
         model: the file, or the XML text itself.
+        edited: as for `load_robot`.
 
     Raises:
         RobotError: it cannot be read, or it is not well-formed.
     """
+    label = os.fspath(model)
+    text = edited.get(os.path.abspath(label)) if edited else None
+    if text is not None:
+        # What is on the disk may have a mistake, or be gone.
+        return _parsed(_with_good_prolog(label, text, Path(label)))
     try:
         return _parsed(read_source(model))
     except XmlFault as fault:

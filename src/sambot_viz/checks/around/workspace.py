@@ -23,6 +23,7 @@ from sambot_viz.files import is_below, read_limited
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
+from sambot_viz.unsaved import unsaved_text
 
 if TYPE_CHECKING:
     from sambot_viz.checks.around.launching.actions import Action
@@ -111,6 +112,8 @@ class Package:
     def _read(self, path: str) -> str | None:
         file = self.folder / path
         self.read.add(file)
+        if (text := unsaved_text(file)) is not None:
+            return text
         if not self.trusted and not is_below(file, [self.folder.resolve()]):
             return None
         try:

@@ -196,14 +196,14 @@ class Expansion:
         try:
             if self._guard is not None:
                 self._guard.check_path(filename)
-            data = Path(filename).read_bytes()
+            edited = self._job["edited"].get(os.path.abspath(filename))
+            data = Path(filename).read_bytes() if edited is None else b""
         except OSError as error:
             self._xacro.filestack.pop()
             text = f"{error.strerror}: {filename}"
             raise self._xacro.XacroException(text, exc=error) from error
         self._files.append(os.path.abspath(filename))
         self.reading = self._shown(filename)
-        edited = self._job["edited"].get(os.path.abspath(filename))
         return repaired_prolog(decode(data) if edited is None else edited)
 
     def _shown(self, filename: str) -> str:

@@ -15,6 +15,7 @@ from sambot_viz import limits
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
+from sambot_viz.unsaved import unsaved_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,8 @@ class NamedElement:
 
 def read_source(file: str | Path) -> SourceText | None:
     """Read the text of a file; None when it cannot be read or is huge."""
+    if (unread := unsaved_text(file)) is not None:
+        return SourceText(unread)
     try:
         path = Path(file)
         if path.stat().st_size > limits.XACRO_SOURCE.value:

@@ -17,6 +17,7 @@ from sambot_viz import limits
 from sambot_viz.errors import Problem
 from sambot_viz.robot.packages.package_index import PackageIndex
 from sambot_viz.robot.xml.element import Element
+from sambot_viz.unsaved import unsaved_text
 
 _ENDINGS = (".xacro", ".urdf", ".sdf")
 
@@ -88,6 +89,8 @@ def _files(root: Path) -> Iterator[Path]:
 
 
 def _text(file: Path) -> str:
+    if (text := unsaved_text(file)) is not None:
+        return text
     try:
         if file.stat().st_size > limits.XML_EXPLAINED.value:
             return ""
