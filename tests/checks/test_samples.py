@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import get_args
 
 import pytest
+from oracle import CORPORA
 from problem_codes import code_patterns
-from problem_page import PAGE, problem_page
+from problem_page import PAGE, problem_page, refusals
 from problem_samples import Sample, all_samples
 
 import sambot_viz
@@ -60,6 +61,19 @@ def test_a_model_that_ros_accepts_is_never_an_error() -> None:
     accepted = [sample for sample in all_samples() if sample.why]
     assert len(accepted) > 12
     assert {sample.problem.severity for sample in accepted} == {"warning", "info"}
+
+
+def test_every_error_names_the_program_that_it_is_about() -> None:
+    """In what is stored of many models, too: a code may be an error in some only."""
+    codes = [code for row in refusals() for code in row["codes"].split()]
+    assert len(codes) == len(set(codes))
+    samples = all_samples()
+    assert set(codes) <= {sample.code for sample in samples}
+    errors = {s.code for s in samples if s.problem.severity == "error"}
+    for corpus in CORPORA:
+        told = corpus.file.read_text("utf-8")
+        errors.update(re.findall(r" error\[([a-z0-9-]+)\]", told))
+    assert errors - set(codes) == set()
 
 
 def test_the_page_of_problems_is_what_the_program_says() -> None:

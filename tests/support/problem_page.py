@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from problem_samples import Sample, all_samples
+from quick_yaml import quick_yaml
 
 PAGE = Path(__file__).parents[2] / "docs" / "problems.md"
 """Where the page is in the source tree."""
@@ -39,6 +40,14 @@ _REST = """\
 ## What ROS or its tools refuse, lose or misread
 """
 
+_REFUSALS = """\
+## Which program an error is about
+
+A finding that no program confirms is a warning or an info, never an error.
+
+| program | what it does | known from | codes |
+|---|---|---|---|"""
+
 _HEADER = ("| code | severity | what | what to do |", "|---|---|---|---|")
 
 
@@ -51,7 +60,18 @@ def problem_page() -> str:
     lines += [_row(sample) for sample in samples if sample.around]
     lines += ["", _REST, *_HEADER]
     lines += [_row(s) for s in samples if not s.why and not s.around]
+    lines += ["", _REFUSALS, *map(_refusal, refusals())]
     return "\n".join(lines) + "\n"
+
+
+def refusals() -> list[dict[str, str]]:
+    """Which program each error is about: program, does, known, codes."""
+    return quick_yaml(PAGE.parents[1] / "tests" / "data" / "refusals.yaml")
+
+
+def _refusal(row: dict[str, str]) -> str:
+    codes = ", ".join(f"`{code}`" for code in row["codes"].split())
+    return f"| {row['program']} | {row['does']} | {row['known']} | {codes} |"
 
 
 def _section(sample: Sample) -> str:
