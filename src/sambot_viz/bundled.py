@@ -13,9 +13,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.files import RECORDING_ENDINGS, is_recording
@@ -118,8 +118,7 @@ def _file(folder: Path, name: str, kind: str) -> Path:
     return path
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(NamedTuple):
     """The files to show.
 
     Attributes:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence, Set
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.clues import Clues, guess, is_measured, is_written_whole
 from sambot_viz.checks.lengths import (
@@ -45,8 +44,7 @@ _LINES, _ELEMENT = 4, 2000
 """Of its element a property is looked for in so many lines, and characters."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Written:
+class _Written(NamedTuple):
     """Numbers of one element.
 
     Attributes:

@@ -9,9 +9,8 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz import bundled
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -44,8 +43,7 @@ _LAUNCHES = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class CheckedModel:
+class CheckedModel(NamedTuple):
     """A model that is checked.
 
     Attributes:
@@ -62,8 +60,7 @@ class CheckedModel:
     is_main: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Targets:
+class Targets(NamedTuple):
     """What is checked.
 
     Attributes:
@@ -124,8 +121,7 @@ def find_targets(
     return search.of_packages([p for p in packages if p is not None], path)
 
 
-@dataclass(frozen=True, slots=True)
-class _Start:
+class _Start(NamedTuple):
     """A model that a launch file opens.
 
     Attributes:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from sambot_viz.geometry import PlainPose
 from sambot_viz.robot.parts import Joint, Mimic, mimic_chain
@@ -30,8 +29,7 @@ class JointTree(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class MimicRow:
+class MimicRow(NamedTuple):
     """One mimic joint: row = multiplier · leader + offset."""
 
     row: int

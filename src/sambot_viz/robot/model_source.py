@@ -7,6 +7,7 @@ import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.errors import Problem, RobotError, did_you_mean
@@ -43,8 +44,7 @@ class ModelSource:
         return None if self.path is None else self.path.absolute().parent
 
 
-@dataclass(frozen=True, slots=True)
-class OpenedModel:
+class OpenedModel(NamedTuple):
     """A model that is well-formed XML; xacro and URDF's rules come later.
 
     Attributes:

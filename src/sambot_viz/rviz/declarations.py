@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from sambot_viz.errors import UsageError, did_you_mean
 from sambot_viz.rviz.properties.color import ColorProperty
@@ -72,8 +72,7 @@ class UnknownPropertyError(UsageError):
         super().__init__(f"{owner} has no '{path}'; {did_you_mean(path, known)}")
 
 
-@dataclass(frozen=True, slots=True)
-class Declared:
+class Declared(NamedTuple):
     """A property with its place in the file.
 
     Attributes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.errors import UsageError
 from sambot_viz.rviz.class_items import ViewConfig, new_map
@@ -20,8 +20,7 @@ CURRENT = "Current View"
 ORBIT = "rviz_default_plugins/Orbit"
 
 
-@dataclass(frozen=True, slots=True)
-class RemovedView:
+class RemovedView(NamedTuple):
     """A saved view that is not in the document.
 
     Attributes:

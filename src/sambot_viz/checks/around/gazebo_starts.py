@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Generation
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -36,8 +36,7 @@ _SIMULATORS = (
 _ACTIONS: dict[str, Generation] = {"GzServer": "gz", "RosGzBridge": "gz"}
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
+class Start(NamedTuple):
     """Something of one Gazebo that a launch file starts.
 
     Attributes:

@@ -8,6 +8,7 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.errors import nearest
 
@@ -185,8 +186,7 @@ def _is_like(right: str, part: str) -> bool:
     return right == "*" or nearest(part, [right]) is not None
 
 
-@dataclass(frozen=True, slots=True)
-class PluginClass:
+class PluginClass(NamedTuple):
     """A class of plugins.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
@@ -20,8 +20,7 @@ _VARIABLE = re.compile(r"\$\(var\s+([\w.-]+)\s*\)")
 _LIKENESS = 0.65
 
 
-@dataclass(frozen=True, slots=True)
-class _File:
+class _File(NamedTuple):
     """The launch arguments of a file.
 
     Attributes:

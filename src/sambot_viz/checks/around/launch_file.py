@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.checks.around.files.gazebo import Fact
@@ -36,8 +37,7 @@ _OPTION = re.compile(r"--?[a-z][\w-]*(=\S*)?|\d+", re.IGNORECASE)
 """An option of a program, or the number that one has."""
 
 
-@dataclass(frozen=True, slots=True)
-class LaunchNode:
+class LaunchNode(NamedTuple):
     """A node that a launch file starts.
 
     Attributes:

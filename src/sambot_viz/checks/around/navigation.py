@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.surroundings import Surroundings
@@ -13,8 +13,7 @@ _INPUT = re.compile(r"(odom|imu|pose|twist)\d+")
 _OPEN = re.compile(r"[$<{}]")
 
 
-@dataclass(frozen=True, slots=True)
-class StateFilter:
+class StateFilter(NamedTuple):
     """An ekf_node or ukf_node with its parameters.
 
     Attributes:

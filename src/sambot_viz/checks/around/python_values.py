@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.around.launching.actions import Expression
 from sambot_viz.checks.around.launching.python_parts import (
@@ -17,8 +17,7 @@ from sambot_viz.checks.around.launching.python_reader import PythonReader
 from sambot_viz.checks.around.launching.texts import LaunchTexts
 
 
-@dataclass(frozen=True, slots=True)
-class Texts:
+class Texts(NamedTuple):
     """The texts in a list.
 
     Attributes:

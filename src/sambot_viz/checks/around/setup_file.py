@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.checks.around.launching.python_calls import CALLS
@@ -34,8 +35,7 @@ _WRITING = frozenset(
 _GLOBS = ("glob", "iglob")
 
 
-@dataclass(frozen=True, slots=True)
-class DataFiles:
+class DataFiles(NamedTuple):
     """An entry of data_files.
 
     Attributes:
@@ -58,8 +58,7 @@ class DataFiles:
                 yield node
 
 
-@dataclass(frozen=True, slots=True)
-class EntryPoint:
+class EntryPoint(NamedTuple):
     """A program of console_scripts.
 
     Attributes:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact, plugins
 from sambot_viz.checks.around.place import where
@@ -27,8 +26,7 @@ _SAME_PLACE = 0.001
 """Wheels that are nearer have no separation [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Drive:
+class _Drive(NamedTuple):
     """What a drive says about its wheels.
 
     Attributes:

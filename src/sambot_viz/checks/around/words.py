@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.errors import Fix, Place, Problem, Severity, nearest
@@ -11,8 +11,7 @@ from sambot_viz.errors import Fix, Place, Problem, Severity, nearest
 _LIKENESS = 0.75
 
 
-@dataclass(frozen=True, slots=True)
-class WordKind:
+class WordKind(NamedTuple):
     """What words of one kind have in common.
 
     Attributes:
@@ -28,8 +27,7 @@ class WordKind:
     severity: Severity = "error"
 
 
-@dataclass(frozen=True, slots=True)
-class WrittenWord:
+class WrittenWord(NamedTuple):
     """A word as somebody wrote it.
 
     Attributes:

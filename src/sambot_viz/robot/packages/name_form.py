@@ -10,12 +10,12 @@ import os.path
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 _KNOWN = ("package", "model", "file", "http", "https")
 
 
-@dataclass(frozen=True, slots=True)
-class NameForm:
+class NameForm(NamedTuple):
     """A form that ROS does not read.
 
     Attributes:

@@ -10,8 +10,8 @@ import os
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
 
@@ -26,8 +26,7 @@ _MOST_NAMED = 6
 _NOT_ALL = "not all below"
 
 
-@dataclass(frozen=True, slots=True)
-class Lookup:
+class Lookup(NamedTuple):
     """The answer to "where is this package?".
 
     Attributes:

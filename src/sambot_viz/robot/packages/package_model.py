@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
@@ -49,8 +50,7 @@ _UNKNOWN = re.compile(
 _EXPRESSION = re.compile(r"\$[({][^)}]*[)}]")
 
 
-@dataclass(frozen=True, slots=True)
-class _ModelFile:
+class _ModelFile(NamedTuple):
     """Findings from a look at the text of a file.
 
     Attributes:

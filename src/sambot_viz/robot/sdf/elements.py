@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.errors import nearest
 
@@ -15,8 +16,7 @@ _TABLE = Path(__file__).with_name("elements.txt")
 _WORDS = re.compile(r"(\w+)(?:([=~?])(.+))?")
 
 
-@dataclass(frozen=True, slots=True)
-class Values:
+class Values(NamedTuple):
     """What the text of an element or an attribute may be.
 
     Attributes:
@@ -84,7 +84,7 @@ def model_type() -> ElementType:
     for parent, name, block in users:
         own = parent.children[name]
         shared = blocks[block]
-        required = replace(shared.text, required=own.text.required)
+        required = shared.text._replace(required=own.text.required)
         parent.children[name] = replace(shared, name=name, text=required)
     return blocks["&model"]
 
@@ -98,8 +98,7 @@ def _element(words: list[str]) -> ElementType:
     text = _values(plain[0] if plain else "", "!" in mark)
     if len(plain) > 1:
         low, high = plain[1].split("..")
-        text = replace(
-            text,
+        text = text._replace(
             low=float(low) if low else -math.inf,
             high=float(high) if high else math.inf,
         )

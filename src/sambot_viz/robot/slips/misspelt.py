@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.robot.slips.vocabulary import Vocabulary, meant
@@ -65,8 +66,7 @@ def find_slips(
     return [*whole, *islice(slips, limits.SLIPS.value)]
 
 
-@dataclass(frozen=True, slots=True)
-class _Search:
+class _Search(NamedTuple):
     vocabulary: Vocabulary
     macros: Set[str]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from sambot_viz import limits
@@ -200,8 +199,7 @@ class Unreadable(Exception):
     """An element that urdfdom cannot read; the problem has been reported."""
 
 
-@dataclass(frozen=True, slots=True)
-class AttributeReader:
+class AttributeReader(NamedTuple):
     """Reads the attributes of one joint or shape.
 
     Attributes:

@@ -7,7 +7,8 @@ reported, and the tree is built as ROS builds it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
@@ -22,8 +23,7 @@ from sambot_viz.robot.urdf.joint_ends import check_ends
 from sambot_viz.robot.urdf.robot_parts import RobotParts
 
 
-@dataclass(frozen=True, slots=True)
-class Tree:
+class Tree(NamedTuple):
     """The connected tree: the root link, and the links and joints reached from it."""
 
     root: str

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz.edits import write_attribute
 from sambot_viz.errors import Fix, did_you_mean, nearest
@@ -28,8 +28,7 @@ FindTexture = Callable[[str, Element], "Path | None"]
 """Texture file name as written and its element → the file, or None."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Known:
+class _Known(NamedTuple):
     material: Material
     element: Element
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.packages.package_index import Lookup
@@ -26,8 +25,7 @@ _BLANKS = re.compile(r"[\t\r\n]")
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(NamedTuple):
     """A macro, property or argument that was defined before xacro failed.
 
     Attributes:
@@ -45,8 +43,7 @@ class Definition:
     params: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class XacroCall:
+class XacroCall(NamedTuple):
     """One macro call on the way to an element: what was called, and from where."""
 
     macro: str
@@ -54,8 +51,7 @@ class XacroCall:
     line: int
 
 
-@dataclass(frozen=True, slots=True)
-class XacroFailure:
+class XacroFailure(NamedTuple):
     """The cause of a failed expansion, as xacro and the child process report it.
 
     Attributes:
@@ -116,8 +112,7 @@ class ExpansionXmlError(Exception):
         self.files = files
 
 
-@dataclass(frozen=True, slots=True)
-class ExpandedModel:
+class ExpandedModel(NamedTuple):
     """A model after xacro.
 
     Attributes:

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TypeAlias, TypeVar, Union
+from typing import NamedTuple, TypeAlias, TypeVar, Union
 
 Plain: TypeAlias = Union[str, "dict[str, Plain]", "list[Plain]", None]
 """A node as ordinary Python values: text, None for null, dicts and lists."""
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(NamedTuple):
     """The place of something in the text of the file.
 
     Attributes:
@@ -64,8 +63,7 @@ class Scalar:
         self.text = text
 
 
-@dataclass(frozen=True, slots=True)
-class YamlText:
+class YamlText(NamedTuple):
     """The place of an entry of a map or list in the file.
 
     Attributes:

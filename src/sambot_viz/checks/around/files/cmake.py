@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -38,8 +37,7 @@ class CMakeWord(NamedTuple):
     line: int
 
 
-@dataclass(frozen=True, slots=True)
-class CMakeCommand:
+class CMakeCommand(NamedTuple):
     """A command.
 
     Attributes:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from sambot_viz.errors import Place
 from sambot_viz.robot.xml.element import Element
@@ -21,8 +20,7 @@ SENSOR_FRAMES = ("gz_frame_id", "ignition_frame_id", "frame_name", "frameName")
 _OPEN = re.compile(r"\$\(|\$\{")
 
 
-@dataclass(frozen=True, slots=True)
-class Fact:
+class Fact(NamedTuple):
     """A name or a number that a file says, and where.
 
     Attributes:
@@ -43,8 +41,7 @@ class Fact:
         return number if math.isfinite(number) else None
 
 
-@dataclass(frozen=True, slots=True)
-class Plugin:
+class Plugin(NamedTuple):
     """A <plugin> of a model.
 
     Attributes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from sambot_viz import limits
@@ -20,8 +19,7 @@ from sambot_viz.checks.launch_files import call_name
 from sambot_viz.errors import Place
 
 
-@dataclass(frozen=True, slots=True)
-class Listing:
+class Listing(NamedTuple):
     """A list or tuple of a launch file, or a LaunchDescription.
 
     Attributes:
@@ -49,8 +47,7 @@ class Pair(NamedTuple):
     node: ast.expr
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(NamedTuple):
     """A dict of a launch file.
 
     Attributes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import YamlFile
@@ -18,8 +18,7 @@ _BRIDGED = re.compile(r"(/?[\w/]+)@([\w/]+)([\[\]@])([\w.]+)")
 _SCOPED = ("world/", "model/")
 
 
-@dataclass(frozen=True, slots=True)
-class BridgeEntry:
+class BridgeEntry(NamedTuple):
     """One topic that a bridge carries.
 
     Attributes:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 SENSOR, SYSTEM = "gz.sensor", "gz.system"
 """What stands for the package of a sensor or a system of Gazebo."""
 _TABLE = Path(__file__).parents[2] / "vocabularies" / "nodes.txt"
 
 
-@dataclass(frozen=True, slots=True)
-class NodeRow:
+class NodeRow(NamedTuple):
     """A line about a known node.
 
     Attributes:
@@ -41,8 +40,7 @@ class NodeRow:
         return last if last in ("once", "often") else ""
 
 
-@dataclass(frozen=True, slots=True)
-class KnownNode:
+class KnownNode(NamedTuple):
     """A node of a well-known package.
 
     Attributes:
@@ -62,8 +60,7 @@ class KnownNode:
         return any(row.verb == verb for row in self.rows)
 
 
-@dataclass(frozen=True, slots=True)
-class KnownLaunch:
+class KnownLaunch(NamedTuple):
     """A launch file of a well-known package.
 
     Attributes:
@@ -75,8 +72,7 @@ class KnownLaunch:
     nodes: tuple[tuple[str, str], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class KnownNodes:
+class KnownNodes(NamedTuple):
     """The table.
 
     Attributes:
