@@ -9,10 +9,12 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from dds_peer import DdsPeer
 from launch_package import launch_package
-from live_peers import STRING, FoxglovePeer
+from live_peers import STRING, FoxglovePeer, LivePeer
 from patience import patience
 from rosbridge_peer import RosbridgePeer
+from zenoh_peer import ZenohPeer
 
 from sambot_viz.cli import main
 
@@ -41,8 +43,8 @@ def package(tmp_path: Path) -> Path:
     return launch_package(tmp_path)
 
 
-@pytest.fixture(params=[FoxglovePeer, RosbridgePeer])
-def peer(request: pytest.FixtureRequest) -> Iterator[FoxglovePeer | RosbridgePeer]:
+@pytest.fixture(params=[FoxglovePeer, RosbridgePeer, ZenohPeer, DdsPeer])
+def peer(request: pytest.FixtureRequest) -> Iterator[LivePeer]:
     made = request.param()
     made.advertise("/chatter")
     if isinstance(made, FoxglovePeer):
@@ -116,7 +118,7 @@ def test_arguments_reach_the_launch_file_as_with_ros2_launch(
 
 
 def test_what_runs_is_drawn_as_the_robot_tells_it(
-    peer: FoxglovePeer | RosbridgePeer, capsys: Capture
+    peer: LivePeer, capsys: Capture
 ) -> None:
     said = drawn(capsys, "--source", peer.uri, *FOR)
     ends = {(e["node"], e["topic"], e["direction"]) for e in said["edges"]}
@@ -131,7 +133,7 @@ def test_what_runs_is_drawn_as_the_robot_tells_it(
 
 
 def test_what_was_expected_and_does_not_run_is_told(
-    peer: FoxglovePeer | RosbridgePeer, package: Path, capsys: Capture
+    peer: LivePeer, package: Path, capsys: Capture
 ) -> None:
     peer.listen_as("/chatter", "/logger")
     said = drawn(capsys, str(package), "--source", peer.uri, *FOR)

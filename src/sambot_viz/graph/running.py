@@ -60,7 +60,7 @@ class RunningNodes:
 
     def ask(self) -> None:
         """Ask for the nodes, where the source does not say them by itself."""
-        if "graph" not in self._source.capabilities or self._said_by_itself():
+        if "graph" not in self._source.capabilities or self._says_by_itself():
             return
         with self._lock:
             if self._is_asking:
@@ -81,6 +81,13 @@ class RunningNodes:
             self._notes(),
             is_whole=self._said_by_itself() or self._answered is not None,
         ).without_hidden()
+
+    def _says_by_itself(self) -> bool:
+        """Return whether the source has said it, or endpoints whose nodes follow."""
+        topics = self._source.topics().values()
+        return any(one.endpoints is not None for one in topics) or (
+            self._said_by_itself()
+        )
 
     def _said_by_itself(self) -> bool:
         topics = self._source.topics().values()

@@ -60,6 +60,11 @@ class RosGraph:
         """Whether names are left out."""
         return len(self._named) >= limits.TOPICS.value
 
+    @property
+    def has_nodes(self) -> bool:
+        """Whether somebody has said of which node an endpoint is."""
+        return any(one.node for one in self._endpoints.values())
+
     def topics(self) -> Iterator[str]:
         """Yield the topics that are published, then those that only are wanted."""
         published = [name for kind, name in self._named if kind is Kind.PUBLISHER]

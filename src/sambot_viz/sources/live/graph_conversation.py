@@ -168,6 +168,7 @@ class GraphConversation(Conversation):
     def topics(self) -> dict[str, SourceTopic]:
         """Return the topics that nodes publish, or wait for."""
         found: dict[str, SourceTopic] = {}
+        has_nodes = self._graph.has_nodes
         for name in self._graph.topics():
             ends = self._graph.endpoints(name)
             first = (*ends.publishers, *ends.subscribers)[0]
@@ -178,7 +179,7 @@ class GraphConversation(Conversation):
                 qos=self._graph.offered(name),
                 is_latched=is_latched_name(name),
                 publishers=nodes_of(ends.publishers) or len(ends.publishers),
-                subscribers=nodes_of(ends.subscribers),
+                subscribers=nodes_of(ends.subscribers) if has_nodes else None,
                 endpoints=ends,
                 left_out=self.left_out(name),
             )
