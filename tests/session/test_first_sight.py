@@ -14,6 +14,7 @@ from inside import session_of
 from live_peers import eventually
 from made_recording import write_recording
 from robot_peer import BusyPeer, square_peer
+from zenoh_peer import ZenohPeer
 
 from sambot_viz import Visualizer
 from sambot_viz.rviz import RvizConfig
@@ -228,6 +229,25 @@ def test_a_live_robot_shows_its_topics_as_they_come(repository: Path) -> None:
         eventually(lambda: "/late" in data.moved_by.source.topics())
         with session.lock:
             assert "LaserScan" not in kinds(session.document.config)
+
+
+def test_what_nodes_only_wait_for_is_not_shown() -> None:
+    robot = ZenohPeer()
+    robot.listen_as("/goal", "/planner", type_name="geometry_msgs/msg/PoseStamped")
+    with Visualizer(source=robot.uri, port=0) as viz:
+        session = session_of(viz)
+        data = session.data
+        assert data is not None
+        eventually(lambda: "/goal" in data.moved_by.source.topics())
+        robot.advertise("/plan", type_name="nav_msgs/msg/Path")
+
+        def shown() -> list[str]:
+            with session.lock:
+                return kinds(session.document.config)
+
+        eventually(lambda: "Path" in shown())
+        assert "Pose" not in shown()
+    robot.stop()
 
 
 RECORDINGS = (

@@ -75,6 +75,11 @@ class SourceTopic:
     left_out: str = ""
     frame_prefix: str = ""
 
+    @property
+    def is_awaited(self) -> bool:
+        """Whether nodes wait for it, and none publishes it."""
+        return self.endpoints is not None and not self.endpoints.publishers
+
 
 @dataclass(frozen=True, slots=True)
 class Recorded:

@@ -474,11 +474,11 @@ class SourceRobot:
 
     @property
     def types(self) -> Mapping[str, str]:
-        """Topic → the type of its messages; "" where nobody reads them."""
+        """Published topic → the type of its messages; "" where nobody reads them."""
         return {
             name: self.decoder(topic).type_name
             for name, topic in self.source.topics().items()
-            if topic.reason is None
+            if topic.reason is None and not topic.is_awaited
         }
 
     def tell_status(self) -> None:
