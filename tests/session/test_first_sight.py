@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from any_recording import Given, write_any
+from dds_peer import DdsPeer
 from inside import session_of
 from live_peers import eventually
 from made_recording import write_recording
@@ -247,6 +248,24 @@ def test_what_nodes_only_wait_for_is_not_shown() -> None:
 
         eventually(lambda: "Path" in shown())
         assert "Pose" not in shown()
+    robot.stop()
+
+
+def test_a_display_asks_for_what_is_offered() -> None:
+    robot = DdsPeer()
+    scan = "sensor_msgs/msg/LaserScan"
+    robot.advertise("/scan", type_name=scan, is_loose=True)
+    with Visualizer(source=robot.uri, port=0) as viz:
+        session = session_of(viz)
+
+        def policy() -> object:
+            with session.lock:
+                [one] = [
+                    d for d in session.document.config.displays if "LaserS" in d.kind
+                ]
+                return one.get("Topic/Reliability Policy")
+
+        eventually(lambda: policy() == "Best Effort")
     robot.stop()
 
 

@@ -180,7 +180,7 @@ class ShownInputs:
         """Show what the sources have, in the config that comes with the program."""
         points_of = moved_by.first_messages.points_of
         robots = moved_by.topics.descriptions
-        show_topics(document, moved_by.types, points_of, robots)
+        show_topics(document, moved_by.types, points_of, robots, moved_by.loose)
         missing = moved_by.description is None and self._inputs.options.model is None
         document.fits_frames = missing and moved_by.can("seek")
         if document.fits_frames:

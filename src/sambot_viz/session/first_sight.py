@@ -7,9 +7,10 @@ eye. A config is shown as it is, and nothing else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 from sambot_viz.displays.registry import DISPLAYS
+from sambot_viz.displays.robot_display import WantedQos
 from sambot_viz.displays.robot_model.robot_model import RobotModelDisplay
 from sambot_viz.rviz import DisplayConfig, RvizConfig
 from sambot_viz.rviz.declarations import short_name
@@ -27,6 +28,7 @@ _COSTMAP = {"Color Scheme": "costmap", "Alpha": 0.4}
 """As Nav2's own config: the walls of the map below stay visible."""
 _DOTS = ((300, 6), (3_000, 4), (50_000, 3))
 """Up to so many points, so large a dot [pixels]: few points are large enough to see."""
+_LOOSE = WantedQos("Best Effort", "Volatile")
 _SMALLEST_DOT = 2
 _ROBOT = "/robot_description"
 """The topic of the robot in a config that fits any."""
@@ -37,6 +39,7 @@ def show_topics(
     types: Mapping[str, str],
     points_of: Callable[[str], int | None],
     robots: Sequence[str] = (),
+    loose: Collection[str] = (),
 ) -> list[DisplayConfig]:
     """Add a display to a config for each topic that is shown at first.
 
@@ -47,6 +50,7 @@ def show_topics(
         points_of: returns how many points a message of a topic has; None if that is
             not known.
         robots: topics of descriptions; the config shows the robot of the first one.
+        loose: topics whose publishers now offer no more than Best Effort.
 
     Returns:
         The displays that were added.
@@ -54,7 +58,8 @@ def show_topics(
     named = {*_named(document.displays), *document.offered}
     added: list[DisplayConfig] = []
     for topic, kind in shown_at_first(types):
-        values = DISPLAYS[kind].topic_values(topic, types[topic], None)
+        qos = _LOOSE if topic in loose else None
+        values = DISPLAYS[kind].topic_values(topic, types[topic], qos)
         if topic in named or values is None:
             continue
         short = short_name(kind)

@@ -481,6 +481,21 @@ class SourceRobot:
             if topic.reason is None and not topic.is_awaited
         }
 
+    @property
+    def loose(self) -> frozenset[str]:
+        """Topics whose publishers now offer no more than Best Effort.
+
+        The QoS of a recording is a matter of the past.
+        """
+        live = self.source.live
+        if live is None:
+            return frozenset()
+        return frozenset(
+            name
+            for name, topic in live.topics().items()
+            if topic.qos is not None and topic.qos.reliability == "best_effort"
+        )
+
     def tell_status(self) -> None:
         """Say that the source or its recording is doing otherwise; in any thread."""
         for listener in list(self.on_status):
