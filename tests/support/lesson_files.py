@@ -9,7 +9,9 @@ from sambot_viz.lessons.lesson import Lesson
 from sambot_viz.lessons.read_lesson import read_lesson
 from sambot_viz.lessons.work import Work
 
-BASE = Path(__file__).parents[1] / "data" / "lessons" / "base"
+DATA = Path(__file__).parents[1] / "data" / "lessons"
+"""Lessons of the tests, and solutions of those that ship."""
+BASE = DATA / "base"
 """A lesson of two steps."""
 
 _HEAD = """\

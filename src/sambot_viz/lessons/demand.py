@@ -9,7 +9,12 @@ import yaml
 
 from sambot_viz.checks.around.files.parameters import flag, pairs
 from sambot_viz.errors import RobotError
-from sambot_viz.lessons.conditions.condition import Condition, Unmet, UnmetError
+from sambot_viz.lessons.conditions.condition import (
+    Condition,
+    Unmet,
+    UnmetError,
+    without_answer,
+)
 from sambot_viz.lessons.conditions.kinds import KINDS
 from sambot_viz.lessons.reading.records import read_record
 from sambot_viz.lessons.reading.report import LessonReport
@@ -106,6 +111,6 @@ def explained(error: RobotError) -> Unmet:
     problem = next(errors, error.problems[0])
     place = f"{problem.place}: " if problem.place else ""
     return Unmet(
-        f"the model cannot be read: {place}{problem.message}",
+        f"the model cannot be read: {place}{without_answer(problem.message)}",
         "a model that can be read",
     )

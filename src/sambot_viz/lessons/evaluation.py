@@ -120,7 +120,7 @@ def messages(
     for step in steps:
         model = given.model_of(step)
         if model not in works:
-            works[model] = Work(model, given.folder, trusted=False)
+            works[model] = Work(model, given.folder_of(step), trusted=False)
         faults = faults_of(step, works[model], given.track)
         found.append("\n".join(fault.message for fault in faults))
     refusals = [work.refusal for work in works.values()]

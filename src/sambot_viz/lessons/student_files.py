@@ -35,7 +35,13 @@ class HandedIn:
         """Return the model file of a step."""
         if not step.model or (self.is_file and self.model.name == step.model):
             return self.model
-        return (self.folder or self.model.parent) / step.model
+        return self.model.parent / step.model
+
+    def folder_of(self, step: LessonStep) -> Path | None:
+        """Return the folder with the files of a step; None for that of its model."""
+        if not step.model or self.folder is None:
+            return self.folder
+        return _folder_of(self.model_of(step), self.folder)
 
 
 def handed_in(lesson: Lesson, path: Path) -> HandedIn:

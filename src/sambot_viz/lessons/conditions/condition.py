@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -16,6 +17,8 @@ from sambot_viz.robot.parts import Joint, Link
 
 LENGTH, ANGLE = 0.001, 0.5
 """How far a length [m] and an angle [degrees] may be off, if no condition says it."""
+
+_MEANT = re.compile(r"[;,]? ?\(?did you mean [^?]*\?\)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +59,11 @@ class Condition(Protocol):
             RobotError: the model cannot be read.
         """
         ...
+
+
+def without_answer(message: str) -> str:
+    """Return the message of a problem without what was meant, which is the answer."""
+    return _MEANT.sub("", message)
 
 
 def link_of(robot: Robot, name: str) -> Link:

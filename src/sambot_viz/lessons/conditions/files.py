@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
-from sambot_viz.errors import Place, nearest
-from sambot_viz.lessons.conditions.condition import Unmet
+from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.lessons.conditions.condition import Unmet, without_answer
 from sambot_viz.lessons.reading.records import given
 from sambot_viz.lessons.reading.values import COUNT, TEXT, TEXTS
 from sambot_viz.lessons.work import Work
@@ -97,7 +97,7 @@ class NoProblemCondition:
         for problem in work.problems:
             named = any(fnmatchcase(problem.code, code) for code in self.code)
             if named and problem.severity != "info":
-                yield _of(problem.message, problem.place, "no such finding")
+                yield _of(problem, "no such finding")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,8 +111,9 @@ class NoErrorsCondition:
         for problem in work.problems:
             is_free = any(fnmatchcase(problem.code, code) for code in self.but)
             if problem.severity == "error" and not is_free:
-                yield _of(problem.message, problem.place, "no errors")
+                yield _of(problem, "no errors")
 
 
-def _of(message: str, place: str, expected: str) -> Unmet:
-    return Unmet(f"{place}: {message}" if place else message, expected)
+def _of(problem: Problem, expected: str) -> Unmet:
+    place = f"{problem.place}: " if problem.place else ""
+    return Unmet(f"{place}{without_answer(problem.message)}", expected)
