@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import lesson_page
 import limits_page
 import manual_page
 import pytest
@@ -20,14 +21,15 @@ from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ("README.md", "docs/guide.md", "docs/python.md")
+PAGES = ("README.md", "docs/guide.md", "docs/lessons.md", "docs/python.md")
 
 
 def written_commands() -> list[str]:
     """Every line in README and guide that calls the program, as a user types it."""
     text = "".join((ROOT / name).read_text("utf-8") for name in PAGES)
     blocks = re.findall(r"```(?:sh|console|text)\n(.*?)```", text, re.DOTALL)
-    lines = [line.removeprefix("$ ") for block in blocks for line in block.split("\n")]
+    joined = "\n".join(blocks).replace("\\\n", " ")
+    lines = [line.removeprefix("$ ") for line in joined.split("\n")]
     return [line for line in lines if line.startswith("sambot-viz ")]
 
 
@@ -40,6 +42,12 @@ def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
 def test_the_manual_page_is_that_of_the_parsers() -> None:
     assert manual_page.PAGE.read_text("utf-8") == manual_page.page(), (
         "run: PYTHONPATH=tests/support python tests/support/manual_page.py"
+    )
+
+
+def test_the_table_of_conditions_is_that_of_the_classes() -> None:
+    assert lesson_page.PAGE.read_text("utf-8") == lesson_page.page(), (
+        "run: PYTHONPATH=tests/support python tests/support/lesson_page.py"
     )
 
 

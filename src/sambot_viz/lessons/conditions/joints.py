@@ -76,7 +76,11 @@ class LinkCondition:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointCondition:
-    """A joint is there, and is as it is described."""
+    """A joint is there, and is as it is described.
+
+    `axis` is a direction, `along` the same or its opposite; a revolute joint without
+    ends counts as continuous too.
+    """
 
     name: str = given(TEXT)
     type: tuple[str, ...] = given(some_of(*get_args(JointType)), ())
