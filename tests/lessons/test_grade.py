@@ -142,6 +142,19 @@ def test_a_model_that_takes_too_long_fails_in_time(
     ] * 2
 
 
+def test_a_model_that_takes_too_much_memory_fails_and_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "GRADE_MEMORY", 300)
+    text = f"<robot name='sam_bot'>{'<link/>' * 1_000_000}</robot>"
+    found = grade(written(tmp_path, text), BASE)
+
+    assert not found.passed
+    assert "memory" in found.steps[0].message or "without a result" in (
+        found.steps[0].message
+    )
+
+
 def test_a_large_file_is_graded(tmp_path: Path) -> None:
     comment = f"<!-- {'x' * 5_000_000} -->"
     text = BODY.format(size="0.42 0.31 0.18").replace("</robot>", f"{comment}</robot>")

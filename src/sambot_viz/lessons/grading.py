@@ -113,8 +113,10 @@ def _in_child(
     try:
         answer: dict[str, Any] = json.loads(output)
     except ValueError:
-        text = f"grading ended without a result (status {status}): too much memory?"
+        text = f"grading ended without a result (status {status})"
         return _all_failed(lesson, steps, text)
+    if "failure" in answer:
+        return _all_failed(lesson, steps, answer["failure"])
     found = zip(steps, answer["messages"], strict=True)
     done = tuple(StepResult.of(lesson, step, message) for step, message in found)
     return done, answer["refusal"]

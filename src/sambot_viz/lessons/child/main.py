@@ -34,8 +34,14 @@ def main() -> None:
 
     lesson = read_lesson(Path(order["lesson"]))
     given = handed_in(lesson, Path(order["path"]))
-    said, refusal = messages(lesson, given, map(lesson.step, order["steps"]))
-    answer = {"messages": said, "refusal": refusal}
+    steps = [lesson.step(name) for name in order["steps"]]
+    try:
+        said, refusal = messages(lesson, given, steps)
+        answer = {"messages": said, "refusal": refusal}
+    except MemoryError:
+        answer = {"failure": "grading took too much memory"}
+    except Exception as error:
+        answer = {"failure": f"internal error of the grader: {error!r}; report it"}
     with os.fdopen(channel, "wb") as stream:
         stream.write(json.dumps(answer).encode())
     os._exit(0)
