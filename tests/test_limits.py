@@ -47,6 +47,7 @@ NO_LIMITS = {
         sources/joined.py _MOST_NAMED
         sources/live/conversation.py _MOST_LARGE _MOST_SAID
         topics/contents/clouds.py _MOST_NAMED
+        topics/ends.py MOST_ENDS _WIDEST
     """,
     "time: how long something is waited for, lasts or is kept": """
         commands/command_line.py LONGEST_LISTEN
@@ -70,6 +71,7 @@ NO_LIMITS = {
         sources/websocket/runner.py LONGEST_SILENCE
         sources/live/live_source.py LONGEST_PAUSE LONGEST_STOP
         sources/dds/dds_source.py LONGEST_SEARCH
+        sources/zenoh/readings.py _LONGEST_PAUSE
         sources/dds/ends.py _LONGEST_WRITE
         sources/dds/participant.py LONGEST_STOP
         sources/zenoh/session.py LONGEST_OPENING
@@ -97,6 +99,7 @@ NO_LIMITS = {
         topics/joint_states.py _MOST_TEMPLATES
         topics/name_spaces.py _MOST_KEPT
         topics/heard.py _MOST_TIMES
+        sources/zenoh/readings.py _MOST_WAITING
     """,
     "search: where advice and files are looked for": """
         checks/around/files/python_repair.py _MOST_LINES

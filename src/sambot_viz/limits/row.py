@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 
-class LimitRow(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class LimitRow:
     """A row of the table.
 
     Attributes:
