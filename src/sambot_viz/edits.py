@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.errors import Edit, Fix, Place
+from sambot_viz.files import read_limited
 from sambot_viz.unsaved import unsaved_text
 
 _ENCODING = re.compile(
@@ -421,7 +422,7 @@ def _of_text(text: str) -> SourceFile:
 @lru_cache(maxsize=8)
 def _read(file: str, saved: int, size: int) -> SourceFile:
     """Read a file once for many problems, until it is saved."""
-    return decoded(Path(file).read_bytes())
+    return decoded(read_limited(Path(file), limits.FIXED_FILE.value))
 
 
 def decoded(data: bytes) -> SourceFile:

@@ -7,10 +7,14 @@ import glob
 import os
 import stat
 import time
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 
+_KEPT_SIZE = 1 << 20
+"""Larger files are not kept by `each_file_once` [B]."""
+_kept: ContextVar[dict[str, bytes] | None] = ContextVar("kept", default=None)
 _LONGEST_SAVE = 3600.0
 """A file that another program is still writing is younger [s]."""
 
@@ -86,6 +90,22 @@ def reason_of(error: OSError | ValueError) -> str:
     return text[:1].lower() + text[1:]
 
 
+@contextmanager
+def each_file_once() -> Generator[None]:
+    """Let `read_limited` read each small file once, as long as this lasts.
+
+    Many rules look at the same files, and all of them at one state of these.
+    """
+    if _kept.get() is not None:
+        yield
+        return
+    before = _kept.set({})
+    try:
+        yield
+    finally:
+        _kept.reset(before)
+
+
 def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
     """Return the bytes of a regular file, unless there are more than `largest`.
 
@@ -102,6 +122,9 @@ def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
         OSError: it is not a regular file, or cannot be read.
         ValueError: no file can have this name.
     """
+    kept, name = _kept.get(), os.path.abspath(path)
+    if kept is not None and len(kept.get(name, b"")) <= largest and name in kept:
+        return kept[name]
     found = path.stat()
     if not (stat.S_ISREG(found.st_mode) or (pipe and stat.S_ISFIFO(found.st_mode))):
         raise NotAFileError(errno.EINVAL, "it is not a regular file", str(path))
@@ -109,6 +132,8 @@ def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
         with path.open("rb") as stream:
             data = stream.read(largest + 1)
         if len(data) <= largest:
+            if kept is not None and len(data) <= _KEPT_SIZE:
+                kept[name] = data
             return data
     raise FileTooLargeError(
         errno.EFBIG, f"it has more than {largest:,} bytes", str(path)

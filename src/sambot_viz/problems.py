@@ -15,7 +15,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Edit, Problem, Severity
+from sambot_viz.files import read_limited
 from sambot_viz.outlet import Line, Painted, write_err
 from sambot_viz.text import line
 from sambot_viz.unsaved import unsaved_text
@@ -198,12 +200,14 @@ def _lines_of(file: str) -> list[str]:
 @lru_cache(maxsize=4)
 def _lines(file: str, saved: int, size: int) -> list[str]:
     """Return the lines of a file, read once for many problems until it is saved."""
-    return _split(file, Path(file).read_text("utf-8", "replace"))
+    data = read_limited(Path(file), limits.MODEL.value)
+    return _split(file, data.decode("utf-8", "replace"))
 
 
 def _split(file: str, text: str) -> list[str]:
     """Return the lines of a text, counted as whoever reads its file counts them."""
     is_yaml = file.endswith((".rviz", ".yaml", ".yml"))
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
     lines = (_LINE_BREAK_OF_YAML if is_yaml else _LINE_BREAK).split(text)
     return lines if lines[-1] else lines[:-1]
 

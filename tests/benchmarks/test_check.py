@@ -21,6 +21,8 @@ CHECK = ["-m", "sambot_viz", "check"]
 NUMPY = ["-c", "import numpy"]
 MOST = 4.0
 """How many times as long as importing numpy (0.08 s alone on a machine of 2024)."""
+MOST_OF_PACKAGE = 5.0
+"""The same for a whole package."""
 
 
 def cpu(arguments: list[str]) -> float:
@@ -66,3 +68,32 @@ def test_an_stl_of_twelve_triangles_costs_no_more_than_a_box(
         lambda: cpu([*CHECK, str(tmp_path / "box.urdf")]),
     )
     assert result.ratio <= 1.35, str(result)
+
+
+def test_a_package_is_checked_in_a_few_imports_of_numpy(
+    compare: Callable[..., Any], repository: Path
+) -> None:
+    """With its launch files, parameters, config and world; modules are compiled."""
+    package = str(repository / "tests" / "data" / "around" / "gz")
+    cpu([*CHECK, package])
+    result = compare(
+        "check of a package against import numpy",
+        lambda: cpu([*CHECK, package]),
+        lambda: cpu(NUMPY),
+    )
+    assert result.ratio <= MOST_OF_PACKAGE, str(result)
+
+
+def test_plugins_cost_a_model_no_rules_about_packages(
+    compare: Callable[..., Any], tmp_path: Path
+) -> None:
+    plugin = '<plugin filename="libgazebo_ros_imu_sensor.so" name="imu"/>'
+    for name, more in (("plugin", f"<gazebo>{plugin}</gazebo>"), ("plain", "")):
+        text = f'<robot name="r"><link name="a"/>{more}</robot>'
+        (tmp_path / f"{name}.urdf").write_text(text)
+    result = compare(
+        "check of a model with a plugin against one without",
+        lambda: cpu([*CHECK, str(tmp_path / "plugin.urdf")]),
+        lambda: cpu([*CHECK, str(tmp_path / "plain.urdf")]),
+    )
+    assert result.ratio <= 1.5, str(result)

@@ -1,10 +1,14 @@
-"""What a check does not pay for: modules of rules that have nothing to look at."""
+"""What a check does not pay for: modules that it does not need, files read again."""
 
 from __future__ import annotations
 
+import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 from sambot_viz import bundled
 
@@ -60,3 +64,50 @@ def test_a_right_package_needs_no_module_about_what_is_wrong(repository: Path) -
         f"{AROUND}setup_file",
     }
     assert loaded & late == set()
+
+
+AUDIT = """
+import json, sys
+from collections import Counter
+
+root, opened, parsed = sys.argv[1], Counter(), Counter()
+
+def note(event, arguments):
+    if event == "open" and str(arguments[0]).startswith(root):
+        opened[str(arguments[0])] += 1
+    if event == "compile" and b"generate_launch_description()" in bytes(
+        str(arguments[0]), "utf-8"
+    ):
+        parsed[str(arguments[0])] += 1
+
+from sambot_viz.cli import main
+
+sys.addaudithook(note)
+status = main(["check", root])
+print()
+print(json.dumps([status, opened, [*parsed.values()]]))
+"""
+
+
+@pytest.mark.parametrize("name", ["gz", "classic"])
+def test_a_check_opens_each_file_once_and_parses_python_once(
+    name: str, repository: Path, tmp_path: Path
+) -> None:
+    """Also for the lines around a finding, which the model has here."""
+    package = tmp_path / "sam_bot_description"
+    shutil.copytree(repository / "tests" / "data" / "around" / name, package)
+    launch = next((package / "launch").glob("*.launch.py"))
+    launch.write_text(
+        launch.read_text("utf-8").replace('executable="rviz2"', 'executable="rviz"'),
+        "utf-8",
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", AUDIT, str(package)],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    _, opened, parsed = json.loads(ran.stdout.splitlines()[-1])
+    assert len(opened) > 5
+    assert {path for path, times in opened.items() if times > 1} == set()
+    assert parsed and set(parsed) == {1}

@@ -19,7 +19,7 @@ from sambot_viz.checks.model_rules import (
 )
 from sambot_viz.checks.targets import CheckedModel, Targets, find_targets
 from sambot_viz.errors import ConfigError, Problem, RobotError
-from sambot_viz.files import is_below
+from sambot_viz.files import each_file_once, is_below
 from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.robot.packages.package_index import package_around
 
@@ -49,6 +49,7 @@ class _Loaded(NamedTuple):
     around: tuple[Problem, ...]
 
 
+@each_file_once()
 def check_all(
     path: Path,
     *,
@@ -109,6 +110,7 @@ def _load(
         raise first from None
 
 
+@each_file_once()
 def problems_around(
     robot: Robot,
     model: Path,

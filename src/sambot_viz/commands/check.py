@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from sambot_viz import bundled
 from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem, UsageError
+from sambot_viz.files import each_file_once
 from sambot_viz.options import Options
 from sambot_viz.outlet import can_ask, write_json, write_out
 from sambot_viz.problems import group_problems, write_problems
@@ -41,10 +42,14 @@ def run(words: list[str]) -> int:
         workspace=options.workspace,
         trusted=options.trusted,
     )
-    found = check()
     if given.fix:
+        found = check()
         found = replace(found, problems=_fix(path, found, check, asks=not given.yes))
-    _print(path, found, given.format)
+        _print(path, found, given.format)
+    else:
+        with each_file_once():
+            found = check()
+            _print(path, found, given.format)
     return int(any(problem.severity == "error" for problem in found.problems))
 
 

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.errors import Problem, RobotError, did_you_mean
+from sambot_viz.files import FileTooLargeError, read_limited
 from sambot_viz.robot.xml.decode import XmlFault, decode, repaired_prolog
 from sambot_viz.robot.xml.element import Element, parse_xml
 
@@ -186,9 +187,15 @@ def _read(path: Path, label: str) -> bytes:
                 "give the URDF, SDF or xacro file",
                 label,
             )
-        # A pipe, such as the shell's <(…), can be read only once and has no size.
-        with path.open("rb") as file:
-            data = file.read(limits.MODEL.value + 1)
+        return read_limited(path, limits.MODEL.value, pipe=True)
+    except FileTooLargeError:
+        raise _refusal(
+            "model-too-large",
+            f"the file has more than {limits.MODEL.value:,} bytes, too many for a "
+            "robot description",
+            "open the model file itself",
+            label,
+        ) from None
     except FileNotFoundError:
         raise _refusal(
             "model-not-found", "there is no such file", _nearest(path), label
@@ -201,15 +208,6 @@ def _read(path: Path, label: str) -> bytes:
             "check its permissions",
             label,
         ) from None
-    if len(data) > limits.MODEL.value:
-        raise _refusal(
-            "model-too-large",
-            f"the file has more than {limits.MODEL.value:,} bytes, too many for a "
-            "robot description",
-            "open the model file itself",
-            label,
-        )
-    return data
 
 
 def _refusal(code: str, message: str, hint: str, label: str) -> RobotError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.gazebo import sensors
@@ -119,14 +120,13 @@ def _needs(around: Surroundings) -> Iterator[_Need]:
 def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
     """Report worlds that are no XML."""
     for shown, text in _worlds(around).items():
-        try:
-            parse_xml(text, shown)
-        except XmlFault as fault:
+        world = _read(text, shown)
+        if isinstance(world, XmlFault):
             yield Problem.at(
-                Place(shown, fault.line),
+                Place(shown, world.line),
                 "error",
                 "world-xml",
-                f"this world is no XML ({fault.message}): Gazebo stops with it",
+                f"this world is no XML ({world.message}): Gazebo stops with it",
                 "correct this line or the one above it: each <tag> needs its </tag>",
             )
 
@@ -169,14 +169,21 @@ def values_of_worlds(around: Surroundings) -> Iterator[Problem]:
 def _elements(around: Surroundings) -> Iterator[Element]:
     """Give the elements of the worlds that are their own, not those of models."""
     for shown, text in _worlds(around).items():
-        try:
-            waiting = [parse_xml(text, shown)]
-        except XmlFault:
-            continue
+        world = _read(text, shown)
+        waiting = [] if isinstance(world, XmlFault) else [world]
         while waiting:
             element = waiting.pop()
             yield element
             waiting += [e for e in reversed(element.children) if e.tag != "model"]
+
+
+@lru_cache(maxsize=4)
+def _read(text: str, shown: str) -> Element | XmlFault:
+    """Return the root of a world, or what stops it from being read."""
+    try:
+        return parse_xml(text, shown)
+    except XmlFault as fault:
+        return fault
 
 
 def _worlds(around: Surroundings) -> dict[str, str]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.files import read_limited
 
 MANIFESTS = ("package.xml", "manifest.xml", "model.config")
 IGNORE_MARKS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
@@ -57,10 +58,11 @@ def package_name(folder: Path) -> str | None:
     manifest.xml or with Gazebo's model.config are named by their folder.
     """
     try:
-        text = (folder / "package.xml").read_text("utf-8", "replace")
-    except OSError:
+        data = read_limited(folder / "package.xml", limits.PACKAGE_TEXT.value)
+    except (OSError, ValueError):
         old = any((folder / name).is_file() for name in MANIFESTS[1:])
         return folder.name if old else None
+    text = data.decode("utf-8", "replace")
     without_comments = re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL)
     match = _NAME.search(without_comments)
     return match[1] if match else folder.name

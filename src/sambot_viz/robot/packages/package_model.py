@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.files import read_limited
 from sambot_viz.robot.packages.package_index import MANIFESTS, package_name
 
 MODEL_ENDINGS = (".urdf.xacro", ".urdf", ".xacro", ".sdf.xacro", ".sdf")
@@ -223,11 +224,10 @@ def _worth_entering(name: str) -> bool:
 def _text_of(path: Path) -> str:
     """Return the text of a file without comments; "" when it cannot be read."""
     try:
-        if path.stat().st_size > limits.XACRO_SOURCE.value:
-            return ""
-        return _COMMENT.sub("", path.read_text("utf-8", "replace"))
-    except OSError:
+        data = read_limited(path, limits.XACRO_SOURCE.value)
+    except (OSError, ValueError):
         return ""
+    return _COMMENT.sub("", data.decode("utf-8", "replace"))
 
 
 def _look_at(path: Path) -> _ModelFile:
@@ -285,9 +285,10 @@ def _named_in_launch_files(folder: Path, models: Sequence[Path]) -> list[Path]:
     texts: list[str] = []
     for file in sorted(folder.glob("launch/**/*launch*"))[:50]:
         try:
-            texts.append(file.read_text("utf-8", "replace"))
-        except OSError:
+            data = read_limited(file, limits.PACKAGE_TEXT.value)
+        except (OSError, ValueError):
             continue
+        texts.append(data.decode("utf-8", "replace"))
     return [p for p in models if any(_names(p.name, text) for text in texts)]
 
 
