@@ -118,6 +118,8 @@ def _element(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
     if where == " before it":
         return [(Extent(tag.name.start - 1, tag.name.start - 1), written)]
     same = _name(new, first) == _name(source, tag)
+    if not where and not same and (found := _inner(source, tag, written)):
+        return found
     if first.end == len(written) and (same or not first.is_empty):
         values = ((name, written[slice(*at)]) for name, at in first.values.items())
         owner = tag if same else _around(source, tag, _name(new, first))
@@ -143,6 +145,28 @@ def _element(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
     if "$" in old and "$" not in written:
         return []
     return [(Extent(tag.name.start - 1, end), written)]
+
+
+def _inner(source: SourceFile, tag: Tag, written: str) -> Changes:
+    """Give elements in another, each there once and without content, attributes."""
+    changes: Changes = []
+    elements = [SourceFile(each, "") for each in re.findall(r"<[^<>]+/>", written)]
+    if "".join(each.text for each in elements) != written:
+        return []
+    end = source.end_of(tag) or tag.end
+    for new in elements:
+        first = new.tag(0)
+        name = "" if first is None else _name(new, first)
+        found = list(re.finditer(rf"<{name}\b", source.text[tag.end : end]))
+        old = source.tag(tag.end + found[0].start()) if len(found) == 1 else None
+        if first is None or old is None:
+            return []
+        pairs = [(key, new.text[slice(*at)]) for key, at in first.values.items()]
+        made = _set(source, old, pairs)
+        if not made:
+            return []
+        changes += made
+    return changes
 
 
 def _inside(source: SourceFile, tag: Tag, written: str) -> list[int]:

@@ -208,6 +208,57 @@ def include_before(place: Place, file: str) -> Fix:
     return Fix(hint, (source.edit(place, at, blanks + written),))
 
 
+def write_part(
+    place: Place | None, name: str, at: int, wrong: str, right: str
+) -> tuple[Edit, ...]:
+    """Return the edit of one of several numbers in an attribute.
+
+    Args:
+        place: where the element begins.
+        name: the attribute.
+        at: which of the numbers, from 0.
+        wrong: the number that is there; another text is left alone.
+        right: what to write.
+    """
+    parts = _parts(place, name)
+    if at >= len(parts) or not _says(parts[at][0], [float(wrong)]):
+        return ()
+    return _written(place, parts[at][1], right)
+
+
+def exchange_parts(
+    place: Place | None, name: str, one: int, other: int
+) -> tuple[Edit, ...]:
+    """Return the edits that exchange two of the numbers in an attribute.
+
+    Args:
+        place: where the element begins.
+        name: the attribute.
+        one: a number, from 0.
+        other: another.
+    """
+    parts = _parts(place, name)
+    if max(one, other) >= len(parts):
+        return ()
+    (first, here), (second, there) = parts[one], parts[other]
+    return (*_written(place, here, second), *_written(place, there, first))
+
+
+def _parts(place: Place | None, name: str) -> list[tuple[str, Extent]]:
+    """Return the texts between blanks in an attribute, and where they are."""
+    found = _tag_at(place) if place is not None else None
+    if found is None or name not in found[1].values:
+        return []
+    start, end = found[1].values[name]
+    parts = re.finditer(r"\S+", found[0].text[start:end])
+    return [(m[0], Extent(start + m.start(), start + m.end())) for m in parts]
+
+
+def _written(place: Place | None, extent: Extent, new: str) -> tuple[Edit, ...]:
+    source = None if place is None else source_of(place.file)
+    return (source.edit(place, extent, new),) if place and source else ()
+
+
 def put_into(place: Place | None, written: str) -> tuple[Edit, ...]:
     """Return the edit that writes an element as the first in another one."""
     found = _tag_at(place) if place is not None else None

@@ -169,7 +169,7 @@ DISC = (
         ("0 0 0", "0 1 0", 'lay it down: <origin xyz="0 0 0.1" rpy="1.5708 0 0"/>'),
         ("0 0 0", "-2 0 0", 'lay it down: <origin xyz="0 0 0.1" rpy="0 1.5708 0"/>'),
         ("0 0 0", "0.6 0.8 0", "turn the shape so that its z axis is along the axle"),
-        ("1.5708 0 0", "1 0 0", 'write <axis xyz="0 1 0"/> for joint j'),
+        ("1.5708 0 0", "1 0 0", 'write <axis xyz="0 1 0"/>'),
     ],
 )
 def test_a_wheel_across_its_axle_turns_end_over_end(
@@ -246,7 +246,7 @@ def test_only_a_wheel_that_does_not_swivel_is_told_to_lie_across_an_upright_axle
 
     problems = checked(body.replace('"b"', f'"{name}"'), "wheel-across-axle")
 
-    advice = [] if axis is None else [f'write <axis xyz="{axis}"/> for joint j']
+    advice = [] if axis is None else [f'write <axis xyz="{axis}"/>']
     assert [problem.hint for problem in problems] == advice
 
 

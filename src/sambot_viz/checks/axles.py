@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.clues import guess
-from sambot_viz.checks.rule import Subject, axis_text, listed
-from sambot_viz.checks.wheel_clues import WHEEL, is_rotor, wheel_clues
-from sambot_viz.edits import overwrite_attribute, put_into
+from sambot_viz.checks.rule import Subject, axis_text, listed, number
+from sambot_viz.checks.wheel_clues import is_rotor, wheel_clues
+from sambot_viz.edits import overwrite_attribute, put_into, write_part
 from sambot_viz.errors import Edit, Fix, Problem
 from sambot_viz.geometry import UP, Vector3, cross, dot
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Cylinder, Joint, Language, Shape
+from sambot_viz.robot.slips.wheel_names import SWIVELS, WHEEL
 
-_SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 _ACROSS = 0.1
 """Largest cosine between two directions that are across each other (84°)."""
 _ALONG = 0.99
@@ -57,7 +56,7 @@ def wheels_across_their_axles(subject: Subject) -> Iterator[Problem]:
         edits = _lying(robot, across, shape, along)
         place = shape.place
     if abs(dot(axle, along)) < _ALONG:
-        advice.append(_turned_axis(joint, along, robot.language))
+        advice.append(_turned_axis(along, robot.language))
     turns = "the wheel {} turns" if len(across) == 1 else "the wheels {} turn"
     clues = {"shape"}.union(
         *(wheel_clues(robot, each) for each, _, _ in across.values())
@@ -164,6 +163,7 @@ def wheels_in_one_place(subject: Subject) -> Iterator[Problem]:
 def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
     x, y, z = one.origin.xyz
     written = _numbers((x, -y, z))
+    wrong = _on_wrong_side(one, other)
     both = [f"{joint.name} {joint.child}".lower() for joint in (one, other)]
     element = "<pose>" if robot.language == "sdf" else "<origin>"
     return guess(
@@ -171,12 +171,23 @@ def _in_one_place(one: Joint, other: Joint, robot: Robot) -> Problem:
         "wheels-in-one-place",
         f"the wheels {one.child} and {other.child} are in the same place of "
         f"{one.parent}, at {_numbers(one.origin.xyz)}: one hides the other",
-        f"give one of {one.name} and {other.name} the other side: {written} in its "
-        f"{element}, or -1 for 1 where a macro is given the side",
+        Fix(
+            f"give one of {one.name} and {other.name} the other side: {written} in its "
+            f"{element}, or -1 for 1 where a macro is given the side",
+            write_part(wrong.origin.place, "xyz", 1, f"{y}", number(-y))
+            if one.origin.place != other.origin.place
+            else (),
+        ),
         {"place"}
         | (wheel_clues(robot, one) & {"name", "drive"})
         | {"sides" for names in (both, reversed(both)) if _are_sides(*names)},
     )
+
+
+def _on_wrong_side(one: Joint, other: Joint) -> Joint:
+    """Return which of two wheels is not where its name says; the later by default."""
+    side = "right" if one.origin.xyz[1] > 0 else "left"
+    return one if side in f"{one.name} {one.child}".lower() else other
 
 
 def _are_sides(one: str, other: str) -> bool:
@@ -200,7 +211,7 @@ def only_rolls(joint: Joint, robot: Robot) -> bool:
     names = f"{joint.name} {joint.child}".lower()
     at_end = all(other.parent != joint.child for other in robot.joints.values())
     wheel = WHEEL.search(joint.child.lower())
-    return at_end and wheel is not None and not _SWIVELS.search(names)
+    return at_end and wheel is not None and not SWIVELS.search(names)
 
 
 def _is_across(shape: Shape, axle: Vector3) -> bool:
@@ -239,7 +250,7 @@ def _laid_down(shape: Shape, axle: Vector3, language: Language) -> str:
     return f'lay it down: <origin xyz="{xyz}" rpy="{rpy}"/> for the shape'
 
 
-def _turned_axis(joint: Joint, middle: Vector3, language: Language) -> str:
+def _turned_axis(middle: Vector3, language: Language) -> str:
     """Say which axis fits a wheel that stands upright."""
     xyz = _UNITS.get(_named(middle)) or _numbers(middle)
-    return f"write {axis_text(xyz, language)} for joint {joint.name}"
+    return f"write {axis_text(xyz, language)}"

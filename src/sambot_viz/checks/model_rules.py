@@ -11,6 +11,7 @@ from sambot_viz.advice import with_edits
 from sambot_viz.checks.around import names_that_must_meet
 from sambot_viz.checks.axles import wheels_across_their_axles, wheels_in_one_place
 from sambot_viz.checks.consequences import without_consequences
+from sambot_viz.checks.exchanged_joint import exchanged_joint
 from sambot_viz.checks.exchanged_lengths import exchanged_lengths
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.flat_wheels import flat_wheels
@@ -41,6 +42,7 @@ from sambot_viz.checks.slips import (
     sizes_not_positive,
 )
 from sambot_viz.checks.unused_macros import unused_macros
+from sambot_viz.checks.wheel_twins import unlike_twins
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 
@@ -62,12 +64,14 @@ RULES: tuple[Rule, ...] = (
     lengths_not_in_metres,
     unusable_meshes,
     meshes_of_wrong_size,
+    unlike_twins,
     wheels_off_the_ground,
     wheels_across_their_axles,
     flat_wheels,
     exchanged_lengths,
     wheels_in_one_place,
     falls_over,
+    exchanged_joint,
     names_that_differ_in_case,
     names_with_spaces,
     unused_macros,
@@ -90,6 +94,7 @@ _CAUSES: tuple[Rule, ...] = (
     lengths_not_in_metres,
     wheels_across_their_axles,
     flat_wheels,
+    unlike_twins,
 )
 """The rules about a model that say what others follow from."""
 

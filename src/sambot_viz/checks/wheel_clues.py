@@ -9,8 +9,8 @@ from sambot_viz.checks.clues import Clues
 from sambot_viz.geometry import UP, Vector3
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Box, Cylinder, Joint, Shape, Sphere
+from sambot_viz.robot.slips.wheel_names import WHEEL
 
-WHEEL = re.compile("wheel|whl|t[iy]re")
 _ROTOR = re.compile(
     r"prop|rotor|thruster|impeller|turbine|blade|(?<![a-z])fan(?![a-z])", re.IGNORECASE
 )
@@ -63,10 +63,11 @@ def _near(one: Vector3, other: Vector3) -> bool:
 
 
 def _geometries(robot: Robot, link: str) -> list[object]:
-    return [shape.geometry for shape in _shapes(robot, link)]
+    return [shape.geometry for shape in shapes_of(robot, link)]
 
 
-def _shapes(robot: Robot, link: str) -> tuple[Shape, ...]:
+def shapes_of(robot: Robot, link: str) -> tuple[Shape, ...]:
+    """Return what a link touches others with, else what is drawn of it."""
     return robot.links[link].collisions or robot.links[link].visuals
 
 
@@ -80,7 +81,7 @@ def _is_lowest(robot: Robot, link: str) -> bool:
 def _lows(robot: Robot, link: str) -> Iterator[float]:
     """Give the lowest height of each shape of a link that is no mesh [m]."""
     T_root_link = robot.at_start[link]
-    for shape in _shapes(robot, link):
+    for shape in shapes_of(robot, link):
         T = T_root_link @ shape.origin.pose
         match shape.geometry:
             case Sphere(radius):

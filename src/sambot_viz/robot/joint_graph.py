@@ -80,6 +80,37 @@ def copied_joint(
     return best, link
 
 
+def exchanged_joint(
+    joints: Iterable[Joint], links: Iterable[str], main: str
+) -> Joint | None:
+    """Return the joint whose parent and child are to be exchanged for one tree.
+
+    Args:
+        joints: those of a model in which a link is the child of two joints.
+        links: names of all links.
+        main: the root that is to stay.
+
+    Returns:
+        None unless it is exactly one.
+    """
+    all_joints, names = list(joints), set(links)
+    found: list[Joint] = []
+    for joint in all_joints:
+        ends = [
+            (j.child, j.parent) if j is joint else (j.parent, j.child)
+            for j in all_joints
+        ]
+        children = [child for _, child in ends]
+        if len(set(children)) < len(children) or names - set(children) != {main}:
+            continue
+        below: dict[str, list[str]] = {}
+        for parent, child in ends:
+            below.setdefault(parent, []).append(child)
+        if links_below(main, below) == names:
+            found.append(joint)
+    return found[0] if len(found) == 1 else None
+
+
 def _likeness(joint: str, link: str) -> float:
     one, other = joint.replace("joint", ""), link.replace("link", "")
     return difflib.SequenceMatcher(None, one, other).ratio()

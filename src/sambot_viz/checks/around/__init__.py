@@ -23,7 +23,12 @@ if TYPE_CHECKING:
 
 __all__ = ["built_wrongly", "names_that_must_meet", "wrong_files"]
 
-_INCOMPLETE = ("xacro-prefix-missing", "xacro-prefix-undeclared")
+_INCOMPLETE = (
+    "joint-to-itself",
+    "joint-ring",
+    "xacro-prefix-missing",
+    "xacro-prefix-undeclared",
+)
 
 
 def names_that_must_meet(subject: Subject) -> Iterator[Problem]:

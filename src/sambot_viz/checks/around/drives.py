@@ -218,7 +218,8 @@ def _turning(robot: Robot, left: _DriveWheel, right: _DriveWheel) -> Problem | N
             if len(back) == 2
             else "turns the robot where straight on is meant"
         ),
-        f"write {axis_text(axis, robot.language)} for {names}",
+        f"write {axis_text(axis, robot.language)}"
+        + (f" for {names}" if len(back) == 2 else ""),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.exchanged_joint import ends_exchanged, joint_of_root
 from sambot_viz.errors import Problem
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint
@@ -18,19 +19,9 @@ def exchanged_ends(robot: Robot, joint: Joint, base: Fact, user: str) -> Problem
         base: where the base frame is named.
         user: who moves it.
     """
-    part = robot.links[joint.parent]
-    others = [other for other in robot.joints.values() if other is not joint]
-    if (
-        joint.parent != robot.root
-        # A link without a shape, such as base_footprint, may be the root.
-        or not (part.visuals or part.collisions)
-        or any(other.parent == joint.parent for other in others)
-        or not any(other.parent == joint.child for other in others)
-    ):
+    if joint_of_root(robot) is not joint:
         return None
     place = joint.place or base.place
-    tag = "<{0}>{1}</{0}>" if robot.language == "sdf" else '<{0} link="{1}"/>'
-    parent, child = tag.format("parent", joint.child), tag.format("child", joint.parent)
     return Problem.at(
         place,
         "warning",
@@ -38,5 +29,5 @@ def exchanged_ends(robot: Robot, joint: Joint, base: Fact, user: str) -> Problem
         f"joint {joint.name} has {joint.parent} as its parent and {joint.child} as its "
         f"child, but {user} moves {joint.child} ({where(base.place, place)}), and the "
         "other parts hang from it: parent and child are exchanged",
-        f"write {parent} and {child}",
+        ends_exchanged(joint, robot.language),
     )

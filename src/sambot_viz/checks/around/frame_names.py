@@ -22,6 +22,7 @@ from sambot_viz.checks.around.navigation import (
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.exchanged_joint import joint_of_part
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
@@ -124,8 +125,11 @@ def two_parents(around: Surroundings) -> Iterator[Problem]:
     if around.namespaced or around.robot.root in _NO_BASE:
         return
     said: set[Problem] = set()
+    part = joint_of_part(around.robot)
     for fact, user, odom in _moved_bases(around):
         joint = parents.get(bare_frame(fact.value))
+        if joint is not None and joint is part:
+            continue
         exchanged = joint and exchanged_ends(around.robot, joint, fact, user)
         if exchanged and not said:
             said.add(exchanged)

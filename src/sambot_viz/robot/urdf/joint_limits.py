@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Dynamics, JointType, Limit, SoftLimit
+from sambot_viz.robot.slips.wheel_names import rolls
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.xml.element import Element
 
@@ -72,6 +73,17 @@ class LimitReader:
     def _report_no_limit(self) -> None:
         unit = "radians" if self._kind == "revolute" else "metres"
         ends = _example(self._kind, ("lower", "upper"), Limit())
+        child = self._element.find("child")
+        link = (child.get("link") if child else None) or ""
+        if self._kind == "revolute" and rolls(self._name, link):
+            self._findings.reject(
+                "limit-missing",
+                f"joint {self._name} is revolute and has no <limit>, as a wheel has "
+                f"none that turns without end; {_REFUSED}",
+                'write type="continuous"',
+                self._element,
+            )
+            return
         other = ", or make the joint continuous" if self._kind == "revolute" else ""
         self._findings.reject(
             "limit-missing",

@@ -14,6 +14,7 @@ from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
     children_of,
     copied_joint,
+    exchanged_joint,
     links_below,
     report_depth,
     rings_of,
@@ -83,15 +84,31 @@ def _with_missing_links(parts: RobotParts, findings: ModelFindings) -> RobotPart
 
 
 def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
+    children = {joint.child for joint in parts.joints.values()}
+    alone = [link for link in parts.links if link not in children]
+    below = children_of(j for j in parts.joints.values() if j.parent != j.child)
+    if len(alone) > 1:
+        # The root is the child of no joint either.
+        alone.remove(max(alone, key=lambda link: len(links_below(link, below))))
     for name, joint in parts.joints.items():
         if joint.parent == joint.child:
             element = parts.joint_elements[name]
+            hint, end = "name two different links as parent and child", "child"
+            if len(alone) == 1:
+                sizes = [
+                    len(links_below(each, below)) for each in (*alone, joint.child)
+                ]
+                # base_footprint is the root even where it has nothing else below it.
+                is_root = sizes[0] > sizes[1] and "footprint" not in joint.child
+                end = "parent" if is_root else "child"
+                hint = f'write <{end} link="{alone[0]}"/>'
+                parts.excused.add(alone[0])
             findings.error(
                 "joint-to-itself",
                 f"joint {name} connects {joint.child} to itself, so the link is "
                 "not connected to anything; ROS drops it without a message",
-                "name two different links as parent and child",
-                element.find("child") or element,
+                hint,
+                element.find(end) or element,
             )
 
 
@@ -107,9 +124,14 @@ def _parent_joints(parts: RobotParts, findings: ModelFindings) -> dict[str, Join
     copied = copied_joint(holders, [root for root in roots if root != main])
     for link, joints in holders.items():
         chosen[link] = max(joints, key=lambda joint: joint.name)
-        if len(joints) > 1 and link not in parts.duplicates:
+        others = [joint for joint in joints if joint.parent != joint.child]
+        if len(others) > 1 and link not in parts.duplicates:
             if copied is not None and not parts.duplicates:
                 _report_copied(parts, findings, joints, *copied)
+                continue
+            turned = exchanged_joint(parts.joints.values(), parts.links, main)
+            if turned in joints and not parts.duplicates:
+                _report_exchanged(parts, findings, joints, turned)
                 continue
             _report_two_parents(parts, findings, link, joints, chosen[link].name)
     return chosen
@@ -130,11 +152,28 @@ def _report_copied(
         f"link {copied.child} is the child of {copied.name} and of {other.name} (line "
         f"{parts.joint_elements[other.name].place.line}), and {meant} of no joint; ROS "
         "refuses the model",
-        f'write <child link="{meant}"/> for {copied.name}',
+        f'write <child link="{meant}"/>',
         element.find("child") or element,
         "link",
     )
     parts.excused.add(meant)
+
+
+def _report_exchanged(
+    parts: RobotParts, findings: ModelFindings, joints: list[Joint], turned: Joint
+) -> None:
+    """Report a joint whose parent and child are exchanged."""
+    other = next(joint for joint in joints if joint is not turned)
+    findings.reject(
+        "link-two-parents",
+        f"joint {turned.name} has {turned.parent} as its parent and {turned.child} as "
+        f"its child, which is already the child of {other.name} (line "
+        f"{parts.joint_elements[other.name].place.line}), and {turned.parent} is the "
+        "child of no joint: they are exchanged; ROS refuses the model",
+        f'write <parent link="{turned.child}"/> and <child link="{turned.parent}"/>',
+        parts.joint_elements[turned.name],
+    )
+    parts.excused.add(turned.parent)
 
 
 def _report_two_parents(
