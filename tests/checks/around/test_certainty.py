@@ -142,7 +142,7 @@ ARGUMENTS = """
                 launch_arguments={"gz_args": GIVEN}.items(),
             ),
             ExecuteProcess(cmd=["gz", "sim", world, "-r"]),
-            Node(package="ros_gz_sim", executable="server", arguments=[world, "-r"]),
+            Node(package="ros_gz_sim", executable="gzserver", arguments=[world, "-r"]),
 """
 
 

@@ -652,7 +652,6 @@ MISTAKES = [
         'os.path.join(share, "rviz", "urdf_config.rviz")',
         ("rviz/cart.rviz", ""),
         "write rviz/cart.rviz",
-        by_hand=True,
     ),
     one(
         "launch-file-missing",
@@ -663,7 +662,6 @@ MISTAKES = [
         "write config/ekf.yaml",
         package="classic",
         name="folder",
-        by_hand=True,
     ),
     Mistake(
         "launch-parameters-unread",

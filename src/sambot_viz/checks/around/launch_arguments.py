@@ -11,6 +11,7 @@ from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
@@ -52,6 +53,16 @@ def undeclared_arguments(around: Surroundings) -> Iterator[Problem]:
         for name, place in file.used if file.certain else ():
             if name and name not in known:
                 yield _undeclared(name, place, file)
+
+
+def declared_in(package: Package) -> dict[str, Mapping[str, Place]]:
+    """Return the launch files of a package, with the arguments that each declares.
+
+    Those that it may have from files which it includes are not among them.
+    """
+    files = {launch.shown: _of_python(launch) for launch in package.launches}
+    files |= {root.place.file: _of_frontend(root) for root in package.frontends}
+    return {shown: file.declared for shown, file in files.items()}
 
 
 def _undeclared(name: str, place: Place, file: _File) -> Problem:

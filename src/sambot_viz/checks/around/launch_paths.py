@@ -15,7 +15,7 @@ from sambot_viz.checks.around.spawning import spawned_with
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
 OWN_NAMES = {
     "ekf_node": "ekf_filter_node",
@@ -29,6 +29,11 @@ OWN_NAMES = {
 
 _ASKING = frozenset({"exists", "isfile", "is_file", "write_text"})
 _WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
+_IN_SHARE = re.compile(
+    r"(FILES|PROGRAMS|DIRECTORY[^)]*/)\s[^)]*DESTINATION\s+[\"']?(share|\$\{CMAKE_INSTALL_"
+    r"DATADIR\})/\$\{PROJECT_NAME\}/?[\"']?\s*\)"
+)
+"""Installs files, or what is in a folder, into the share folder of the package."""
 _WORLDS = (".sdf", ".world", ".wbt")
 _MODELS = (".urdf", ".xacro", ".sdf")
 
@@ -53,10 +58,18 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
                     "launch-file-missing",
                     f"the launch file uses {below}, which {_whose(package, launch)} "
                     f"does not have; it has {near}",
-                    f"write {near}"
+                    _renamed(fact.place, below, near)
                     if read or _is_meant(below, near, package.paths)
                     else f"add that file, or write {near} if it is meant",
                 )
+
+
+def _renamed(place: Place, below: str, near: str) -> Fix:
+    """Return the fix that writes another file, also where its folder is apart."""
+    old, new = PurePosixPath(below), PurePosixPath(near)
+    if old.parent != new.parent:
+        return write(place, below, near)
+    return write(place, old.name, new.name, hint=f"write {near}")
 
 
 def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
@@ -86,8 +99,11 @@ def _whose(package: Package, launch: LaunchFile) -> str:
 def _is_missing(below: str, package: Package) -> bool:
     folder, slash, _ = below.partition("/")
     paths = package.paths
-    if not slash or below in paths or any(p.startswith(f"{below}/") for p in paths):
+    if below in paths or any(p.startswith(f"{below}/") for p in paths):
         return False
+    if not slash:
+        names = [path.rpartition("/")[2] for path in paths]
+        return names.count(below) == 1 and not _installs_beside_manifest(package)
     if (package.folder / below).exists():
         # Such as a mesh or a test, which are not listed.
         return False
@@ -96,6 +112,18 @@ def _is_missing(below: str, package: Package) -> bool:
     # The build may give a folder another name.
     build = (package.text(name) for name in ("CMakeLists.txt", "setup.py"))
     return not any(text is not None and folder in text for text in build)
+
+
+def _installs_beside_manifest(package: Package) -> bool:
+    """Tell whether files may get into the share folder itself, not one in it."""
+    cmake, setup = package.text("CMakeLists.txt"), package.setup
+    if cmake is not None:
+        return _IN_SHARE.search(cmake) is not None
+    if setup is None or not setup.installs_only_known:
+        return True
+    share = f"share/{package.name}"
+    beside = [e for e in setup.data_files if (e.target or "").rstrip("/") == share]
+    return any(list(entry.files.known or ()) != ["package.xml"] for entry in beside)
 
 
 def _read_by(launch: LaunchFile, fact: Fact, package: Package) -> str | None:

@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 from functools import cache
+from typing import NamedTuple
 
 import yaml
 
@@ -13,7 +14,7 @@ from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_code import undefined_names
 from sambot_viz.checks.around.launch_file import NODES, LaunchFile
-from sambot_viz.checks.around.launching.python_parts import Call, Table
+from sambot_viz.checks.around.launching.python_parts import Table
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.spawning import spawned_with
@@ -83,41 +84,68 @@ def _assigned(launch: LaunchFile) -> Iterator[tuple[str, ast.Call]]:
                     yield target.id, value
 
 
-def unknown_programs(around: Surroundings) -> Iterator[Problem]:
-    """Report programs that a well-known package does not have."""
+class _Program(NamedTuple):
+    """A program that a launch file starts.
+
+    Attributes:
+        package: its package.
+        name: the program.
+        place: where that is written.
+        package_place: where the package is.
+    """
+
+    package: str
+    name: str
+    place: Place
+    package_place: Place
+
+
+def _programs(around: Surroundings) -> Iterator[_Program]:
+    """Give the programs of nodes whose names are known."""
     for launch in around.launches:
         for call in launch.in_use:
-            if call.name not in NODES:
-                continue
-            package = launch.text(call, "package") or ""
-            program = launch.text(call, "executable")
-            here = next((p for p in around.packages if p.name == package), None)
-            own = None if here is None else _own_programs(here)
-            every = vocabulary("launch_programs").get(package, ())
-            known = every if own is None else tuple(own)
-            given = call.given("executable")
-            if given is None or program is None or program in known:
-                continue
-            near = meant_word(known, program, 0.6)
-            elsewhere = owners().get(program, "") if known and own is None else ""
-            if elsewhere:
-                yield _of_another(launch, call, program, elsewhere)
-                continue
-            if near is None and own is None:
-                continue
-            place = launch.place(given)
-            listed_at = own.get(near or "") if own is not None else None
-            there = f"; it has {near} ({where(listed_at, place)})" if listed_at else ""
-            yield Problem.at(
-                place,
-                "error",
-                "launch-program-unknown",
-                f"the package {package} has no program {program}{there}: ros2 launch "
-                "stops with it",
-                write(place, program, near)
-                if near and (own is None or is_misspelt(program, near))
-                else _other_program(program, near),
-            )
+            given, package = call.given("executable"), call.given("package")
+            name = launch.text(call, "executable") if call.name in NODES else None
+            if given is not None and name is not None:
+                place = launch.place(given)
+                there = call.place if package is None else launch.place(package)
+                yield _Program(launch.text(call, "package") or "", name, place, there)
+    for root in (root for package in around.packages for root in package.frontends):
+        for node in root.iter():
+            name, package = node.get("exec"), node.get("pkg")
+            if node.tag == "node" and name and package and "$" not in name + package:
+                yield _Program(package, name, node.place, node.place)
+
+
+def unknown_programs(around: Surroundings) -> Iterator[Problem]:
+    """Report programs that a well-known package does not have."""
+    for package, program, place, package_place in _programs(around):
+        here = next((p for p in around.packages if p.name == package), None)
+        own = None if here is None else _own_programs(here)
+        every = vocabulary("launch_programs").get(package, ())
+        known = every if own is None else tuple(own)
+        if program in known:
+            continue
+        near = meant_word(known, program, 0.6)
+        elsewhere = owners().get(program, "") if known and own is None else ""
+        if elsewhere and program not in dict(w.split("=") for w in known if "=" in w):
+            yield _of_another(package_place, package, program, elsewhere)
+            continue
+        if near is None and own is None:
+            continue
+        listed_at = own.get(near or "") if own is not None else None
+        there = f"; it has {near} ({where(listed_at, place)})" if listed_at else ""
+        certain = own is None or is_misspelt(program, near or "")
+        yield Problem.at(
+            place,
+            "error",
+            "launch-program-unknown",
+            f"the package {package} has no program {program}{there}: ros2 launch "
+            "stops with it",
+            write(place, program, near)
+            if near and certain
+            else _other_program(program, near),
+        )
 
 
 @cache
@@ -130,10 +158,7 @@ def owners() -> dict[str, str]:
     return found
 
 
-def _of_another(launch: LaunchFile, call: Call, program: str, package: str) -> Problem:
-    given = call.given("package")
-    place = call.place if given is None else launch.place(given)
-    said = launch.text(call, "package") or ""
+def _of_another(place: Place, said: str, program: str, package: str) -> Problem:
     return Problem.at(
         place,
         "error",

@@ -8,10 +8,13 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.misspelt import is_misspelt
+from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem
+from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
@@ -92,6 +95,27 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
                         write(place, text, package.name),
                     )
                     break
+
+
+def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
+    """Report a folder of a package that is almost called as a well-known one."""
+    known = {*vocabulary("launch_programs"), *known_nodes().packages}
+    for package in around.packages:
+        others = around.names | _dependencies(package.manifest) | known
+        for launch in package.launches:
+            for text, place in _asked(launch):
+                near = None if text in others else nearest(text, sorted(known), 0.85)
+                if near is None or package.knows(text):
+                    continue
+                if is_misspelt(text, near):
+                    yield Problem.at(
+                        place,
+                        "error",
+                        "launch-package-unknown",
+                        f"there is no package {text}, but {near}: ros2 launch stops "
+                        "with it",
+                        write(place, text, near),
+                    )
 
 
 def _asked(launch: LaunchFile) -> Iterator[tuple[str, Place]]:

@@ -82,6 +82,10 @@ from sambot_viz.checks.around.launch_events import (
     texts_for_actions,
 )
 from sambot_viz.checks.around.launch_imports import wrong_imports
+from sambot_viz.checks.around.launch_includes import (
+    includes_without_argument,
+    misplaced_includes,
+)
 from sambot_viz.checks.around.launch_joins import (
     joined_paths,
     joined_texts,
@@ -136,7 +140,11 @@ from sambot_viz.checks.around.node_parameters import (
     unread_parameters,
 )
 from sambot_viz.checks.around.odometry import unpublished_odometry
-from sambot_viz.checks.around.own_names import setup_name, unknown_packages
+from sambot_viz.checks.around.own_names import (
+    misspelt_shares,
+    setup_name,
+    unknown_packages,
+)
 from sambot_viz.checks.around.parameter_files import unreadable_parameters
 from sambot_viz.checks.around.parameter_names import (
     unknown_parameters,
@@ -236,8 +244,11 @@ OF_FILES: tuple[Check, ...] = (
     namespaces,
     unused_actions,
     undeclared_arguments,
+    includes_without_argument,
+    misplaced_includes,
     unknown_programs,
     unknown_packages,
+    misspelt_shares,
     no_joint_states,
     bridges_as_parameters,
     joined_words,
