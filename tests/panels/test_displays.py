@@ -294,7 +294,7 @@ def test_while_there_is_no_robot_its_display_names_the_mistakes(tmp_path: Path) 
         line = mistake.split(":")[1]
         extra = displays.named("RobotModel", "Status", "Model").extra
         problems = rows_of(
-            panel_of(ProblemsPanel, session_of(viz), folders=True, edits=None)
+            panel_of(ProblemsPanel, session_of(viz), edits=None, text=None)
         )
         assert extra is not None
         said, panel, row = extra["leads"]

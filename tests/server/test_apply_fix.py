@@ -111,6 +111,7 @@ def test_a_press_writes_the_fix_and_the_robot_follows(
     client.wait_until(lambda: notice(client) == APPLIED)
     assert model.read_bytes() == GOOD.encode()
     client.wait_until(lambda: codes(viz) == [])
+    client.wait_until(lambda: session_of(viz).robot.model is not None)
     robot = session_of(viz).robot.model
     assert robot is not None and robot.joints["j"].parent == "hull"
     client.wait_until(lambda: not buttons(client))

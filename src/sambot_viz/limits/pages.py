@@ -58,6 +58,24 @@ PAGE_ID = LimitRow(
     "characters",
     "the message is not taken",
 )
+EDITED_TEXT = LimitRow(
+    "a file in the panel Model",
+    1_000_000,
+    "characters",
+    "it is not shown, or what would make it longer is not taken; the panel says so",
+)
+EDITED_PIECE = LimitRow(
+    "what is typed or pasted there, in a message of a page",
+    10_000,
+    "characters",
+    "the page sends several messages",
+)
+EDITED_FILES = LimitRow(
+    "files in the panel Model",
+    200,
+    "",
+    "the others have no tab",
+)
 PAGE_LIST = LimitRow(
     "a list in a message of a page",
     4000,

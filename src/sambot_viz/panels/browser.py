@@ -11,6 +11,7 @@ from sambot_viz.panels.files_panel import Files, FilesPanel
 from sambot_viz.panels.frames.frames_panel import FramesPanel
 from sambot_viz.panels.graph.graph_panel import GraphPanel
 from sambot_viz.panels.joints.poses import GhostPanel
+from sambot_viz.panels.model_panel import ModelPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
@@ -27,6 +28,7 @@ from sambot_viz.panels.views import ViewsPanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.scene.scene import Scene
 from sambot_viz.text import capitalized
 
@@ -43,6 +45,7 @@ class BrowserPanels:
         recordings: those that can be opened; None where none can.
         displays: the rows of the displays, for everyone.
         shared_row: finds a row that everyone sees, by its id.
+        text: the text of the model; None where there is no file of it.
 
     Attributes:
         store: the rows, for the page.
@@ -62,6 +65,7 @@ class BrowserPanels:
         recordings: OtherRecordings | None,
         displays: DisplaysPanel,
         shared_row: Callable[[str], Row | None],
+        text: ModelText | None = None,
     ) -> None:
         self._notices = NoticePanel()
         self._displays = displays
@@ -71,6 +75,9 @@ class BrowserPanels:
         images = ImagesPanel(session.scene, session.document)
         self.pictures, self.camera = images.pictures, client.view.shown
         panels = [images, *self._panels(session, files, ask_page)]
+        if text is not None:
+            folders = files is not None and not session.roles.presented
+            panels.append(ModelPanel(text, session.problems, folders, self._remake))
         if invite is not None:
             roles, number = session.roles, client.client_id
             panels.append(InvitePanel(roles, number, invite, self._remake))

@@ -31,12 +31,15 @@ class Argument:
         optional: None may be sent too.
         least: lowest number that is taken.
         most: highest number that is taken.
+        longest: length of a piece of a file [characters], which may have any character;
+            None for a text of one line.
     """
 
     type: type[bool | int | float | str | list[Any]]
     optional: bool = False
     least: float = -math.inf
     most: float = math.inf
+    longest: int | None = None
 
 
 TEXT, NUMBER, INTEGER = Argument(str), Argument(float), Argument(int)

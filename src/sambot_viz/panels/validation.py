@@ -115,6 +115,17 @@ def _short(name: str, value: str) -> str:
     return value
 
 
+def _piece(name: str, value: str, longest: int) -> str:
+    """Check a piece of a file, which no one line of the page shows."""
+    if len(value) > longest:
+        raise UsageError(f"'{name}' takes at most {longest:,} characters at once")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise UsageError(f"'{name}' has half a character") from None
+    return value
+
+
 def _numbers(row: Row, value: Json, count: int) -> tuple[float, ...]:
     parts = cast("Sequence[object]", value) if isinstance(value, list) else ()
     numbers = [None if isinstance(part, bool) else finite(part) for part in parts]
@@ -172,6 +183,8 @@ def _argument(name: str, argument: Argument, part: Json) -> Any:
         isinstance(part, bool) and argument.type is not bool
     ):
         raise UsageError(f"'{name}' does not take {_shown(part)}")
+    if isinstance(part, str) and argument.longest is not None:
+        return _piece(name, part, argument.longest)
     if not isinstance(part, list):
         return _scalar(name, part, argument.least, argument.most)
     listed = cast("list[Any]", part)

@@ -31,6 +31,7 @@ from sambot_viz.panels.sources.source_panel import SourcePanel
 from sambot_viz.panels.sources.time_panel import TimePanel
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client import Client
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.scene.joint_arrow import JointArrow
 
@@ -48,6 +49,7 @@ class Window:
         invite: makes the link for viewers; None leaves inviting out.
         recordings: those that can be opened; None where none can.
         edits: writes fixes into files; None where no browser may.
+        text: the text of the model; None where there is no file of it.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class Window:
         invite: Invite | None = None,
         recordings: OtherRecordings | None = None,
         edits: ModelEdits | None = None,
+        text: ModelText | None = None,
     ) -> None:
         self._session = session
         self._files = files
@@ -66,6 +69,7 @@ class Window:
         self._invite = invite
         self._recordings = recordings
         self._edits = edits
+        self._text = text
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
         self._folders = files is not None and not session.roles.presented
@@ -96,7 +100,12 @@ class Window:
             PeoplePanel(session.roles, is_copy),
             self._displays,
             ProblemsPanel(
-                session.problems, session.history, remake, self._folders, self._edits
+                session.problems,
+                session.history,
+                remake,
+                self._folders,
+                self._edits,
+                self._text,
             ),
             DisplayCommands(
                 session.display_edits,
@@ -154,6 +163,8 @@ class Window:
         for panels in self._browsers.values():
             panels.close()
         self._shared.close()
+        if self._text is not None:
+            self._text.close()
 
     def _take_client(self, client: Client, joined: bool) -> None:
         if joined:
@@ -166,6 +177,7 @@ class Window:
                 self._recordings,
                 self._displays,
                 self._shared_row,
+                self._text,
             )
         else:
             panels = self._browsers.pop(client.client_id, None)

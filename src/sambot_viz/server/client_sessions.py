@@ -23,6 +23,7 @@ from sambot_viz.server.protection.client_messages import CameraReport
 from sambot_viz.server.sessions import SessionPlace, Sessions
 from sambot_viz.session import Session
 from sambot_viz.session.clients.client_camera import reported
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.session_copy import SessionCopy
 
 # Most servers show no recording.
@@ -89,6 +90,18 @@ class ClientSessions:
                 # Clients with a session of their own do not use the server's disk.
                 shared = place is self._sessions.shared_place
                 sessions, recordings = self._sessions, self._recordings
+                edits, text = sessions.edits if shared else None, None
+                if sessions.model_files is not None:
+                    text = ModelText(
+                        sessions.model_files,
+                        session.robot,
+                        session.checks,
+                        session.problems,
+                        session.saved,
+                        session.show_edited,
+                        session.change,
+                        edits,
+                    )
                 place.window = Window(
                     session,
                     options.gui,
@@ -96,7 +109,8 @@ class ClientSessions:
                     self._ask_page,
                     partial(invite, options) if shared else None,
                     None if recordings is None else recordings.of(sessions, session),
-                    sessions.edits if shared else None,
+                    edits,
+                    text,
                 )
         self._on_joined()
 

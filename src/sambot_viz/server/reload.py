@@ -146,7 +146,7 @@ class Reloader:
         config = self._documents.file
         if config is not None and config in changed:
             self._reload_config(config)
-        self._sessions.for_each(lambda s: s.scene.files_saved(changed))
+        self._sessions.for_each(lambda session: session.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return

@@ -22,6 +22,7 @@ from sambot_viz.server import reload_problems
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.session import Audience, Reloaded, Session
+from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
@@ -65,6 +66,7 @@ class Sessions:
         assemble: makes the second of the first.
         edits: writes fixes into the files of the model, where browsers may; only in
             the session of all clients.
+        model_files: the text of the model that browsers see; None without a file.
         on_files: called after other files may be shown than before, in any thread.
     """
 
@@ -85,6 +87,7 @@ class Sessions:
         self._poses = poses or Presets()
         self.on_files: Callable[[], object] = lambda: None
         self.edits: ModelEdits | None = None
+        self.model_files: ModelFiles | None = None
         self.meshes = MeshCache()
         self.meshes.on_read = self._tell_files
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os.path
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,6 +23,7 @@ from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.document.document import ShownDocument
+from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.first_sight import is_map, show_topics
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.own_config import fit_own_config, fit_robot
@@ -96,6 +98,12 @@ class ShownInputs:
             inputs.moved_by,
             self._recordings,
         )
+        if inputs.model is not None and os.path.isfile(inputs.model):
+            # A program may go to another folder.
+            model = inputs.model.absolute()
+            self.server.sessions.model_files = ModelFiles(
+                model, lambda texts, trusted: inputs.load(model, trusted, texts)
+            )
         if options.edit and inputs.model is not None:
             self.server.sessions.edits = ModelEdits(inputs.model, options.watch)
 

@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from sambot_viz import bundled
 from sambot_viz.errors import Edit, UsageError
-from sambot_viz.files import is_below
+from sambot_viz.files import is_below, reason_of, write_atomically
 from sambot_viz.fixes import EditRefused, FileChange, changes, write_changes
 from sambot_viz.robot.packages.package_index import package_of
 from sambot_viz.session.undo import History
@@ -40,6 +40,28 @@ class ModelEdits:
     def __init__(self, model: Path, watched: bool) -> None:
         self._model = model.absolute()
         self.watched = watched
+
+    def save(self, file: Path, before: bytes | None, after: bytes) -> None:
+        """Write a file of the package, unless it has changed.
+
+        Args:
+            file: its path.
+            before: what it has; None writes a file that is gone.
+            after: what it will have.
+
+        Raises:
+            EditRefused: nothing was written; the file has its name alone.
+        """
+        name = _name(os.fspath(file))
+        folders = [folder.resolve() for folder in self._folders]
+        if not is_below(file, folders):
+            raise EditRefused(name, "is outside of the package")
+        if before is None:
+            _save_new(file, after)
+            return
+        if not os.access(file, os.W_OK):
+            raise EditRefused(name, "is read-only")
+        _write([FileChange(os.fspath(file), before, after, "", ())])
 
     @cached_property
     def _folders(self) -> tuple[Path, ...]:
@@ -77,6 +99,16 @@ class ModelEdits:
             of_document=False,
         )
         return " and ".join(map(_places, made))
+
+
+def _save_new(file: Path, after: bytes) -> None:
+    name = _name(os.fspath(file))
+    if os.path.lexists(file):
+        raise EditRefused.changed(name)
+    try:
+        write_atomically(file, after)
+    except OSError as error:
+        raise EditRefused(name, f"cannot be written: {reason_of(error)}") from error
 
 
 def _write(made: Sequence[FileChange]) -> None:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Generator
 from contextlib import contextmanager
+from pathlib import Path
 
 import viser
 
@@ -75,6 +76,7 @@ class Session:
             sliders.
 
     Attributes:
+        saved: the files that were saved last, by whatever program.
         lock: the worker's; held while the state changes.
         change: changes the state, sends that, and tells it.
         private: whether only one client sees it.
@@ -156,6 +158,7 @@ class Session:
             options,
         )
         self.driven = Signal(change, None)
+        self.saved: Signal[frozenset[Path]] = Signal(change, frozenset())
         drive = DriveSettings(
             f"/{options.cmd_vel.strip().lstrip('/')}",
             (options.max_linear, options.max_angular),
@@ -274,6 +277,24 @@ class Session:
             if self.data is not None:
                 self.data.resume()
 
+    def show_edited(self, robot: Robot, unsaved: bool) -> None:
+        """Show a robot whose text was changed in this session.
+
+        Args:
+            robot: of the text.
+            unsaved: whether it differs from that of the files; what the server shows
+                is ignored as long as it does.
+        """
+        with self.change():
+            self.own_model = False
+            self.show_robot(robot, own=unsaved)
+
+    def files_saved(self, files: frozenset[Path]) -> None:
+        """Read again what was saved: robots of displays, and texts of the editor."""
+        self.scene.files_saved(files)
+        with self.change(self.saved):
+            self.saved.set(files)
+
     def replace_sources(
         self,
         moved_by: SourceRobot,
@@ -340,6 +361,7 @@ class Session:
                 lease=None if data is None else data.moved_by.lease(),
                 time_ns=0 if player is None else player.time_ns,
                 follows=bool(self.robot.followed.value),
+                texts=self.checks.texts,
             )
 
     def prepare(self, copy: SessionCopy) -> None:
@@ -349,6 +371,7 @@ class Session:
         a client has chosen.
         """
         context = self.scene.context
+        self.checks.texts = copy.texts
         context.config_file = copy.config_file
         context.trusted_files = copy.trusted_files
         context.link_colors.update(copy.link_colors)

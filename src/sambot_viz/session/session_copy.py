@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from sambot_viz.displays.robot_display import ModelReader
@@ -39,6 +39,7 @@ class SessionCopy:
         lease: keeps that open.
         time_ns: the log time that is shown of it [ns].
         follows: whether its messages move the joints.
+        texts: texts of the model's files that are not saved; see `Checks`.
     """
 
     config: RvizConfig
@@ -58,6 +59,7 @@ class SessionCopy:
     lease: Lease | None = None
     time_ns: int = 0
     follows: bool = True
+    texts: Mapping[str, str] = field(default_factory=dict[str, str])
 
     @property
     def recorded(self) -> SourceRobot | None:

@@ -6,7 +6,7 @@ they find joins what was found while loading.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -26,6 +26,7 @@ from sambot_viz.session.scene.scene import Scene
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.session.worker import log_error
 from sambot_viz.topics.reasons import TopicReason
+from sambot_viz.unsaved import unsaved
 
 Reloaded = Literal["model", "config", "watch", "fault", "description"]
 """What a save failed to change (model, config), or why saves fail at all."""
@@ -61,6 +62,8 @@ class Problems:
         of_model: what is wrong with the model that is shown.
         of_frames: what is wrong with its frames and wheels; `set_model` adds them.
         of_saves: why the last save is not what is shown.
+        of_text: why the text of the model in the editor is not what is shown; None
+            while it is that of the files.
         saves: tells changes of that.
         tell_client: called with a client, and with what only this one is told.
     """
@@ -79,6 +82,7 @@ class Problems:
         self.of_model: tuple[Problem, ...] = ()
         self.of_frames: tuple[Problem, ...] = ()
         self.of_saves: dict[Reloaded, tuple[Problem, ...]] = {}
+        self.of_text: tuple[Problem, ...] | None = None
         self.tell_client: Callable[[int, str], None] = lambda client, text: None
         self._checking = False
         self._document = document
@@ -110,6 +114,24 @@ class Problems:
         if self.of_saves.get(of, ()) != tuple(problems):
             with self._change(self.saves):
                 self.of_saves[of] = tuple(problems)
+
+    def set_text(self, problems: Sequence[Problem] | None) -> None:
+        """Show why the text of the model in the editor is not what is shown.
+
+        Args:
+            problems: what is wrong with it; empty when it is shown, None when it is
+                that of the files.
+        """
+        found = None if problems is None else tuple(problems)
+        if self.of_text != found:
+            with self._change(self.saves):
+                self.of_text = found
+
+    @property
+    def of_newest(self) -> tuple[Problem, ...]:
+        """Why the newest text of the model, in the editor or saved, is not shown."""
+        of_file = self.of_saves.get("model", ())
+        return of_file if self.of_text is None else self.of_text
 
     def report_error(self, error: Exception, client: int | None = None) -> None:
         """Show an exception that was not handled, and log it once.
@@ -148,7 +170,7 @@ class Problems:
         """
         saved = self.of_saves
         shapes = (p for d in robot_displays(self._scene.displays) for p in d.problems)
-        model = _also(saved.get("model", ()), (*self.of_model, *shapes))
+        model = _also(self.of_newest, (*self.of_model, *shapes))
         shown = self._document.config
         of_config = (*shown.problems, *tools_not_here(shown))
         config = _also(saved.get("config", ()), of_config)
@@ -159,13 +181,13 @@ class Problems:
 
     def _note(self) -> str:
         notes: list[str] = []
-        if self._has_error("model"):
+        if _is_error(self.of_newest):
             notes.append(
                 "The model has an error. The robot appears once it is fixed."
                 if self._robot.model is None
                 else f"{self._what_is_wrong()}; showing the last version that worked."
             )
-        if self._has_error("config"):
+        if _is_error(self.of_saves.get("config", ())):
             notes.append(
                 "The config has an error. Its displays appear once it is fixed."
             )
@@ -173,15 +195,16 @@ class Problems:
 
     def _what_is_wrong(self) -> str:
         """Say what became of the model's file, or what a live robot sent."""
-        for fault in self.of_saves.get("model", ()):
+        for fault in self.of_newest:
             if fault.code == "model-not-found" and fault.file is not None:
                 return f"{Path(fault.file).name} is gone"
             if fault.file is not None and "://" in fault.file:
                 return "The new description has an error"
-        return "Your file has an error"
+        return f"Your {'file' if self.of_text is None else 'text'} has an error"
 
-    def _has_error(self, of: Reloaded) -> bool:
-        return any(fault.severity == "error" for fault in self.of_saves.get(of, ()))
+
+def _is_error(problems: Iterable[Problem]) -> bool:
+    return any(problem.severity == "error" for problem in problems)
 
 
 def problems_of_topics(displays: Iterable[Display]) -> Iterator[Problem]:
@@ -213,6 +236,8 @@ class Checks:
 
     Attributes:
         files: the files around the model that the rules have looked for.
+        texts: whole path of a file → its text in the editor, where that is not saved;
+            change it with the session locked.
     """
 
     def __init__(
@@ -233,6 +258,7 @@ class Checks:
         self._of_robot: tuple[Problem, ...] = ()
         self._of_files: tuple[Robot | None, int, tuple[Problem, ...]] = (None, 0, ())
         self._saves = 0
+        self.texts: Mapping[str, str] = {}
         self.files: Signal[frozenset[Path]] = Signal(change, frozenset())
         self._checked: _State | None = None
         self._asked: tuple[object, bool] = (None, False)
@@ -245,12 +271,13 @@ class Checks:
             robot, joints = self._robot.model, self._robot.joints
             if robot is None or joints is None:
                 return
-            before, state = self._checked, self._state()
+            before, state, texts = self._checked, self._state(), self.texts
             self._checked = state
             of_joints, of_config = joints.problems, self._of_config(robot)
             frame, file = self._context.fixed_frame, self._document.config.file
-        of_config = self._without_published(of_config, robot, frame, file)
-        of_robot = self._of_rules(robot, state) if before != state else None
+        with unsaved(texts):
+            of_config = self._without_published(of_config, robot, frame, file)
+            of_robot = self._of_rules(robot, state) if before != state else None
         with self._change.lock:
             if self._checked != state:
                 # Meanwhile another thread has begun to check what is newer.

@@ -279,7 +279,7 @@ class DisplaysPanel(Panel):
     def _status_rows(self, display: Display, parent: str) -> Iterator[Row]:
         row_id = f"{parent}/:status"
         # While there is no robot, why.
-        of_model = self._problems.of_saves.get("model", ())
+        of_model = self._problems.of_newest
         mistakes = of_model if self._robot.model is None else ()
         unfolded = self._lazy.is_unfolded(row_id)
         listed = self._problems.shown.value.listed

@@ -19,10 +19,12 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.panels.unfolded import LazyRows
 from sambot_viz.problems import SEVERITIES, ProblemGroup, group_problems, problem_lines
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.shown_problems import Problems
 from sambot_viz.session.undo import History
 from sambot_viz.text import text
+from sambot_viz.unsaved import unsaved
 
 LINES_AROUND = 2
 _LONGEST_FILE = 60
@@ -51,6 +53,8 @@ class ProblemsPanel(Panel):
         folders: whether paths are whole; others than those at the server's own disk
             see only the names of its files.
         edits: writes fixes into files; None where no browser may.
+        text: the text of the model in the editor, which takes the fixes of what is not
+            saved; None without one.
     """
 
     name = "problems"
@@ -62,12 +66,14 @@ class ProblemsPanel(Panel):
         remake: Callable[[Panel], None],
         folders: bool = True,
         edits: ModelEdits | None = None,
+        text: ModelText | None = None,
     ) -> None:
         self._folders = folders
         self.remade_by = (problems.shown,)
         self._problems = problems
         self._history = history
         self._edits = edits
+        self._text = text
         self._fixes: dict[str, _Fix] = {}
         self._applied: tuple[_Fix, Answer] | None = None
         self._lazy = LazyRows("problems/unfold", lambda: remake(self))
@@ -80,7 +86,8 @@ class ProblemsPanel(Panel):
         note = shown.note
         banner = Row("problems/good", "", "note", value=note, level="error")
         groups = group_problems(shown.listed)
-        made = [*([banner] if note else ()), *self._group_rows(groups)]
+        with unsaved({} if self._text is None else self._text.texts):
+            made = [*([banner] if note else ()), *self._group_rows(groups)]
         if self._folders:
             return made
         return [replace(row, value=without_folders(row.value)) for row in made]
@@ -99,12 +106,17 @@ class ProblemsPanel(Panel):
         return [self._lazy.command(), *super().commands()]
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether browsers may change files."""
-        return self._edits is not None
+        """Tell whether browsers may change files, or have changed their text."""
+        is_changed = self._text is not None and bool(self._text.unsaved)
+        return self._edits is not None or is_changed
 
     @command("problems/apply", TEXT, name="Apply")
     def _apply(self, row_id: str) -> Answer:
         fix = self._fixes.get(row_id)
+        if fix is not None and self._text is not None and self._text.holds(fix.edits):
+            self._text.apply(fix.edits)
+            hint = fix.hint if self._folders else without_folders(fix.hint)
+            return Answer(f"Applied: {hint}; it is not saved")
         if self._edits is None or fix is None:
             raise UsageError("this problem is no longer there")
         try:
@@ -193,7 +205,7 @@ class ProblemsPanel(Panel):
         """
         extra: dict[str, Json] | None = None
         texts = {edit.text for edit in edits}
-        if self._edits is not None and self._edits.may_write(edits):
+        if self._may_apply(edits):
             self._fixes[parent] = _Fix(hint, tuple(edits))
             extra = {"act": ["Apply", "problems/apply", parent]}
         elif len(texts) == 1 and (
@@ -208,6 +220,11 @@ class ProblemsPanel(Panel):
             f"To fix it: {hint}",
             extra=extra,
         )
+
+    def _may_apply(self, edits: Sequence[Edit]) -> bool:
+        if self._text is not None and self._text.holds(edits):
+            return True
+        return self._edits is not None and self._edits.may_write(edits)
 
 
 def place_of(problem: Problem) -> str:

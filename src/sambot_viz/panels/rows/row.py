@@ -44,6 +44,15 @@ class LongText(str):
     __slots__ = ()
 
 
+class FileContent(str):
+    """The text of a file in an editor, which comes back as it is.
+
+    Nothing replaces what is invisible in it: the editor marks that.
+    """
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """What the client that has sent a value gets back, from a row's `set` or a command.
@@ -165,6 +174,8 @@ def safe(value: Json) -> Json:
     if type(value) is float:
         # Most values are numbers.
         return value
+    if isinstance(value, FileContent):
+        return str(value)
     if isinstance(value, str):
         longest = len(value) if isinstance(value, LongText) else LONGEST_TEXT
         return "\n".join(text(line, longest) for line in value.split("\n"))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from sambot_viz.errors import Place
 from sambot_viz.robot.findings import ModelFindings
@@ -13,7 +14,7 @@ from sambot_viz.robot.urdf.links import LinkReader
 from sambot_viz.robot.xml.element import Element
 
 
-@dataclass(slots=True)
+@dataclass
 class RobotParts:
     """Links and joints as read, with their elements.
 
@@ -40,6 +41,11 @@ class RobotParts:
     duplicates: set[str] = field(default_factory=set[str])
     repeated_calls: set[Place] = field(default_factory=set[Place])
     shared: int = 0
+
+    @cached_property
+    def wanted(self) -> tuple[tuple[str, str, str], ...]:
+        """Joints with the links that they name and that do not exist, and as what."""
+        return tuple(_wanted(self.robot))
 
     @property
     def is_fragment(self) -> bool:
@@ -80,7 +86,7 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: ModelFindings) 
         name = element.get("name")
         if not name:
             parts.nameless += 1
-            _report_nameless(parts.robot, element, findings)
+            _report_nameless(parts, element, findings)
             continue
         if name in parts.link_elements:
             _report_duplicate(parts, name, element, findings)
@@ -91,8 +97,10 @@ def _read_links(parts: RobotParts, reader: LinkReader, findings: ModelFindings) 
     _check_twins(parts.link_elements, findings)
 
 
-def _report_nameless(robot: Element, element: Element, findings: ModelFindings) -> None:
-    joint, wanted = next(_wanted(robot), ("", "…"))
+def _report_nameless(
+    parts: RobotParts, element: Element, findings: ModelFindings
+) -> None:
+    joint, wanted, _ = parts.wanted[0] if parts.wanted else ("", "…", "")
     more = f"; joint {joint} expects one called {wanted}" if joint else ""
     findings.reject(
         "link-without-name",
@@ -102,23 +110,20 @@ def _report_nameless(robot: Element, element: Element, findings: ModelFindings) 
     )
 
 
-def _wanted(
-    robot: Element, ends: Sequence[str] = ("parent", "child")
-) -> Iterator[tuple[str, str]]:
-    """Yield joints and the links that they name and that do not exist."""
+def _wanted(robot: Element) -> Iterator[tuple[str, str, str]]:
     named = {link.get("name") for link in robot.find_all("link")}
     for joint in robot.find_all("joint"):
-        for tag in ends:
+        for tag in ("parent", "child"):
             end = joint.find(tag)
             link = end.get("link") if end is not None else None
             if link and link not in named:
-                yield joint.get("name") or "", link
+                yield joint.get("name") or "", link, tag
 
 
 def _report_duplicate(
     parts: RobotParts, name: str, element: Element, findings: ModelFindings
 ) -> None:
-    wanted = {link: joint for joint, link in _wanted(parts.robot, ("child",))}
+    wanted = {link: joint for joint, link, end in parts.wanted if end == "child"}
     hint = "give one of the two another name"
     if len(wanted) == 1:
         link, joint = wanted.popitem()

@@ -1,0 +1,216 @@
+"""The Model panel of one browser: the text of a file, and what is wrong in it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+
+from sambot_viz import limits
+from sambot_viz.edits import Extent, SourceFile
+from sambot_viz.errors import Edit, Place, Problem, UsageError
+from sambot_viz.panels.command import FLAG, TEXT, Argument, command
+from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.problems.problems_panel import without_folders
+from sambot_viz.panels.rows.row import Answer, Data, FileContent, Json, Row
+from sambot_viz.session.editor.buffer import Buffer
+from sambot_viz.session.editor.file_text import to_units
+from sambot_viz.session.editor.model_text import ModelText
+from sambot_viz.session.shown_problems import Problems
+
+_COUNT = Argument(int, least=0, most=2 * limits.EDITED_TEXT.value)
+_VERSION = Argument(int, least=0)
+_PIECE = Argument(str, longest=limits.EDITED_PIECE.value)
+
+
+class ModelPanel(Panel):
+    """The files of the model as tabs, and the text of the one that is open.
+
+    Args:
+        text: what there is to write.
+        problems: those of its files are shown at their lines.
+        folders: whether messages may name folders of the server.
+        remake: called after another file was opened.
+    """
+
+    name = "model"
+
+    def __init__(
+        self,
+        text: ModelText,
+        problems: Problems,
+        folders: bool,
+        remake: Callable[[Panel], None],
+    ) -> None:
+        self.remade_by = (text.changed, problems.shown)
+        self._text = text
+        self._problems = problems
+        self._folders = folders
+        self._remake = remake
+        self._shown = False
+        self._open = ""
+
+    def rows(self) -> Sequence[Row]:
+        """Return a row that says that there are files."""
+        names = self._text.names
+        said = f"{len(names)} file{'s' if len(names) > 1 else ''} of the model"
+        return [Row("model/note", "", "note", value=said)] if names else ()
+
+    def data(self) -> Sequence[Data]:
+        """Return the tabs, the text and its problems, while the panel is seen."""
+        buffer = self._buffer() if self._shown else None
+        files = None if buffer is None else list(self._files())
+        text = None if buffer is None else self._content(buffer)
+        found = None if buffer is None else self._found(buffer)
+        return [
+            Data("model/shown", self._shown),
+            Data("model/files", files),
+            Data("model/text", text),
+            Data("model/found", found),
+        ]
+
+    def offers(self, command_id: str) -> bool:
+        """Tell whether files may be written."""
+        return command_id != "model/save" or self._text.can_save
+
+    def _buffer(self) -> Buffer | None:
+        names = self._text.names
+        if not names:
+            return None
+        if self._open not in names:
+            self._open = names[0]
+        return self._text.buffer(self._open)
+
+    def _files(self) -> Iterator[Json]:
+        listed = self._problems.shown.value.listed
+        count = Counter((self._text.name_of(p.file), p.severity) for p in listed)
+        unsaved = {buffer.name for buffer in self._text.unsaved}
+        for name in self._text.names:
+            errors, warnings = count[name, "error"], count[name, "warning"]
+            yield {
+                "name": name,
+                "changed": name in unsaved,
+                "errors": errors,
+                "warnings": warnings,
+            }
+
+    def _content(self, buffer: Buffer) -> Json:
+        theirs = buffer.theirs
+        return {
+            "file": buffer.name,
+            "version": buffer.version,
+            "text": FileContent(buffer.text),
+            "most": limits.EDITED_TEXT.value,
+            "why": buffer.why,
+            "changed": buffer.is_changed,
+            "theirs": None if theirs is None else FileContent(theirs.text),
+            "gone": theirs is not None and theirs.data is None,
+        }
+
+    def _found(self, buffer: Buffer) -> Json:
+        """Return the problems of a text; None until it has been checked."""
+        is_new = buffer.version != self._text.checked.get(buffer.name, 0)
+        if buffer.why or is_new:
+            return None
+        source = SourceFile(buffer.text, "utf-8")
+        made = [self._problem(p, source) for p in self._problems_of(buffer.name)]
+        return {"file": buffer.name, "version": buffer.version, "problems": made}
+
+    def _problems_of(self, name: str) -> Iterator[Problem]:
+        listed = self._problems.shown.value.listed[: limits.PROBLEM_ROWS.value]
+        return (p for p in listed if self._text.name_of(p.file) == name)
+
+    def _problem(self, problem: Problem, source: SourceFile) -> Json:
+        start, end = _extent(problem, source)
+        words = problem.message
+        hint = f"To fix it: {problem.hint}" if problem.hint else ""
+        if not self._folders:
+            words, hint = (str(without_folders(said)) for said in (words, hint))
+        return {
+            "id": _id(problem),
+            "from": to_units(source.text, start),
+            "to": to_units(source.text, end),
+            "severity": problem.severity,
+            "message": words,
+            "hint": hint,
+            "edits": self._edits(problem, source),
+        }
+
+    def _edits(self, problem: Problem, source: SourceFile) -> Json:
+        """Return the edits of a problem in this text; None where it has others."""
+        edits, here = problem.edits, hash(source.text)
+        if not edits or any(edit.seen != here for edit in edits):
+            return None
+        return [
+            [to_units(source.text, e.start), to_units(source.text, e.end), e.text]
+            for e in sorted(set(edits), key=_start)
+        ]
+
+    # What the page calls
+
+    @command("model/show", FLAG, client_local=True)
+    def _show(self, shown: bool) -> None:
+        """Send the text, or do not: the panel is on the screen, or is not."""
+        self._shown = shown
+        self._remake(self)
+
+    @command("model/open", TEXT, name="Open", client_local=True)
+    def _open_file(self, name: str) -> None:
+        self._text.buffer(name)
+        self._open = name
+        self._remake(self)
+
+    @command(
+        "model/type", TEXT, _VERSION, _COUNT, _COUNT, _PIECE, FLAG, name="The text"
+    )
+    def _type(
+        self, name: str, version: int, start: int, end: int, new: str, more: bool
+    ) -> None:
+        self._text.replace(name, version, start, end, new, more=more)
+
+    @command("model/fix", TEXT, name="Apply")
+    def _fix(self, problem_id: str) -> Answer:
+        listed = self._problems.shown.value.listed
+        found = next((p for p in listed if _id(p) == problem_id), None)
+        if found is None or not found.edits:
+            raise UsageError("this problem is no longer there")
+        self._text.apply(found.edits)
+        hint = found.hint if self._folders else without_folders(found.hint)
+        return Answer(f"Applied: {hint}")
+
+    @command("model/save", TEXT, name="Save")
+    def _save(self, name: str) -> Answer:
+        self._text.save(name)
+        return Answer(f"Saved {name}")
+
+    @command("model/revert", TEXT, name="Take the saved text")
+    def _revert(self, name: str) -> None:
+        self._text.revert(name)
+
+    @command("model/resolve", TEXT, FLAG, name="Choose the text")
+    def _resolve(self, name: str, take_theirs: bool) -> None:
+        self._text.resolve(name, take_theirs=take_theirs)
+
+
+def _start(edit: Edit) -> tuple[int, int]:
+    return edit.start, edit.end
+
+
+def _id(problem: Problem) -> str:
+    said = repr((problem.place, problem.code, problem.message))
+    return hashlib.blake2s(said.encode("utf-8", "replace"), digest_size=8).hexdigest()
+
+
+def _extent(problem: Problem, source: SourceFile) -> Extent:
+    """Return what is marked: what a fix replaces, the name of a tag, or a line."""
+    here = hash(source.text)
+    for edit in problem.edits:
+        if edit.seen == here and edit.end > edit.start:
+            return Extent(edit.start, edit.end)
+    place = Place(problem.file or "", problem.line or 1, problem.column)
+    start = min(source.offset(place), len(source.text))
+    tag = source.tag(start)
+    if tag is not None:
+        return Extent(start, tag.name.end)
+    line = source.text[start:].partition("\n")[0]
+    return Extent(start, start + len(line.rstrip()))

@@ -1,0 +1,50 @@
+"""The files of a server's model: what they are called, and how they are loaded."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from sambot_viz.files import is_below
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.packages.package_index import package_of
+
+
+@dataclass(frozen=True)
+class ModelFiles:
+    """The files of the model of a server.
+
+    Attributes:
+        model: the whole path of its file.
+        load: loads it with other texts of its files, by their whole paths; the second
+            argument is False where they come from a user who may not write them.
+    """
+
+    model: Path
+    load: Callable[[Mapping[str, str], bool], Robot]
+
+    def named(self, paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:
+        """Yield the name of each file that is in the package, and its whole path.
+
+        A name is the path in the package, with slashes.
+        """
+        for path in paths:
+            whole = Path(os.path.abspath(path))
+            if not is_below(whole, self._real):
+                continue
+            beside = (f for f in (*self._folders, *self._real) if f in whole.parents)
+            folder = next(beside, whole.parent)
+            yield whole.relative_to(folder).as_posix(), whole
+
+    @cached_property
+    def _folders(self) -> tuple[Path, ...]:
+        """The packages of the model: where it is, and where a link to it leads."""
+        real = Path(os.path.realpath(self.model))
+        return tuple(dict.fromkeys(map(package_of, (self.model, real))))
+
+    @cached_property
+    def _real(self) -> tuple[Path, ...]:
+        return tuple(folder.resolve() for folder in self._folders)

@@ -1,0 +1,286 @@
+"""The text of the model's files in one session, as its users change it.
+
+Each text that loads is shown; one with a mistake leaves the last robot that worked,
+with the problem beside it. Nothing is written to the disk but by `save`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from sambot_viz import limits
+from sambot_viz.edits import apply_edits, by_file
+from sambot_viz.errors import Edit, RobotError, UsageError
+from sambot_viz.fixes import EditRefused
+from sambot_viz.robot.model import Robot
+from sambot_viz.session.background import Background
+from sambot_viz.session.editor.buffer import Buffer
+from sambot_viz.session.editor.model_files import ModelFiles
+from sambot_viz.session.model_edits import ModelEdits
+from sambot_viz.session.robot.robot_state import RobotState
+from sambot_viz.session.shown_problems import Checks, Problems
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.unsaved import unsaved
+
+Texts = Mapping[str, str]
+"""Whole path of a file → its text."""
+
+
+class ModelText:
+    """The texts of the model in one session.
+
+    Args:
+        files: those of the model.
+        robot: what is shown.
+        checks: look at it with these texts.
+        problems: show why a text is not shown.
+        saved: tells what other programs have saved.
+        show: shows the robot of a text, and whether that is unsaved.
+        change: of the session.
+        edits: saves them; None where no browser may. Only what may be saved is
+            evaluated as the files are, all else as of unknown origin.
+
+    Attributes:
+        changed: told after a change of the files, or of one of their texts.
+        checked: name of a file → the version of its text that the problems are of.
+    """
+
+    def __init__(
+        self,
+        files: ModelFiles,
+        robot: RobotState,
+        checks: Checks,
+        problems: Problems,
+        saved: Signal[frozenset[Path]],
+        show: Callable[[Robot, bool], None],
+        change: Change,
+        edits: ModelEdits | None = None,
+    ) -> None:
+        self._robot, self._checks, self._problems = robot, checks, problems
+        self._change, self._show = change, show
+        self._files = files
+        self._edits = edits
+        self._paths: dict[str, Path] = {}
+        self._buffers: dict[str, Buffer] = {}
+        self._suspects: tuple[Path, ...] = ()
+        self._background = Background("sambot-viz-text")
+        self._closed = False
+        self.changed = Signal(change, None)
+        self.checked: dict[str, int] = {}
+        # A copy of a session begins with the texts that are not saved there.
+        self._loaded: Texts = self._of_model(checks.texts)
+        self._shown = self._loaded
+        for path, text in checks.texts.items():
+            for name, whole in files.named([Path(path)]):
+                self._paths[name] = whole
+                self.buffer(name).take(text)
+        facts = (robot.changed, checks.files, problems.saves)
+        self._ends = connect(facts, self._find), connect([saved], self._look)
+        self._find()
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._closed = True
+        for end in self._ends:
+            end()
+
+    def wait(self, timeout: float) -> bool:
+        """Wait until each text is shown, or its problems; False for longer [s]."""
+        return self._background.wait(timeout)
+
+    @property
+    def can_save(self) -> bool:
+        """Whether users may write the files."""
+        return self._edits is not None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The files, the model first."""
+        return tuple(self._paths)
+
+    @property
+    def unsaved(self) -> tuple[Buffer, ...]:
+        """The files whose text is another one than on the disk."""
+        return tuple(b for b in self._buffers.values() if b.is_changed)
+
+    @property
+    def texts(self) -> Texts:
+        """The texts that are not saved."""
+        return {str(buffer.path): buffer.text for buffer in self.unsaved}
+
+    def holds(self, edits: Sequence[Edit]) -> bool:
+        """Tell whether edits are in files of the model, and one of them is unsaved."""
+        unsaved = {buffer.name for buffer in self.unsaved}
+        names = {self.name_of(edit.file) for edit in edits}
+        return "" not in names and not unsaved.isdisjoint(names)
+
+    def name_of(self, file: str | None) -> str:
+        """Return the name of a file; "" for what is no file of the model."""
+        if file is None:
+            return ""
+        found = (n for n, _ in self._files.named([Path(file)]) if n in self._paths)
+        return next(found, "")
+
+    def opened(self, name: str) -> Buffer | None:
+        """Return a file that was opened; None for others."""
+        return self._buffers.get(name)
+
+    def buffer(self, name: str) -> Buffer:
+        """Return a file, which is read when it is opened first.
+
+        Raises:
+            UsageError: there is none of this name.
+        """
+        path = self._paths.get(name)
+        if path is None:
+            raise UsageError("this file is no longer there")
+        if name not in self._buffers:
+            self._buffers[name] = Buffer.opened(path, name)
+        return self._buffers[name]
+
+    # What users do; with the session locked.
+
+    def replace(
+        self, name: str, version: int, start: int, end: int, new: str, *, more: bool
+    ) -> None:
+        """Replace a part of a text, and show it unless more follows at once.
+
+        The other arguments are those of `Buffer.replace`.
+
+        Raises:
+            UsageError: it is too long.
+        """
+        if self.buffer(name).replace(version, start, end, new):
+            self._tell(loads=not more)
+
+    def apply(self, edits: Iterable[Edit]) -> None:
+        """Make the edits of a problem in the texts.
+
+        Raises:
+            UsageError: a text has changed since it was checked.
+        """
+        made: list[tuple[Buffer, str]] = []
+        for file, own in by_file(edits).items():
+            buffer = self.buffer(self.name_of(file))
+            if any(edit.seen != hash(buffer.text) for edit in own):
+                raise UsageError(f"{buffer.name} has changed since it was checked")
+            made.append((buffer, apply_edits(own, buffer.text)))
+        for buffer, text in made:
+            buffer.take(text)
+        self._tell()
+
+    def revert(self, name: str) -> None:
+        """Take the text that is on the disk."""
+        self.buffer(name).revert()
+        self._tell()
+
+    def resolve(self, name: str, *, take_theirs: bool) -> None:
+        """End the difference with what another program has saved; see `Buffer`."""
+        self.buffer(name).resolve(take_theirs=take_theirs)
+        self._tell()
+
+    def save(self, name: str) -> None:
+        """Write a text into its file.
+
+        Raises:
+            UsageError: it may not be written, or another program has saved the file.
+            EditRefused: it cannot be written.
+        """
+        buffer = self.buffer(name)
+        if self._edits is None:
+            raise UsageError("this program writes no files; start it with --edit")
+        if buffer.look():
+            self._tell()
+        if buffer.theirs is not None:
+            raise UsageError(f"{name} was saved by another program meanwhile")
+        try:
+            data = buffer.disk.encoded(buffer.text)
+        except UnicodeEncodeError as error:
+            sign = error.object[error.start]
+            raise UsageError(
+                f"{name} is in {buffer.disk.encoding}, which has no '{sign}'"
+            ) from error
+        try:
+            self._edits.save(buffer.path, buffer.disk.data, data)
+        except EditRefused as error:
+            if error.is_old and buffer.look():
+                self._tell()
+            raise
+        buffer.saved(data)
+        self._tell()
+
+    # What follows
+
+    def _tell(self, *, loads: bool = True) -> None:
+        self.changed.touch()
+        if loads:
+            self._background.do(self, self._update)
+
+    def _find(self) -> None:
+        """Look for the files of the model, after there may be others."""
+        robot = self._robot.model
+        found: list[Path] = [self._files.model, *self._suspects]
+        found += () if robot is None else robot.files
+        found += sorted(self._checks.files.value)
+        for problem in self._problems.of_newest:
+            found += () if problem.file is None else (Path(problem.file),)
+        named = self._files.named(dict.fromkeys(found))
+        paths = {n: path for n, path in named if n in self._buffers or path.is_file()}
+        paths = dict([*paths.items()][: limits.EDITED_FILES.value])
+        for name, buffer in self._buffers.items():
+            paths.setdefault(name, buffer.path)
+        if paths != self._paths:
+            self._paths = paths
+            self.changed.touch()
+
+    def _look(self) -> None:
+        """Compare with the disk what another program may have saved."""
+        looked = [buffer.look() for buffer in self._buffers.values()]
+        if any(looked):
+            self._tell()
+
+    def _of_model(self, texts: Texts) -> Texts:
+        """Return those of the files that the robot is loaded from."""
+        robot = self._robot.model
+        files = (() if robot is None else robot.files, self._suspects)
+        known = {self._files.model, *(p.absolute() for each in files for p in each)}
+        return {file: text for file, text in texts.items() if Path(file) in known}
+
+    def _update(self) -> None:
+        """Show and check the texts as they are now; in a thread."""
+        with self._change.lock:
+            texts = self.texts
+            versions = {name: b.version for name, b in self._buffers.items()}
+            of_model = self._of_model(texts)
+            if self._closed:
+                return
+        try:
+            if of_model != self._loaded:
+                self._load(of_model)
+            with self._change.lock:
+                around = {f: t for f, t in texts.items() if f not in of_model}
+                self._checks.texts = {**around, **self._shown}
+            self._checks.run_again()
+        except Exception as error:
+            self._problems.report_error(error)
+        with self._change(self.changed):
+            self.checked = versions
+
+    def _load(self, texts: Texts) -> None:
+        trusted = self.can_save or not texts
+        try:
+            with unsaved(texts):
+                robot = self._files.load(texts, trusted)
+        except RobotError as error:
+            with self._change():
+                self._loaded, self._suspects = texts, error.files
+                self._problems.set_text(error.problems if texts else None)
+            return
+        with self._change():
+            if self._closed:
+                return
+            self._loaded = self._shown = texts
+            self._checks.texts, self._suspects = texts, ()
+            self._problems.set_text(() if texts else None)
+            self._show(robot, bool(texts))

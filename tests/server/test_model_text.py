@@ -1,0 +1,273 @@
+"""The text of the model in the page: typed, shown, checked, fixed and saved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pytest
+from inside import session_of, viser_server
+from lower_limit import lower
+from protocol_client import ProtocolClient
+
+from sambot_viz import Visualizer
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+
+Protocol = Callable[..., ProtocolClient]
+HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+GOOD = f"""{HEAD}
+<link name="hull"/>
+<link name="arm"/><!-- ä 🤖 -->
+<xacro:include filename="leg.xacro"/>
+<joint name="j" type="fixed"><parent link="hull"/><child link="arm"/></joint>
+</robot>
+"""
+LEG = f"""{HEAD}
+<link name="leg"/>
+<joint name="k" type="fixed"><parent link="hull"/><child link="leg"/></joint>
+</robot>
+"""
+MODEL = "urdf/r.urdf.xacro"
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    folder = tmp_path / "package"
+    (folder / "urdf").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>package</name></package>")
+    (folder / MODEL).write_bytes(GOOD.replace("\n", "\r\n").encode("utf-8-sig"))
+    (folder / "urdf" / "leg.xacro").write_text(LEG)
+    return folder
+
+
+class Editor:
+    """A page whose panel Model is open."""
+
+    def __init__(self, viz: Visualizer, client: ProtocolClient) -> None:
+        self.viz, self.client = viz, client
+        client.act("model/show", True)
+        client.wait_until(lambda: self.value("text") is not None)
+
+    def value(self, name: str) -> Any:
+        return self.client.rows.get(f"model/{name}", {}).get("value")
+
+    @property
+    def text(self) -> str:
+        return self.value("text")["text"]
+
+    @property
+    def links(self) -> set[str]:
+        robot = session_of(self.viz).robot.model
+        return set() if robot is None else set(robot.links)
+
+    @property
+    def notice(self) -> str:
+        return self.client.rows.get("notice", {}).get("value", {}).get("text", "")
+
+    def open(self, name: str) -> None:
+        self.client.act("model/open", name)
+        self.client.wait_until(lambda: self.value("text")["file"] == name)
+
+    def replace(self, old: str, new: str) -> None:
+        """Write a word for another, as the page sends it: in UTF-16 units."""
+        shown = self.value("text")
+        before, found, _ = shown["text"].partition(old)
+        assert found
+        start, length = (len(part.encode("utf-16-le")) // 2 for part in (before, old))
+        place = start, start + length
+        file, version = shown["file"], shown["version"]
+        self.client.act("model/type", file, version, *place, new, False)
+        self.client.wait_until(lambda: self.value("text")["version"] == version + 1)
+
+    def problems(self) -> list[dict[str, Any]]:
+        """What is wrong with the text, once it is checked."""
+
+        def is_checked() -> bool:
+            found, version = self.value("found"), self.value("text")["version"]
+            return found is not None and found["version"] == version
+
+        self.client.wait_until(is_checked)
+        return self.value("found")["problems"]
+
+
+@pytest.fixture
+def show(package: Path, protocol: Protocol) -> Iterator[Callable[..., Visualizer]]:
+    with ExitStack() as stack:
+
+        def start(path: Path = package / MODEL, **options: Any) -> Visualizer:
+            inputs = Inputs(Options(path, watch=True, **options), may_be_broken=True)
+            return stack.enter_context(Visualizer.of_inputs(inputs))
+
+        yield start
+
+
+@pytest.fixture
+def edit(show: Callable[..., Visualizer], protocol: Protocol) -> Callable[..., Editor]:
+    def open_editor(viz: Visualizer | None = None, path: str = "/", **o: Any) -> Editor:
+        shown = show(**o) if viz is None else viz
+        client = protocol(shown.viser.get_port(), path=path)
+        client.settle(viser_server(shown))
+        return Editor(shown, client)
+
+    return open_editor
+
+
+def test_the_text_comes_when_the_panel_is_open_and_the_robot_follows_it(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor = edit()
+    assert editor.text == GOOD
+    names = [file["name"] for file in editor.value("files")]
+    assert names[:2] == [MODEL, "urdf/leg.xacro"] and "package.xml" in names
+    editor.replace('name="arm"/>', 'name="armm"/>')
+    # A joint names a link that is not there: the last robot stays.
+    (wrong,) = (p for p in editor.problems() if p["severity"] == "error")
+    assert editor.links == {"hull", "arm", "leg"}
+    ((start, end, new),) = wrong["edits"]
+    units = editor.text.encode("utf-16-le")
+    assert units[2 * start : 2 * end].decode("utf-16-le") == "arm" and new == "armm"
+    editor.replace('child link="arm"', 'child link="armm"')
+    editor.client.wait_until(lambda: editor.links == {"hull", "armm", "leg"})
+    # Another file of the model.
+    editor.open("urdf/leg.xacro")
+    assert editor.text == LEG
+    editor.replace('"leg"', '"foot"')
+    editor.replace('child link="leg"', 'child link="foot"')
+    editor.client.wait_until(lambda: editor.links == {"hull", "armm", "foot"})
+    assert not [p for p in editor.problems() if p["severity"] == "error"]
+    # Nothing is written.
+    assert (package / "urdf/leg.xacro").read_text() == LEG
+    editor.client.act("model/revert", "urdf/leg.xacro")
+    editor.client.wait_until(lambda: editor.links == {"hull", "armm", "leg"})
+    editor.client.act("model/revert", MODEL)
+    editor.client.wait_until(lambda: editor.links == {"hull", "arm", "leg"})
+    assert not session_of(editor.viz).own_model
+    assert "model/save" not in editor.client.rows
+
+
+def test_a_fix_mends_the_text_by_the_panel_problems_too(
+    edit: Callable[..., Editor],
+) -> None:
+    editor = edit()
+    editor.replace('parent link="hull"', 'parent link="hul"')
+    (problem,) = (p for p in editor.problems() if p["severity"] == "error")
+    editor.client.act("model/fix", problem["id"])
+    editor.client.wait_until(lambda: editor.text == GOOD)
+    editor.replace('parent link="hull"', 'parent link="hul"')
+    assert editor.problems()
+    acts = [row["act"] for row in editor.client.rows.values() if "act" in row]
+    ((_, command, row),) = acts
+    editor.client.act(command, row)
+    editor.client.wait_until(lambda: editor.text == GOOD)
+    assert "not saved" in editor.notice
+
+
+def test_saving_keeps_the_encoding_and_the_line_ends(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor = edit(edit=True)
+    editor.replace('name="arm"/>', 'name="arm"/>\n<link name="new"/>')
+    editor.replace(
+        "</robot>",
+        '<joint name="n" type="fixed"><parent link="arm"/><child link="new"/></joint>\n'
+        "</robot>",
+    )
+    editor.client.wait_until(lambda: "new" in editor.links)
+    editor.client.act("model/save", MODEL)
+    editor.client.wait_until(lambda: editor.notice == f"Saved {MODEL}")
+    written = (package / MODEL).read_bytes()
+    assert written == editor.text.replace("\n", "\r\n").encode("utf-8-sig")
+    editor.client.wait_until(lambda: not editor.value("text")["changed"])
+    editor.client.wait_until(lambda: not session_of(editor.viz).own_model)
+    assert "new" in editor.links
+
+
+def test_what_another_program_saved_is_never_overwritten_unasked(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor, file = edit(edit=True), package / "urdf" / "leg.xacro"
+    editor.open("urdf/leg.xacro")
+    # Without changes here, it is taken as it is.
+    theirs = LEG.replace("</robot>", "<!-- theirs -->\n</robot>")
+    file.write_text(theirs)
+    editor.client.wait_until(lambda: editor.text == theirs)
+    editor.replace('"k"', '"kk"')
+    mine, others = editor.text, theirs.replace('"leg"', '"paw"')
+    file.write_text(others)
+    editor.client.act("model/save", "urdf/leg.xacro")
+    editor.client.wait_until(lambda: "another program" in editor.notice)
+    assert file.read_text() == others
+    assert (editor.text, editor.value("text")["theirs"]) == (mine, others)
+    editor.client.act("model/resolve", "urdf/leg.xacro", False)
+    editor.client.act("model/save", "urdf/leg.xacro")
+    editor.client.wait_until(lambda: file.read_text() == mine)
+    # A file that is gone is written again only when that is asked for.
+    editor.replace('"kk"', '"kkk"')
+    file.unlink()
+    editor.client.wait_until(lambda: editor.value("text")["gone"])
+    assert editor.text == mine.replace('"kk"', '"kkk"')
+    editor.client.act("model/resolve", "urdf/leg.xacro", False)
+    editor.client.act("model/save", "urdf/leg.xacro")
+    editor.client.wait_until(file.exists)
+    assert file.read_text() == editor.text
+
+
+def test_viewers_read_and_who_has_control_writes(
+    edit: Callable[..., Editor],
+) -> None:
+    teacher = edit(presenter="teach-the-class", path="/?token=teach-the-class")
+    viewer = edit(teacher.viz)
+    shown = viewer.value("text")
+    viewer.client.act("model/type", shown["file"], shown["version"], 0, 0, "x", False)
+    viewer.client.wait_until(lambda: viewer.notice.startswith("View only"))
+    teacher.replace('name="j"', 'name="jj"')
+    viewer.client.wait_until(lambda: viewer.text == GOOD.replace('"j"', '"jj"'))
+
+
+def test_each_private_session_has_its_own_text(edit: Callable[..., Editor]) -> None:
+    one = edit(session="private")
+    other = edit(one.viz)
+    one.replace('name="j"', 'name="jj"')
+    assert (one.problems(), other.text) == ([], GOOD)
+    assert "model/save" not in one.client.rows
+
+
+def test_a_text_for_an_older_version_is_not_taken(edit: Callable[..., Editor]) -> None:
+    editor = edit()
+    editor.replace('name="j"', 'name="jj"')
+    now = editor.value("text")
+    editor.client.act("model/type", MODEL, now["version"] - 1, 0, 0, "x", False)
+    editor.client.settle(viser_server(editor.viz))
+    assert editor.value("text") == now
+    for start, end, new in ((0, 10**9, ""), (9, 3, ""), (0, 0, "x" * 20_000)):
+        editor.client.act("model/type", MODEL, now["version"], start, end, new, True)
+    editor.client.act("model/open", "../../etc/passwd")
+    editor.client.wait_until(lambda: editor.notice == "This file is no longer there")
+
+
+def test_a_text_that_is_too_long_or_no_text_is_refused(
+    edit: Callable[..., Editor], package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (package / "urdf" / "leg.xacro").write_bytes(b"\xff\xfe\x00<")
+    lower(monkeypatch, "EDITED_TEXT", 1000)
+    editor = edit()
+    assert editor.value("text")["most"] == 1000
+    editor.client.act("model/type", MODEL, 0, 0, 0, "x" * 999, False)
+    editor.client.wait_until(lambda: "1,000 at most" in editor.notice)
+    assert editor.text == GOOD
+    editor.open("urdf/leg.xacro")
+    assert editor.text == "" and "encoding" in editor.value("text")["why"]
+
+
+def test_code_in_a_text_of_who_may_not_save_is_not_run(
+    edit: Callable[..., Editor],
+) -> None:
+    editor = edit()
+    code = "${''.__class__.__mro__[1].__subclasses__()}"
+    editor.replace('<link name="hull"/>', f'<link name="{code}"/>')
+    (problem,) = (p for p in editor.problems() if p["severity"] == "error")
+    assert "untrusted" in problem["message"] or "not allowed" in problem["message"]
+    assert editor.links == {"hull", "arm", "leg"}
