@@ -129,7 +129,7 @@ ROOMS: Mapping[str, Row] = {
     "publishing": Row("frames messages sources topics"),
     "checks": Row("bundled meshes robot rviz", "numpy yaml"),
     "graph": Row("checks robot sources"),
-    "lessons": Row("bundled checks frames robot rviz", "yaml"),
+    "lessons": Row("bundled checks frames messages robot rviz sources topics", "yaml"),
     # From numbers to the scene.
     "viser_private": Row("", "rich viser websockets", "asyncio"),
     "displays": Row(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import yaml
 
 from sambot_viz.checks.around.files.parameters import flag, pairs
-from sambot_viz.errors import RobotError
+from sambot_viz.errors import RobotError, SourceError
 from sambot_viz.lessons.conditions.condition import (
     Condition,
     Unmet,
@@ -55,6 +55,8 @@ def _unmet(condition: Condition, work: Work) -> list[Unmet]:
         return list(condition.unmet(work))
     except UnmetError as error:
         return [error.unmet]
+    except SourceError as error:
+        return [Unmet(str(error), "a recording that can be read")]
 
 
 def _read_demand(node: yaml.Node, report: LessonReport) -> Demand | None:

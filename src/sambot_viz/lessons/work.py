@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from sambot_viz.checks import check_robot
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package, Workspace
-from sambot_viz.errors import Problem, RobotError
+from sambot_viz.errors import Problem, RobotError, SourceError
+from sambot_viz.files import RECORDING_ENDINGS, is_below
 from sambot_viz.robot.model import Robot, load_robot
 from sambot_viz.robot.packages.package_index import package_around
+
+if TYPE_CHECKING:
+    from sambot_viz.lessons.recorded import StudentRecording
 
 
 class Work:
@@ -100,6 +105,28 @@ class Work:
     def launches(self) -> frozenset[str]:
         """The launch files, as the user would write them."""
         return frozenset(self.files.shown(path) for path in self.files.launch_paths)
+
+    @cached_property
+    def recording(self) -> StudentRecording:
+        """The recordings of the folder, as one.
+
+        Raises:
+            SourceError: there is none, or it cannot be opened.
+        """
+        # The import is late: it needs numpy and what decodes messages.
+        from sambot_viz.lessons.recorded import StudentRecording
+
+        paths = [self.files.folder / each for each in self._recordings()]
+        if not paths:
+            raise SourceError("the folder has no recording (.mcap, .db3 or .bag)")
+        return StudentRecording(paths)
+
+    def _recordings(self) -> list[str]:
+        """Return the recordings; untrusted ones are not read through a link."""
+        root = [self.files.folder.resolve()]
+        paths = self.files.ending(*RECORDING_ENDINGS)
+        folder = self.files.folder
+        return [p for p in paths if self._trusted or is_below(folder / p, root)]
 
     def sources(self) -> Iterator[tuple[str, str]]:
         """Give the files of the model that are in the folder, each with its text."""

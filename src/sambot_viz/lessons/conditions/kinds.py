@@ -25,6 +25,11 @@ from sambot_viz.lessons.conditions.masses import (
     InertiaCondition,
     MassCondition,
 )
+from sambot_viz.lessons.conditions.recordings import (
+    GoalCondition,
+    MovedCondition,
+    RecordedCondition,
+)
 from sambot_viz.lessons.conditions.running import (
     BridgeCondition,
     NodeCondition,
@@ -64,6 +69,9 @@ KINDS: Mapping[str, type[Condition]] = {
     "parameter": ParameterCondition,
     "static-transform": StaticTransformCondition,
     "rviz": RvizCondition,
+    "recorded": RecordedCondition,
+    "moved": MovedCondition,
+    "goal-reached": GoalCondition,
     "no-problem": NoProblemCondition,
     "no-errors": NoErrorsCondition,
 }
