@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from lesson_files import record_run
 from problem_codes import code_patterns
 
 import sambot_viz
@@ -122,8 +123,15 @@ def lesson() -> Lesson:
     return open_lesson("nav2-first-robot")
 
 
+@pytest.fixture(scope="session")
+def recordings(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recordings")
+    record_run(folder)
+    return folder
+
+
 @pytest.fixture(params=["urdf", "sdf"])
-def package(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+def package(request: pytest.FixtureRequest, tmp_path: Path, recordings: Path) -> Path:
     """The solution as a student of one track has it."""
     folder = tmp_path / "sam_bot_description"
     shutil.copytree(SOLUTION / "sam_bot_description", folder)
@@ -133,6 +141,7 @@ def package(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
     launch.write_text(
         launch.read_text().replace("description.urdf", f"description.{request.param}")
     )
+    shutil.copytree(recordings, folder / "recordings")
     return folder
 
 
@@ -203,15 +212,25 @@ def test_the_robots_of_the_guide_pass_the_steps_about_the_model(
 
 
 @pytest.mark.parametrize("name", ["base-cmake", "base-python"])
-def test_a_package_of_the_guide_passes_all_but_the_first_step(
+def test_a_package_of_the_guide_passes_all_that_files_show(
     lesson: Lesson, shared: Path, name: str
 ) -> None:
     package = shared / "data" / "mistakes" / name
     failed = [s.name for s in lesson.steps if verdict(lesson, package, s.name)]
-    assert failed == ["transform"]
+    assert failed == ["transform", "odometry", "go"]
 
 
-def test_the_public_name_grades_this_lesson() -> None:
-    found = sambot_viz.grade(SOLUTION / "sam_bot_description")
+def test_the_public_name_grades_this_lesson(package: Path) -> None:
+    found = sambot_viz.grade(package)
     assert found.passed
     assert (found.lesson, found.score) == ("nav2-first-robot", found.max_score)
+
+
+def test_a_slow_robot_and_a_goal_that_is_not_reached_are_found(
+    lesson: Lesson, package: Path
+) -> None:
+    record_run(package / "recordings", rate=5, codes=(2, 6))
+    assert (
+        "/demo/odom comes 5 times a second" in verdict(lesson, package, "odometry")[0]
+    )
+    assert "a goal was reached: none" in verdict(lesson, package, "go")[0]

@@ -5,18 +5,15 @@ from __future__ import annotations
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
-from lesson_files import unmet
-from made_recording import START, header, store_of_all, write_messages
+from lesson_files import STATUS, goal_statuses, unmet
+from made_recording import START, write_messages
 
 from sambot_viz import bundled
 from sambot_viz.lessons.work import Work
 
 SQUARE = bundled.assets_folder() / "square.mcap"
-STATUS = "action_msgs/msg/GoalStatusArray"
 
 
 @pytest.fixture
@@ -58,14 +55,6 @@ def test_what_it_has_not_done_is_said(
 ) -> None:
     (said,) = unmet(tmp_path, condition, square)
     assert found in said.found
-
-
-def goal_statuses(codes: Sequence[int]) -> Any:
-    store = store_of_all()
-    types = store.types
-    uuid = types["unique_identifier_msgs/msg/UUID"](np.zeros(16, np.uint8))
-    goal = types["action_msgs/msg/GoalInfo"](uuid, header(store, 0.0, "map").stamp)
-    return types[STATUS]([types["action_msgs/msg/GoalStatus"](goal, c) for c in codes])
 
 
 @pytest.mark.parametrize(("codes", "holds"), [([2, 4], True), ([6, 5], False)])
