@@ -38,18 +38,28 @@ def misspelt_entries(around: Surroundings) -> Iterator[Problem]:
             yield from _misspelt_keys(entry)
             yield from _named_twice(entry)
             way = entry.get("direction")
-            near = (
-                nearest(way.value.upper(), DIRECTIONS, 0.7) if way is not None else None
-            )
-            if way is not None and near is not None and way.value not in DIRECTIONS:
+            if way is not None and way.value not in DIRECTIONS:
+                near = _direction(way.value)
                 yield Problem.at(
                     way.place,
                     "error",
                     "bridge-entry",
                     f"the bridge does not know the direction {way.value}: it leaves "
                     "this topic out",
-                    write(way.place, way.value, near, hint=f"write direction: {near}"),
+                    write(way.place, way.value, near, hint=f"write direction: {near}")
+                    if near
+                    else f"write {DIRECTIONS[0]}, {DIRECTIONS[1]} or {DIRECTIONS[2]}",
                 )
+
+
+def _direction(written: str) -> str | None:
+    """Return the direction that is meant: by its letters, or by who comes first."""
+    said = written.upper().replace("IGN", "GZ")
+    near = nearest(said, DIRECTIONS, 0.7)
+    both = said.find("GZ"), said.find("ROS")
+    if -1 in both:
+        return near
+    return DIRECTIONS[0] if both[0] < both[1] else DIRECTIONS[1]
 
 
 def entries_without_type(around: Surroundings) -> Iterator[Problem]:

@@ -85,7 +85,7 @@ class KnownParameter:
         pattern: the class of a name in a list, with * for the name.
         own: lists that need no section, because the node has them by itself.
         at_most: the parameter that is not smaller.
-        count: so many items a list has; 0 for any number.
+        counts: so many items a list has; empty for any number.
         age: the distributions that have it.
         inside: the parameters of a part that it names.
     """
@@ -101,7 +101,7 @@ class KnownParameter:
     pattern: str = ""
     own: tuple[tuple[str, ...], ...] = ()
     at_most: str = ""
-    count: int = 0
+    counts: tuple[int, ...] = ()
     age: Age = Age()
     inside: ParameterBlock | None = None
 
@@ -277,8 +277,8 @@ def _known(name: str, kind: str, rest: list[str]) -> KnownParameter:
             known = replace(known, base=word[1:])
         elif word.startswith("="):
             known = replace(known, own=(*known.own, tuple(word[1:].split(","))))
-        elif word[1:].isdigit():
-            known = replace(known, count=int(word[1:]))
+        elif word[1:].replace(",", "").isdigit():
+            known = replace(known, counts=tuple(map(int, word[1:].split(","))))
         elif "*" in word:
             known = replace(known, pattern=word)
         else:

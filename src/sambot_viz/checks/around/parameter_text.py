@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -17,7 +18,15 @@ Type = Literal["number", "integer", "boolean", "string", "list", "none"]
 _TRUTH = re.compile("true|false|yes|no|on|off|y|n", re.IGNORECASE)
 _INTEGER = re.compile(r"[-+]?(?:\d+|0x[0-9a-fA-F]+)")
 _COMMA = re.compile(r"([-+]?\d+),(\d{1,2}|\d{4,})")
-_WITH_UNIT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)) ?(?:[a-zA-Z%°]\w{0,3})(?:/s)?")
+_WITH_UNIT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)) ?([a-zA-Z%°]\w{0,3})(?:/s)?")
+_UNITS = {
+    "cm": 0.01,
+    "mm": 0.001,
+    "ms": 0.001,
+    "deg": math.pi / 180,
+    "°": math.pi / 180,
+}
+"""Units → what they are in metres, seconds and radians."""
 OPEN = re.compile(r"[$<{}~]|null", re.IGNORECASE)
 REPLACED = re.compile(r"[A-Z]+(?:_[A-Z]+)+")
 """A value that a launch file puts another one in place of."""
@@ -67,6 +76,9 @@ def converted(text: str, kind: str) -> str | None:
     if kind == "boolean":
         truth = {"1": True, "0": False}.get(bare, flag(bare))
         return None if truth is None else str(truth).lower()
+    unit = _WITH_UNIT.fullmatch(bare)
+    if unit is not None and unit[2] in _UNITS:
+        bare = f"{float(unit[1]) * _UNITS[unit[2]]:.6g}"
     for pattern, right in ((_COMMA, r"\1.\2"), (_WITH_UNIT, r"\1")):
         if pattern.fullmatch(bare):
             bare = pattern.sub(right, bare)

@@ -43,7 +43,7 @@ def wrong_values(around: Surroundings) -> Iterator[Problem]:
         for parameter, known in part.known():
             kind = _KINDS.get(known.kind, known.kind)
             found = _type(parameter, kind, part.node, around)
-            if found is None and known.count:
+            if found is None and known.counts:
                 found = _count(parameter, known, part.node)
             yield from [found] if found else _value(parameter, known, part)
 
@@ -114,7 +114,8 @@ def _filled(parameter: Parameter, around: Surroundings) -> Fix:
 def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | None:
     """Report a list with more or fewer items than the node takes."""
     count = len(parameter.values)
-    missing = known.count - count
+    wanted = min(known.counts, key=lambda each: abs(each - count))
+    missing = wanted - count
     if not count or not missing or OPEN.search(parameter.fact.value):
         return None
     filling = "false" if known.kind == "booleans" else "0.0"
@@ -124,7 +125,7 @@ def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | 
         parameter.value_place,
         "error",
         "parameter-type",
-        f"{parameter.name} has {count} values, but {node} needs {known.count}"
+        f"{parameter.name} has {count} values, but {node} needs {wanted}"
         + (meaning if known.kind == "booleans" else ""),
         f"add {', '.join([filling] * missing)} at the end of the list"
         if missing > 0

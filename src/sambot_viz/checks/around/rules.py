@@ -121,6 +121,7 @@ from sambot_viz.checks.around.launch_words import (
     unknown_elements_of_launch,
     unknown_keywords,
 )
+from sambot_viz.checks.around.launched_parameters import launched_parameters
 from sambot_viz.checks.around.manifest import (
     build_types,
     incomplete_manifest,
@@ -253,6 +254,7 @@ OF_FILES: tuple[Check, ...] = (
     bridges_as_parameters,
     joined_words,
     times_as_text,
+    launched_parameters,
     spawned_topics,
     planes,
     inputs_without_config,
