@@ -17,7 +17,6 @@ from sambot_viz.checks.around.launching.actions import FromFile, LaunchArgument
 from sambot_viz.checks.around.launching.python_calls import CALLS
 from sambot_viz.checks.around.launching.python_parts import (
     Call,
-    Listing,
     Table,
     as_text,
     place_in,
@@ -41,27 +40,19 @@ class LaunchNode(NamedTuple):
     """A node that a launch file starts.
 
     Attributes:
-        package: its package; empty when it is not known.
-        executable: the program.
+        executable: the program; empty when it is not known.
         name: the name it gets, or None for the program's own.
         files: its parameter files, as paths in packages.
         sim_time: what it is told for use_sim_time, or None.
         arguments: its arguments, as far as they are known.
-        arguments_known: all of them are.
-        remappings: topic → topic.
-        complete: all its parameters are understood.
         place: its line.
     """
 
-    package: str
     executable: str
     name: str | None
     files: tuple[Fact, ...]
     sim_time: Fact | None
     arguments: tuple[str, ...]
-    arguments_known: bool
-    remappings: tuple[tuple[str, str], ...]
-    complete: bool
     place: Place
 
 
@@ -186,33 +177,22 @@ class LaunchFile:
         said = self.values.said
         files: list[Fact] = []
         sim_time: Fact | None = None
-        complete = True
         for item, node in call.listing("parameters").items:
             if isinstance(item, Table):
                 sim_time = self._sim_time(item) or sim_time
                 continue
             # Of a file that is rewritten, the names in it may be others.
             path = None if isinstance(item, FromFile) else said(item)
-            complete = complete and path is not None
             if path is not None:
                 files.append(Fact(path, self.place(node)))
-        named, arguments = call.given("name"), call.listing("arguments")
-        texts = [said(item) for item, _ in arguments.items]
-        names = [
-            [said(part) for part, _ in pair.items]
-            for pair, _ in call.listing("remappings").items
-            if isinstance(pair, Listing)
-        ]
+        named = call.given("name")
+        arguments = [said(item) for item, _ in call.listing("arguments").items]
         return LaunchNode(
-            self.text(call, "package") or "",
             self.text(call, "executable") or "",
             None if named is None else self.values.text(named),
             tuple(files),
             sim_time,
-            tuple(text for text in texts if text is not None),
-            arguments.complete and None not in texts,
-            tuple((n[0], n[1]) for n in names if len(n) == 2 and n[0] and n[1]),
-            complete and (named is None or self.values.text(named) is not None),
+            tuple(text for text in arguments if text is not None),
             call.place,
         )
 

@@ -21,7 +21,6 @@ from sambot_viz.checks.around.bridge_types import (
     unknown_bridge_types,
     wrong_data_types,
 )
-from sambot_viz.checks.around.bridged_joint_states import unsent_joint_states
 from sambot_viz.checks.around.bridges import (
     bridge_directions,
     bridge_topics,
@@ -43,8 +42,7 @@ from sambot_viz.checks.around.controllers import (
 from sambot_viz.checks.around.display_topics import unseen_topics
 from sambot_viz.checks.around.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.filter_inputs import inputs_without_config
-from sambot_viz.checks.around.footprint import footprints
-from sambot_viz.checks.around.footprint_text import unreadable_footprints
+from sambot_viz.checks.around.footprint import footprints, unreadable_footprints
 from sambot_viz.checks.around.frame_names import (
     moved_twice,
     odometry_frames,
@@ -61,7 +59,7 @@ from sambot_viz.checks.around.generations import (
 )
 from sambot_viz.checks.around.installed import not_installed
 from sambot_viz.checks.around.joint_names import joints_of_controllers
-from sambot_viz.checks.around.joint_states import no_joint_states
+from sambot_viz.checks.around.joint_states import no_joint_states, unsent_joint_states
 from sambot_viz.checks.around.launch_arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_calls import (
     arguments_that_are_no_texts,

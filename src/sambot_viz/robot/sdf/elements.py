@@ -113,6 +113,7 @@ def _element(words: list[str]) -> ElementType:
     )
 
 
+@cache
 def _values(text: str, required: bool) -> Values:
     match = _WORDS.fullmatch(text)
     if match is None:

@@ -11,10 +11,6 @@ from sambot_viz.robot.slips.misspelt import CALL, Slip
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS, missing_prefix
 from sambot_viz.robot.xml.element import Element
 
-SLIP_CODES = frozenset({"element-misspelt", "attribute-misspelt", "element-misplaced"})
-"""The codes of these problems."""
-
-
 _SHORT = 60
 """The longest text that a hint repeats [characters]."""
 
