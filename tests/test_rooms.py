@@ -233,7 +233,7 @@ EXCEPTIONS: Mapping[str, str] = {
     "sources/websocket/websocket_source.py": "asyncio",
     "sources/dds/dds_source.py": "asyncio",
     "sources/dds/ends.py": "asyncio",
-    "sources/dds/participant.py": "threading",
+    "sources/dds/participant.py": "asyncio threading",
     "sources/dds/services.py": "asyncio",
     "sources/zenoh/readings.py": "asyncio",
     "sources/zenoh/zenoh_source.py": "asyncio",

@@ -25,7 +25,8 @@ from sambot_viz.sources.qos import Qos
 from sambot_viz.sources.ros_endpoint import Kind
 from sambot_viz.sources.ros_graph import NO_HASH
 from sambot_viz.sources.source import Receivers, Source
-from sambot_viz.sources.zenoh.names import parse_token, stamp_of
+from sambot_viz.sources.zenoh.names import TOKENS, parse_token, stamp_of
+from sambot_viz.sources.zenoh.session import open_session
 
 Open = Callable[[str], Source]
 POSE = "geometry_msgs/msg/PoseStamped"
@@ -134,6 +135,21 @@ def test_a_router_without_nodes_says_how_they_would_be_there(opened: Open) -> No
         assert f"tcp/{robot.uri.partition('//')[2]}" in source.status.sentence
     finally:
         robot.stop()
+
+
+def test_a_router_has_told_all_when_it_says_so(robot: ZenohPeer) -> None:
+    for number in range(200):
+        robot.declare(f"@ros2_lv/0/z/0/{number}/NN/%/%/node{number}")
+    told, end = set[str](), list[int]()
+    # In the thread of zenoh itself, so in its order.
+    session = open_session(
+        registry.live_address(robot.uri), lambda action: action(), lambda: None
+    )
+    session.watch(
+        TOKENS, lambda key, is_there: told.add(key), lambda: end.append(len(told))
+    )
+    eventually(lambda: end == [201])
+    session.close()
 
 
 def described(type_name: str, text: str) -> bytes:

@@ -7,6 +7,7 @@ costs more than they do.
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import time
 from collections.abc import Callable
@@ -87,6 +88,7 @@ class DdsParticipant:
         self._readers: list[bytes] = []
         self._publishers: dict[bytes, DdsPublisher] = {}
         self._node: DdsPublisher | None = None
+        self._is_saying = False
         self._thread = threading.Thread(
             target=self._read, name=f"sambot-viz {address.label}", daemon=True
         )
@@ -232,7 +234,14 @@ class DdsParticipant:
             self._say()
 
     def _say(self) -> None:
-        if self._node is not None:
+        """Say soon what this node has: a thousand topics are subscribed to at once."""
+        if self._node is not None and not self._is_saying:
+            self._is_saying = True
+            asyncio.get_running_loop().call_later(_TOGETHER, self._say_now)
+
+    def _say_now(self) -> None:
+        self._is_saying = False
+        if self._node is not None and not self.is_closed:
             message = names.nodes_message(
                 self.id, NODE, self._readers, self._publishers
             )

@@ -56,6 +56,7 @@ class ZenohConversation(GraphConversation):
         self.session_id = session.router
         self._session = session
         self._tokens: set[str] = set()
+        self._is_told = False
         self._elsewhere: dict[int, set[str]] = {}
         # Tokens that are gone: all are, just before a lost connection is noticed.
         self._gone: set[str] = set()
@@ -68,7 +69,7 @@ class ZenohConversation(GraphConversation):
         self._node = self._session.declare_token(
             names.node_token(self._domain, self._session.name, NODE)
         )
-        self._session.watch(names.TOKENS, self._token)
+        self._session.watch(names.TOKENS, self._token, self._all_told)
         self.is_ready = True
 
     @property
@@ -88,6 +89,11 @@ class ZenohConversation(GraphConversation):
         """Return why no node is there, with what shows some; "" when some is."""
         if self._tokens:
             return ""
+        if not self._is_told:
+            return (
+                "its router has not told yet which nodes there are: with thousands of "
+                "topics that takes a minute"
+            )
         for domain, there in self._elsewhere.items():
             if there:
                 address = self.ends.address.with_protocol("zenoh")
@@ -101,6 +107,9 @@ class ZenohConversation(GraphConversation):
             "have), and on another machine with ZENOH_CONFIG_OVERRIDE="
             f"'connect/endpoints=[\"tcp/{self.ends.address.label}\"]'"
         )
+
+    def _all_told(self) -> None:
+        self._is_told = True
 
     def _token(self, key: str, is_there: bool) -> None:
         """Take a token that is there, or is gone."""

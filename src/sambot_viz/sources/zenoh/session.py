@@ -28,6 +28,9 @@ from sambot_viz.sources.zenoh.readings import (
 
 LONGEST_OPENING = 10.0
 """A router that has not answered by then is given up [s]."""
+_NO_TOKEN = "@ros2_lv/none"
+_LONGEST_TELLING = 600.0
+"""A router takes minutes for the tokens of ten thousand topics [s]."""
 _CERTIFICATES = "SSL_CERT_FILE"
 
 Post = Callable[[Callable[[], object]], object]
@@ -82,12 +85,18 @@ class ZenohSession:
         """Whether it was ended: nothing more can be asked of it."""
         return self._session.is_closed()
 
-    def watch(self, key: str, told: Callable[[str, bool], object]) -> None:
+    def watch(
+        self,
+        key: str,
+        told: Callable[[str, bool], object],
+        all_told: Callable[[], object],
+    ) -> None:
         """Tell of liveliness tokens, those that are there first.
 
         Args:
             key: of the tokens.
             told: called with the key of each and whether it is there.
+            all_told: called when those that were there are told.
         """
         from zenoh import SampleKind
 
@@ -96,7 +105,14 @@ class ZenohSession:
             name = str(sample.key_expr)
             self._post(lambda: told(name, there))
 
-        self._session.liveliness().declare_subscriber(key, _at_once(take), history=True)
+        liveliness = self._session.liveliness()
+        liveliness.declare_subscriber(key, _at_once(take), history=True)
+        # A router answers one after the other: after those tokens that there are none.
+        liveliness.get(
+            _NO_TOKEN,
+            _at_once(lambda reply: None, lambda: self._post(all_told)),
+            timeout=_LONGEST_TELLING,
+        )
 
     def declare_token(self, key: str) -> ZenohDeclaration:
         """Say that something is there."""
@@ -261,9 +277,16 @@ def _refused(address: Address) -> str:
     )
 
 
-def _at_once(callback: Callable[[Any], object]) -> Any:
-    """Return a handler that is called without a Python thread of its own."""
+def _at_once(
+    callback: Callable[[Any], object], ended: Callable[[], object] | None = None
+) -> Any:
+    """Return a handler that is called without a Python thread of its own.
+
+    Args:
+        callback: is called with what comes.
+        ended: is called when nothing more comes.
+    """
     import zenoh
 
     library: Any = zenoh
-    return library.handlers.Callback(callback, indirect=False)
+    return library.handlers.Callback(callback, ended, indirect=False)
