@@ -161,7 +161,10 @@ def test_topics_of_all_kinds_of_qos_are_seen_with_their_node(source: Source) -> 
     assert [*decoded(inboxes["/joint_states"].messages[0]).position] == [0.5]
     assert [*decoded(inboxes["/scan"].messages[0]).ranges] == [1.0, 2.0]
     topics = source.topics()
-    assert {one.publishers for one in topics.values()} == {("/lab/robot",)}
+    published = [one for one in topics.values() if not one.is_awaited]
+    assert {one.publishers for one in published} == {("/lab/robot",)}
+    assert topics["/goal_pose"].is_awaited
+    assert topics["/goal_pose"].subscribers == ("/lab/robot",)
     qos = topics["/robot_description"].qos, topics["/scan"].qos
     assert qos[0] is not None and qos[0].durability == "transient_local"
     assert qos[1] is not None and qos[1].reliability == "best_effort"

@@ -88,3 +88,15 @@ def test_simulated_stamps_are_no_lag() -> None:
     clock.note_message(17 * SECOND)
     assert clock.lag_s() is None
     assert clock.now_ns() == wall.now
+
+
+def test_a_clock_that_is_hours_off_is_told_until_it_is_set() -> None:
+    wall = Wall()
+    clock = SourceClock(wall)
+    clock.note_message(wall.now - 2 * 3600 * SECOND)
+    assert clock.apart_s == -7200
+    clock.note_message(wall.now + 30 * SECOND)
+    assert clock.apart_s is None
+    clock.note_message(wall.now + 5000 * SECOND)
+    clock.reset()
+    assert clock.apart_s is None

@@ -99,6 +99,10 @@ def test_a_message_says_when_it_was_published(
     robot.publish("/chatter", "one")
     inbox.wait_for("one")
     assert inbox.messages[0].publish_ns == STAMP_NS
+    # That was years ago.
+    eventually(
+        lambda: "h behind this computer's: `timedatectl`" in source.status.sentence
+    )
     # Before 2024-11 nothing of that kind was attached, or text was.
     assert stamp_of(b"") is stamp_of(b"source_timestamp") is None
 

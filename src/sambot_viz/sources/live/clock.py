@@ -67,6 +67,7 @@ class SourceClock:
         self._undelayed = _Fastest()
         self._newest: tuple[int, int] | None = None
         self._last_ns = 0
+        self._apart: int | None = None
 
     @property
     def is_told(self) -> bool:
@@ -87,7 +88,8 @@ class SourceClock:
         """Note when the peer has logged a message that has just come [ns]."""
         now = self._wall_ns()
         offset = log_ns - now
-        if abs(offset) > _SAME_TIME:
+        self._apart = offset if abs(offset) > _SAME_TIME else None
+        if self._apart is not None:
             return
         if log_ns < self._last_ns - _SET_BACK:
             self._undelayed = _Fastest()
@@ -95,6 +97,11 @@ class SourceClock:
         for one in (self._fastest, self._undelayed):
             one.note(now, offset)
         self._newest = (now, offset)
+
+    @property
+    def apart_s(self) -> float | None:
+        """How far the peer's clock is ahead of this one [s]; None for the same time."""
+        return None if self._apart is None else self._apart / 1e9
 
     def lag_s(self) -> float | None:
         """Return how much longer than at best the newest message took [s]."""

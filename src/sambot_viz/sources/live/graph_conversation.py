@@ -155,11 +155,19 @@ class GraphConversation(Conversation):
         return ""
 
     def notes(self) -> list[str]:
-        """Return why nothing is there, and what is left out."""
+        """Return why nothing is there, what is left out, and whose clock is wrong."""
         notes: list[str] = []
         if self._graph.is_full:
             notes.append(
                 f"only the first {limits.TOPICS.value} of its topics are listed"
+            )
+        # Nodes stamp what they publish by the clock of their computer, also simulated.
+        if (apart := self.ends.clock.apart_s) is not None:
+            way, hours = "ahead of" if apart > 0 else "behind", abs(apart) / 3600
+            notes.append(
+                f"the robot's clock is {hours:,.1f} h {way} this computer's: "
+                "`timedatectl` on both says which one is wrong, and "
+                "`sudo timedatectl set-ntp true` there sets it"
             )
         if self._ticks >= _TICKS_FOR_NODES and (nothing := self._nothing()):
             notes.append(nothing)
