@@ -48,6 +48,7 @@ _STYLES = (
     "tree/tree.css",
     "dialogs/dialogs.css",
     "panels/graph.css",
+    "panels/model.css",
 )
 _PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)

@@ -134,6 +134,7 @@ class ModelPanel(Panel):
             "message": words,
             "hint": hint,
             "edits": self._edits(problem, source),
+            "fix": self._can_fix(problem),
         }
 
     def _edits(self, problem: Problem, source: SourceFile) -> Json:
@@ -145,6 +146,10 @@ class ModelPanel(Panel):
             [to_units(source.text, e.start), to_units(source.text, e.end), e.text]
             for e in sorted(set(edits), key=_start)
         ]
+
+    def _can_fix(self, problem: Problem) -> bool:
+        files = {edit.file for edit in problem.edits}
+        return bool(files) and all(map(self._text.name_of, files))
 
     # What the page calls
 

@@ -141,6 +141,8 @@ function keys() {
     (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s")
         return;
+      // In the text of the model it saves that.
+      if (event.target instanceof Element && event.target.closest(".model .text")) return;
       // The browser would save the page.
       event.preventDefault();
       event.stopPropagation();

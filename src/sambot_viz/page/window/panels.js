@@ -7,6 +7,7 @@ import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
 import { GraphPanel } from "../panels/graph.js";
 import { ImagesPanel } from "../panels/images.js";
+import { ModelPanel } from "../panels/model.js";
 import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
@@ -29,6 +30,7 @@ export const tab = new Cell("", "tab");
  */
 export const TABS = {
   joints: { title: "Joints", content: JointsPanel },
+  model: { title: "Model", content: ModelPanel },
   frames: { title: "Frames", content: FramesPanel },
   graph: { title: "Graph", content: GraphPanel },
   images: { title: "Images", content: ImagesPanel },

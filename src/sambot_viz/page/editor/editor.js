@@ -1,0 +1,254 @@
+// @ts-check
+/* The editor in the panel Model: one file at a time, each with its own undo. */
+
+import { act, ONLINE, CUT, rows } from "../wire/channel.js";
+import { refusals, tell } from "../window/notices.js";
+import { lookOf } from "./look.js";
+import { TextSync } from "./text_sync.js";
+
+/** What is typed is sent when no key was pressed for so long [ms]. */
+const PAUSE = 300;
+
+/**
+ * @typedef {{file: string, version: number, text: string, most: number, why: string,
+ *   changed: boolean, theirs?: string | null, gone: boolean}} Content of the server
+ * @typedef {{id: string, from: number, to: number, severity: string, message: string, hint: string,
+ *   edits: [number, number, string][] | null, fix: boolean}} Found
+ */
+
+/** The files that were open in this page. @type {Map<string, {sync: TextSync, state: any}>} */
+const opened = new Map();
+
+/** The editor that is seen: texts that were open before have extensions that ask it.
+ * @type {Editor | null} */
+let current = null;
+/** What changes in the extensions of all texts. @type {any} */
+let parts = null;
+
+export class Editor {
+  /** @param {any} cm CodeMirror @param {HTMLElement} host where it is */
+  constructor(cm, host) {
+    this.cm = cm;
+    this.file = "";
+    this.theirs = "";
+    parts ??= {
+      access: new cm.Compartment(),
+      merge: new cm.Compartment(),
+      fromServer: cm.Annotation.define(),
+    };
+    current = this;
+    this.view = new cm.EditorView({ parent: host, dispatchTransactions: this.dispatch });
+    /** @type {ReturnType<typeof setTimeout> | undefined} */
+    this.timer = undefined;
+    const listened = /** @type {[string, () => void][]} */ ([
+      ["model/text", this.take],
+      ["model/found", this.mark],
+      ["model/type", this.follow],
+      ["whole:browser", this.sendAgain],
+      [ONLINE, this.sendAgain],
+      [CUT, () => this.open?.sync.forget()],
+    ]);
+    this.ends = listened.map(([key, listener]) => rows.listen(key, listener));
+    this.take();
+  }
+
+  /** The file that is open. */
+  get open() {
+    return opened.get(this.file);
+  }
+
+  /** Leave the page as it is; what was typed is sent. */
+  close() {
+    this.keep();
+    for (const end of this.ends) end();
+    this.view.destroy();
+  }
+
+  /** Show another file. @param {string} name */
+  show(name) {
+    this.keep();
+    act("model/open", [name]);
+  }
+
+  keep() {
+    this.send();
+    if (this.open) this.open.state = this.view.state;
+  }
+
+  /** @param {any[]} transactions @param {any} view */
+  dispatch = (transactions, view) => {
+    view.update(transactions);
+    for (const transaction of transactions) {
+      if (!transaction.docChanged || transaction.annotation(parts.fromServer)) continue;
+      this.open?.sync.type(transaction.changes, transaction.newDoc.toString());
+      this.sendSoon();
+    }
+  };
+
+  sendSoon() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(this.send, PAUSE);
+  }
+
+  /** Send what was typed now. */
+  send = () => {
+    clearTimeout(this.timer);
+    if (!rows.can("model/type")) return;
+    for (const { version, from, to, text, more } of this.open?.sync.pieces() ?? [])
+      act("model/type", [this.file, version, from, to, text, more]);
+  };
+
+  sendAgain = () => {
+    this.open?.sync.forget();
+    this.take();
+    this.send();
+  };
+
+  /** Take what the server says of the text. */
+  take = () => {
+    /** @type {Content | undefined} */
+    const content = rows.data("model/text");
+    if (!content) return;
+    if (content.file !== this.file) this.begin(content);
+    else {
+      const sync = /** @type {TextSync} */ (this.open?.sync);
+      this.change(sync.take(content.version, content.text));
+      // Others may have come in between.
+      if (sync.isAhead && !sync.sent) this.sendSoon();
+    }
+    this.compare(content);
+    this.mark();
+  };
+
+  /** @param {any} changes of others */
+  change(changes) {
+    if (!changes) return;
+    this.view.dispatch({
+      changes,
+      annotations: [parts.fromServer.of(true), this.cm.Transaction.addToHistory.of(false)],
+    });
+    const open = this.open;
+    if (open) open.sync.text = this.view.state.doc.toString();
+  }
+
+  /** Show a file. @param {Content} content */
+  begin(content) {
+    if (this.open) this.keep();
+    this.file = content.file;
+    this.theirs = "";
+    const before = opened.get(content.file);
+    if (before) {
+      this.view.setState(before.state);
+      this.change(before.sync.take(content.version, content.text));
+    } else {
+      const state = this.made(content);
+      opened.set(content.file, {
+        sync: new TextSync(this.cm.ChangeSet, content.text, content.version),
+        state,
+      });
+      this.view.setState(state);
+    }
+    this.view.dispatch({ effects: parts.merge.reconfigure([]) });
+    this.follow();
+  }
+
+  /** @param {Content} content */
+  made({ file, text, most }) {
+    const { EditorState } = this.cm;
+    return EditorState.create({
+      doc: text,
+      extensions: [
+        lookOf(this.cm, file, () => Boolean(current?.save())),
+        parts.access.of([]),
+        parts.merge.of([]),
+        EditorState.changeFilter.of((/** @type {any} */ one) => {
+          if (one.newDoc.length <= most) return true;
+          const length = one.newDoc.length.toLocaleString("en");
+          tell(
+            `The text would have ${length} characters: ${most.toLocaleString("en")} at most are
+            taken`.replace(/\s+/g, " "),
+            "error",
+          );
+          return false;
+        }),
+      ],
+    });
+  }
+
+  /** Whether this user may write. */
+  follow = () => {
+    if (refusals.has("model/type")) this.open?.sync.forget();
+    const reads = !rows.can("model/type");
+    const { EditorState, EditorView } = this.cm;
+    const only = [EditorState.readOnly.of(true), EditorView.editable.of(false)];
+    this.view.dispatch({ effects: parts.access.reconfigure(reads ? only : []) });
+  };
+
+  /** Show how the text differs from what another program has saved. @param {Content} content */
+  compare({ theirs }) {
+    if ((theirs ?? "") === this.theirs) return;
+    this.theirs = theirs ?? "";
+    const other = this.theirs && this.cm.unifiedMergeView({ original: this.theirs });
+    this.view.dispatch({ effects: parts.merge.reconfigure(other || []) });
+  }
+
+  /** Mark what is wrong with the text, if that is still the one that was checked. */
+  mark = () => {
+    const found = rows.data("model/found");
+    const sync = this.open?.sync;
+    if (!found || !sync || found.file !== this.file || sync.isAhead) return;
+    if (found.version !== sync.version) return;
+    const { doc } = this.view.state;
+    const marks = found.problems.map((/** @type {Found} */ one) => this.diagnostic(one, doc));
+    this.view.dispatch(this.cm.setDiagnostics(this.view.state, marks));
+  };
+
+  /** @param {Found} found @param {any} checked the text that it is of */
+  diagnostic({ id, from, to, severity, message, hint, edits, fix }, checked) {
+    const apply = (/** @type {any} */ view) => {
+      if (view.state.doc !== checked) return tell("The text has changed since it was checked");
+      if (!edits) return act("model/fix", [id]);
+      const changes = edits.map(([start, end, insert]) => ({ from: start, to: end, insert }));
+      view.dispatch({ changes, userEvent: "input.fix" });
+      this.send();
+      view.focus();
+    };
+    const may = fix && rows.can("model/type");
+    return {
+      from,
+      to: Math.max(from, Math.min(to, checked.length)),
+      severity,
+      message,
+      renderMessage: () => said([message, hint]),
+      actions: may ? [{ name: "Apply", apply }] : [],
+    };
+  }
+
+  save() {
+    this.send();
+    if (rows.can("model/save")) act("model/save", [this.file]);
+    else tell("This program writes no files: Download keeps the text", "info");
+    return true;
+  }
+
+  /** Let the browser keep the text as a file. */
+  download() {
+    const address = URL.createObjectURL(new Blob([this.view.state.doc.toString()]));
+    const link = document.createElement("a");
+    link.href = address;
+    link.download = this.file.split("/").pop() || "model";
+    link.click();
+    URL.revokeObjectURL(address);
+  }
+}
+
+/** @param {string[]} sentences */
+function said(sentences) {
+  const element = document.createElement("div");
+  for (const sentence of sentences.filter(Boolean)) {
+    const line = document.createElement("p");
+    line.textContent = sentence;
+    element.append(line);
+  }
+  return element;
+}

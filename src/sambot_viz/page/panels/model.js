@@ -1,0 +1,105 @@
+// @ts-check
+/* The Model panel: the files of the model as tabs, and the text of one of them. */
+
+import { html, useEffect, useRef, useState } from "../vendor/preact.js";
+import { act } from "../wire/channel.js";
+import { Editor } from "../editor/editor.js";
+import { loadCodeMirror } from "../editor/look.js";
+import { useCommand, useData } from "../state.js";
+
+/** @typedef {{name: string, changed: boolean, errors: number, warnings: number}} File */
+
+export function ModelPanel() {
+  const shown = useData("model/shown");
+  // The text is sent only while somebody can see it.
+  useEffect(() => {
+    if (shown === false) act("model/show", [true]);
+  }, [shown]);
+  useEffect(() => () => act("model/show", [false]), []);
+  /** @type {Ref} */
+  const host = useRef(null);
+  const [editor, setEditor] = useState(/** @type {Editor | null} */ (null));
+  const [failed, setFailed] = useState("");
+  useEffect(() => {
+    let made = /** @type {Editor | null} */ (null);
+    let left = false;
+    loadCodeMirror().then(
+      (cm) => {
+        if (left) return;
+        made = new Editor(cm, host.current);
+        setEditor(made);
+      },
+      (error) => setFailed(`The editor cannot be loaded: ${error.message}`),
+    );
+    return () => {
+      left = true;
+      made?.close();
+    };
+  }, []);
+  const content = useData("model/text");
+  const why = content?.why && `This file cannot be shown: ${content.why}.`;
+  return html`<div class="model">
+    <${Files} editor=${editor} open=${content?.file} />
+    ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
+    <${Conflict} content=${content} />
+    <div class=${why ? "text away" : "text"} ref=${host}></div>
+    <${Buttons} editor=${editor} content=${content} />
+  </div>`;
+}
+
+/** @param {{editor: Editor | null, open: string}} props */
+function Files({ editor, open }) {
+  /** @type {File[]} */
+  const files = useData("model/files") || [];
+  return html`<div class="files" role="tablist" aria-label="Files of the model">
+    ${files.map(
+      ({ name, changed, errors, warnings }) => html`<button role="tab" key=${name}
+        aria-selected=${String(name === open)} title=${name} onClick=${() => editor?.show(name)}>
+        ${name.split("/").pop()}
+        ${changed && html`<span class="changed" title="Not saved" aria-label="not saved">●</span>`}
+        ${
+          errors + warnings > 0 &&
+          html`<span class=${errors ? "l-error" : "l-warn"}>${errors || warnings}</span>`
+        }</button>`,
+    )}
+  </div>`;
+}
+
+/** What another program has saved meanwhile. @param {{content: any}} props */
+function Conflict({ content }) {
+  const may = useCommand("model/resolve");
+  if (!content || content.theirs === null || content.theirs === undefined) return null;
+  const { file, gone } = content;
+  const choose = (/** @type {boolean} */ theirs) => () => act("model/resolve", [file, theirs]);
+  return html`<div class="note l-warn" role="alert">
+    ${
+      gone
+        ? "This file is gone from the disk."
+        : "Another program has saved this file. What it has removed or changed is marked below."
+    }
+    ${
+      may &&
+      html`<div class="buttons">
+        <button onClick=${choose(false)}>Keep this text</button>
+        ${!gone && html`<button onClick=${choose(true)}>Take the saved text</button>`}</div>`
+    }
+  </div>`;
+}
+
+/** @param {{editor: Editor | null, content: any}} props */
+function Buttons({ editor, content }) {
+  const saves = useCommand("model/save");
+  const reverts = useCommand("model/revert");
+  const off = !content?.changed;
+  return html`<div class="buttons">
+    ${saves && html`<button disabled=${off} onClick=${() => editor?.save()}>Save</button>`}
+    <button disabled=${!content} onClick=${() => editor?.download()}
+      title="Keep the text as a file of this computer">Download</button>
+    ${
+      reverts &&
+      html`<button disabled=${off} title="Leave out all that is not saved"
+        onClick=${() => act("model/revert", [content.file])}>Revert</button>`
+    }
+    <span class="beside">${content?.changed ? "Not saved" : ""}</span>
+  </div>`;
+}

@@ -1,0 +1,87 @@
+"""The Model panel: a model is written in the page, and the robot follows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from inside import session_of
+from viewer_page import ViewerPage
+
+from sambot_viz import Visualizer
+from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
+
+pytestmark = pytest.mark.browser
+
+GOOD = """<robot name="r">
+<link name="hull"/>
+<link name="arm"/>
+<joint name="a" type="fixed"><parent link="hull"/><child link="arm"/></joint>
+</robot>
+"""
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    file = tmp_path / "r.urdf"
+    file.write_bytes(GOOD.replace("\n", "\r\n").encode())
+    return file
+
+
+@pytest.fixture
+def viz(model: Path) -> Iterator[Visualizer]:
+    options = Options(model, edit=True, watch=True, look="rviz")
+    with Visualizer.of_inputs(Inputs(options, may_be_broken=True)) as viz:
+        yield viz
+
+
+def middle_of(viewer: ViewerPage, selector: str) -> tuple[float, float]:
+    box = viewer.page.evaluate(
+        f"(({{x, y, width, height}}) => [x + width / 2, y + height / 2])"
+        f"(document.querySelector('{selector}').getBoundingClientRect())"
+    )
+    return box[0], box[1]
+
+
+def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
+    viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url)
+    user, page = viewer.user, viewer.page
+    asked = "codemirror.js"
+    assert not any(asked in url for url in page.requests)
+    user.click("tab", "Model")
+    viewer.wait_for("document.querySelector('.model .cm-line')")
+    assert sum(asked in url for url in page.requests) == 1
+
+    # The cursor goes behind link="hull; a letter is taken away.
+    page.evaluate("document.querySelector('.model .cm-content').focus()")
+    user.keys("Control+Home", *["ArrowDown"] * 3, *["ArrowRight"] * 47, "Backspace")
+    viewer.wait_for("document.querySelector('.model .cm-lintRange-error')")
+    line = page.evaluate(
+        "document.querySelector('.model .cm-lintRange-error')"
+        ".closest('.cm-line').textContent"
+    )
+    assert 'link="hul"' in line
+    robot = session_of(viz).robot.model
+    assert robot is not None and set(robot.links) == {"hull", "arm"}
+    page.mouse.move(*middle_of(viewer, ".model .cm-lintRange-error"))
+    viewer.wait_for("document.querySelector('.model .cm-diagnosticAction')")
+    page.mouse.click(*middle_of(viewer, ".model .cm-diagnosticAction"))
+    viewer.wait_for("!document.querySelector('.model .cm-lintRange-error')")
+    assert model.read_bytes() == GOOD.replace("\n", "\r\n").encode()
+
+    user.keys("Control+End", "ArrowUp")
+    page.keyboard.insert('<link name="leg"/>')
+    page.keyboard.insert(
+        '<joint name="b" type="fixed"><parent link="arm"/><child link="leg"/></joint>'
+    )
+    user.until(lambda: "leg" in getattr(session_of(viz).robot.model, "links", {}))
+    user.keys("Control+s")
+    user.reads("Saved r.urdf")
+    written = model.read_bytes()
+    assert b'<link name="leg"/>' in written and written.count(b"\r\n") == 5
+    user.find("button", re.compile("Download"))
