@@ -356,7 +356,8 @@ class Options:
     edit: bool = option(
         False,
         "browsers may change the model's files on this computer: whoever has control "
-        "applies fixes in Problems, only inside the package of the model",
+        "writes in Model and applies fixes in Problems, only inside the package of the "
+        "model",
         "--edit",
         switch="yes-no",
     )
