@@ -333,7 +333,8 @@ class Workspace:
         package = next((p for p in self.given if p.name == name), None)
         if package is None:
             found = self._resolver.resolve(value)
-            return None if found.doubt in ("path-only", "letter-case") else found.path
+            doubtful = found.missing_package or found.doubt == "letter-case"
+            return None if doubtful else found.path
         if (package.folder / below).is_file():
             return package.folder / below
         from sambot_viz.robot.packages.resolve import inside_package
