@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.known_parameters import known_parameters
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.known import known_nodes
+from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _MANAGER, _TYPE = "controller_manager", ".type"
@@ -22,10 +24,12 @@ _WITH_VALUE = frozenset(
     """.split()
 )
 """Options of the spawner that have a value."""
+_GENERIC = frozenset({"broadcaster", "controller"})
+"""Words of many names."""
 _LIKENESS, _LIKE_CLASS = 0.9, 0.5
 
 
-def _declared(around: Surroundings) -> dict[str, Parameter]:
+def declared_controllers(around: Surroundings) -> dict[str, Parameter]:
     """Return the controllers that a controller manager knows, by their names."""
     return {
         parameter.name.removesuffix(_TYPE): parameter
@@ -46,24 +50,30 @@ def _meant(name: str, names: Iterable[str]) -> str | None:
 
 def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report controllers that are started, or have parameters, under another name."""
-    declared = _declared(around)
+    declared = declared_controllers(around)
     if not declared:
         return
     known = known_nodes().nodes
-    for node in around.running.started:
-        program = known.get((node.package, node.executable))
-        if program is None or not program.does("spawns"):
-            continue
+    spawners = [
+        node
+        for node in around.running.started
+        if (program := known.get((node.package, node.executable)))
+        and program.does("spawns")
+    ]
+    asked = {name for node in spawners for name, _ in _asked(node)}
+    free = [name for name in declared if name not in asked]
+    sections = {key.rpartition("/")[2] for f in around.yaml_files for key in f.nodes}
+    for node in spawners:
         words = [word for word, _ in node.placed_arguments]
         if any(word in (None, "-p", "--param-file", "-t") for word in words):
             # What it brings itself is not known.
             continue
-        before = ""
-        for word, place in node.placed_arguments:
-            name, option, before = word or "", before, word or ""
-            if name.startswith("-") or option in _WITH_VALUE:
-                continue
+        for name, place in _asked(node):
             near = _meant(name, declared) if name not in declared else None
+            if near is None and name not in declared and len(free) == 1:
+                words = {*name.split("_")} & {*free[0].split("_")} - _GENERIC
+                known = around.running.is_whole and name not in sections
+                near = free[0] if words and known else None
             if near is not None:
                 yield Problem.at(
                     place,
@@ -75,6 +85,29 @@ def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
                     write(place, name, near),
                 )
     yield from _unread_sections(around, declared)
+
+
+def _asked(node: RunningNode) -> Iterator[tuple[str, Place]]:
+    """Give the controllers that a spawner asks for, with their places."""
+    before = ""
+    for word, place in node.placed_arguments:
+        name, option, before = word or "", before, word or ""
+        if name and not name.startswith("-") and option not in _WITH_VALUE:
+            yield name, place
+
+
+def _fitting(
+    given: Iterable[str], free: Iterable[str], declared: dict[str, Parameter]
+) -> str | None:
+    """Return the only controller that knows most of these parameters."""
+    names = [name for name in given if name != "use_sim_time"]
+    found: list[str] = []
+    for other in free:
+        kind = known_parameters().classes.get(declared[other].fact.value)
+        known = [n for n in names if kind is not None and kind.block.find(n)]
+        if len(known) > 1 and len(known) >= 0.8 * len(names):
+            found.append(other)
+    return found[0] if len(found) == 1 else None
 
 
 def _unread_sections(
@@ -89,7 +122,7 @@ def _unread_sections(
             name = key.rpartition("/")[2]
             if name in own or name == _MANAGER or "*" in name:
                 continue
-            near = _meant(name, free)
+            near = _meant(name, free) or _fitting(file.of(key), free, declared)
             place = file.keys.get(key, file.nodes[key])
             if near is not None:
                 yield Problem.at(
@@ -107,19 +140,21 @@ def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
     """Report classes of controllers that their package does not have."""
     classes = vocabulary("controllers")
     packages = {name.partition("/")[0] for name in classes}
-    for parameter in _declared(around).values():
+    for parameter in declared_controllers(around).values():
         kind = parameter.fact.value
         package = kind.partition("/")[0]
         # Other packages have controllers of their own.
         right = next((name for name in packages if is_one_slip(package, name)), None)
         alike = [name for name in classes if name.startswith(f"{right}/")]
         near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None
+        was = f"was:{kind}"
+        near = next((name for name, words in classes.items() if was in words), near)
         if near is not None:
             yield Problem.at(
                 parameter.value_place,
                 "warning",
                 "controller-unknown",
-                f"{right} has no controller {kind}: the controller manager cannot "
-                "load it",
+                f"{right or package} has no controller {kind}: the controller manager "
+                "cannot load it",
                 write(parameter.value_place, kind, near),
             )

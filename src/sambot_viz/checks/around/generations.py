@@ -30,6 +30,13 @@ _ELEMENTS = {
 }
 """Elements of Classic's differential drive, and what Gazebo's reads instead."""
 
+_HARDWARE: dict[str, tuple[Generation, str]] = {
+    "gazebo_ros2_control/GazeboSystem": ("classic", "gazebo_ros2_control"),
+    "gz_ros2_control/GazeboSimSystem": ("gz", "gz_ros2_control"),
+    "ign_ros2_control/IgnitionSystem": ("gz", "ign_ros2_control"),
+}
+"""Hardware of ros2_control → its Gazebo, and what the plugin for it is called."""
+
 _XACRO_PY = re.compile(r"(^|[\s/])xacro\.py\b")
 _BUILD_TYPE = re.compile(r"<build_type>\s*(ament_\w+)")
 
@@ -54,6 +61,34 @@ def plugins_of_the_other(around: Surroundings) -> Iterator[Problem]:
         f"({start.what}), which cannot load it",
         _replacement(plugin, start.generation),
     )
+
+
+def hardware_of_the_other(around: Surroundings) -> Iterator[Problem]:
+    """Report a <hardware> of ros2_control for another Gazebo than the plugin."""
+    plugins = [p for p in around.plugins if "ros2_control" in p.filename]
+    made_for = {plugin.generation: plugin for plugin in plugins}
+    for part in around.robot.gazebo if len(made_for) == 1 else ():
+        for element in part.iter() if part.tag == "ros2_control" else ():
+            kind = element.text.strip()
+            known = _HARDWARE.get(kind) if element.tag == "plugin" else None
+            plugin = plugins[0]
+            if known is None or plugin.generation in (known[0], None):
+                continue
+            fitting = (
+                k for k, (_, name) in _HARDWARE.items() if name in plugin.filename
+            )
+            right = next(fitting, None)
+            yield Problem.at(
+                element.place,
+                "warning",
+                "gazebo-generation",
+                f"the hardware {kind} is for {_NAMES[known[0]]}, but the plugin "
+                f"{plugin.filename} ({where(plugin.element.place, element.place)}) is "
+                "for the other one: no controller gets the joints",
+                write(element.place, kind, right)
+                if right
+                else "write that of the plugin",
+            )
 
 
 def _replacement(plugin: Plugin, wanted: Generation) -> str:

@@ -35,6 +35,7 @@ from sambot_viz.checks.around.build_file import (
     unreadable_cmake,
 )
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
+from sambot_viz.checks.around.control_interfaces import unfit_interfaces
 from sambot_viz.checks.around.controllers import (
     undeclared_controllers,
     unknown_controllers,
@@ -53,6 +54,7 @@ from sambot_viz.checks.around.frame_names import (
 )
 from sambot_viz.checks.around.generations import (
     elements_of_the_other,
+    hardware_of_the_other,
     plugins_of_the_other,
     started_twice,
     xacro_py,
@@ -272,6 +274,7 @@ OF_FILES: tuple[Check, ...] = (
 
 OF_ROBOT: tuple[Check, ...] = (
     joints_of_controllers,
+    unfit_interfaces,
     wheel_sizes_of_controllers,
     wrong_sides_of_controllers,
     unknown_frames,
@@ -292,6 +295,7 @@ OF_ROBOT: tuple[Check, ...] = (
     scoped_frames,
     clock_not_bridged,
     plugins_of_the_other,
+    hardware_of_the_other,
     elements_of_the_other,
     missing_systems,
     footprints,

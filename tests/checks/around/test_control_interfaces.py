@@ -1,0 +1,152 @@
+"""Joints and interfaces of <ros2_control> are those that controllers need."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
+
+LINK = """
+<link name="{0}"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<joint name="{0}_joint" type="continuous"><parent link="base_link"/>
+<child link="{0}"/><axis xyz="0 1 0"/></joint>"""
+CONTROL = """
+<ros2_control name="all" type="system">
+<hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+<joint name="left_joint">
+<command_interface name="velocity"/>
+</joint>
+<joint name="right_joint">
+<command_interface name="velocity"/>
+</joint>
+<joint name="arm_joint">
+<command_interface name="position"/>
+<state_interface name="position"/>
+</joint>
+</ros2_control>
+<gazebo><plugin filename="gz_ros2_control-system" name="control"/></gazebo>
+"""
+LINKS = "".join(map(LINK.format, ("left", "right", "arm")))
+MODEL = f'<robot name="r"><link name="base_link"/>{LINKS}{CONTROL}</robot>'
+YAML = """\
+controller_manager:
+  ros__parameters:
+    states:
+      type: joint_state_broadcaster/JointStateBroadcaster
+    drive:
+      type: diff_drive_controller/DiffDriveController
+    arm_controller:
+      type: joint_trajectory_controller/JointTrajectoryController
+drive:
+  ros__parameters:
+    left_wheel_names: [left_joint]
+    right_wheel_names: [right_joint]
+    publish_rate: 50.0
+arm_controller:
+  ros__parameters:
+    joints:
+      - arm_joint
+    command_interfaces: [position]
+    state_interfaces: [position]
+"""
+LAUNCH = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(
+            package="controller_manager",
+            executable="spawner",
+            arguments=["states", "drive", "arm_controller"],
+        ),
+    ])
+"""
+FILES = {
+    "package.xml": "<package><name>r</name></package>",
+    "r.urdf": MODEL,
+    "control.yaml": YAML,
+    "r.launch.py": LAUNCH,
+}
+CODES = {"control-interface", "controller-unknown", "gazebo-generation"}
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text, "utf-8")
+    return tmp_path
+
+
+def test_interfaces_that_fit_are_right(package: Path) -> None:
+    assert CODES.isdisjoint(problem.code for problem in check(package / "r.urdf"))
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong", "cause"),
+    [
+        ("r.urdf", "velocity", "position", "interface velocity of left_joint, which"),
+        (
+            "r.urdf",
+            'command_interface name="position',
+            'command_interface name="effort',
+            "needs the command interface position of arm_joint, which has effort",
+        ),
+        (
+            "control.yaml",
+            "command_interfaces: [position",
+            "command_interfaces: [effort",
+            "needs the command interface effort, but arm_joint has position",
+        ),
+        ("control.yaml", "- arm_joint", "- arms_joint", "names the joint arms_joint"),
+        (
+            "control.yaml",
+            "drive:\n  ros",
+            "cart:\n  ros",
+            "no controller is called cart",
+        ),
+        (
+            "r.launch.py",
+            '"drive"',
+            '"drive_base"',
+            "asks for the controller drive_base",
+        ),
+        (
+            "control.yaml",
+            "joint_state_broadcaster/JointStateBroadcaster",
+            "joint_state_controller/JointStateController",
+            "has no controller",
+        ),
+        (
+            "r.urdf",
+            "gz_ros2_control/GazeboSimSystem",
+            "gazebo_ros2_control/GazeboSystem",
+            "is for Gazebo Classic, but the plugin",
+        ),
+    ],
+)
+def test_what_a_controller_does_not_get(
+    package: Path, file: str, right: str, wrong: str, cause: str
+) -> None:
+    path = package / file
+    assert right in FILES[file]
+    path.write_text(FILES[file].replace(right, wrong, 1))
+
+    (problem,) = (p for p in check(package / "r.urdf") if p.code in CODES)
+
+    assert cause in problem.message
+    assert apply_edits(problem.edits, path.read_text()) == FILES[file]
+
+
+def test_a_state_interface_that_is_missing(package: Path) -> None:
+    model = package / "r.urdf"
+    state = '\n<state_interface name="position"/>'
+    model.write_text(MODEL.replace(state, ""))
+    (problem,) = (p for p in check(model) if p.code in CODES)
+    assert problem.hint == 'add <state_interface name="position"/> to the joint'
+    model.write_text(apply_edits(problem.edits, model.read_text()))
+    assert CODES.isdisjoint(found.code for found in check(model))
