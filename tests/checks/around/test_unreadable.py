@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
 from sambot_viz.errors import Problem
 
 MODEL = "urdf/cart.urdf.xacro"
@@ -158,10 +159,10 @@ def test_a_key_below_ros_parameters_is_a_parameter(copied: Copied) -> None:
         ),
         ('"world": "room",', '"world": "room"', 54, "a comma is missing"),
         ("        ]\n    )", "        ]\n", 59, "never closed"),
-        ('"cart.urdf.xacro")', '"cart.urdf.xacro)', 21, "unterminated"),
-        ("description():", "description()", 18, "expected ':'"),
+        ('"cart.urdf.xacro")', '"cart.urdf.xacro)', 21, "a quotation mark is missing"),
+        ("description():", "description()", 18, "the : at the end is missing"),
         ("publisher = Node(", "publisher = Node", 27, "the ( after Node is missing"),
-        ("    model = os", "      model = os", 21, "unexpected indent"),
+        ("    model = os", "      model = os", 21, "other blanks before it"),
     ],
 )
 def test_a_launch_file_that_is_no_python(
@@ -175,6 +176,49 @@ def test_a_launch_file_that_is_no_python(
     assert (problem.file, problem.line) == (str(package / LAUNCH), line)
     assert cause in problem.message
     assert problem.hint
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("description():", "description(:"),
+        ("def generate", "function generate"),
+        ("    return Launch", "    retrun Launch"),
+        ("import os\n", "imort os\n"),
+        (
+            "from launch import LaunchDescription",
+            "import LaunchDescription from launch",
+        ),
+        ('executable="robot_state_publisher",', 'executable="robot_state_publisher,'),
+        ('executable="robot_state_publisher",', "executable=\"robot_state_publisher',"),
+        ('executable="robot_state_publisher",', 'executable: "robot_state_publisher",'),
+        ('executable="robot_state_publisher",', 'executable=robot_state_publisher",'),
+        ('executable="robot_state_publisher",', "executable=“robot_state_publisher”,"),
+        ('"world": "room",', '"world" "room",'),
+        ('"world": "room",', '"world" = "room",'),
+        ("LaunchDescription(\n        [", "LaunchDescription(\n        {"),
+        ("    model = os", "\tmodel = os"),
+    ],
+)
+def test_a_line_that_is_no_python_is_written_as_it_was_meant(
+    copied: Copied, right: str, wrong: str
+) -> None:
+    package = copied("gz")
+    text = (package / LAUNCH).read_text()
+    assert right in text
+    changed = text.replace(right, wrong, 1)
+    (package / LAUNCH).write_text(changed)
+    (problem,) = (p for p in found(package) if p.code == "python-syntax")
+
+    assert apply_edits(problem.edits, changed) == text
+
+
+def test_a_file_that_no_line_repairs_is_told_too(copied: Copied) -> None:
+    package = copied("gz")
+    edit(package / LAUNCH, "import os\n", "import\n")
+    (problem,) = (p for p in found(package) if p.code == "python-syntax")
+
+    assert (problem.line, problem.edits) == (1, ())
 
 
 @pytest.mark.parametrize(

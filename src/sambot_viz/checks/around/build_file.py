@@ -12,7 +12,8 @@ from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import together, write, write_between
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
@@ -20,15 +21,23 @@ _NOT_MEANT = frozenset({"build", "install", "log", ".git"})
 _UNKNOWN = frozenset({"include", "macro", "function", "add_subdirectory"})
 _WITHOUT_AMENT = frozenset(
     """
+    ament_lint_auto
     assimp benchmark blas boost bullet catkin ceres cgal curl curses doxygen eigen
     eigen3 fcl fmt freetype git glew glfw3 glm glog glut gtest jsoncpp lapack
     libusb libxml2 nlohmann_json octomap ompl opencv opengl openmp openssl orocos_kdl
     pcl pkgconfig protobuf python python3 pythoninterp pythonlibs qt5 qt6 sdl sdl2
-    spdlog sqlite3 threads tinyxml tinyxml2 urdfdom urdfdom_headers vtk x11 yaml-cpp
-    zlib
+    spdlog sqlite3 threads tinyxml tinyxml2 urdfdom urdfdom_headers vtk x11 xacro
+    yaml-cpp zlib
     """.split()
 )
 """What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
+_END = "ament_package"
+_PLACES = frozenset({"DESTINATION", "TYPE"})
+_INSTALLED = frozenset(
+    "TARGETS IMPORTED_RUNTIME_ARTIFACTS FILES PROGRAMS DIRECTORY SCRIPT CODE EXPORT "
+    "RUNTIME_DEPENDENCY_SET".split()
+)
+"""What install( … ) begins with."""
 _BEFORE = frozenset({"ament_package_xml", "rosidl_generate_interfaces"})
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
@@ -60,11 +69,15 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
     finds = any(name.lower() not in _WITHOUT_AMENT for name in found)
     if not cmake.is_package and "ament_cmake" in found and cmake.certain("install"):
         last = cmake.commands[-1]
+        wrong = next((c for c in cmake.commands if is_one_slip(c.name, _END)), None)
+        place = cmake.place((wrong or last).line)
         yield _missing_command(
-            cmake.place(last.line),
-            "ament_package() is missing, so colcon build does not register the "
-            "package: ros2 launch does not find it",
-            "add ament_package() at the end of the file",
+            place,
+            f"{_END}() is missing, so colcon build does not register the package: "
+            "ros2 launch does not find it",
+            _at_the_end(place.file, around)
+            if wrong is None
+            else write(place, wrong.name, _END, hint=f"write {_END}()"),
         )
     if cmake.is_package and not finds:
         ends = ("ament_package", "ament_auto_package")
@@ -73,7 +86,7 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
             cmake.place(end.line),
             f"CMake does not know {end.name}() without find_package(ament_cmake "
             "REQUIRED): colcon build stops",
-            "add find_package(ament_cmake REQUIRED) after project( … )",
+            _after_project(cmake),
         )
 
 
@@ -110,7 +123,24 @@ def commands_after_the_end(around: Surroundings) -> Iterator[Problem]:
         return
 
 
-def _missing_command(place: Place, message: str, hint: str) -> Problem:
+def _after_project(cmake: CMakeFile) -> Fix:
+    line = "find_package(ament_cmake REQUIRED)"
+    hint = f"add {line} after project( … )"
+    if cmake.project is None:
+        return Fix(hint)
+    following = Place(cmake.place(1).file, cmake.project.line + 1, 1)
+    return write_between(following, following, f"{line}\n", hint)
+
+
+def _at_the_end(file: str, around: Surroundings) -> Fix:
+    text = around.files.text("CMakeLists.txt") or ""
+    lines = text.splitlines()
+    end = Place(file, max(len(lines), 1), len(lines[-1]) + 1 if lines else 1)
+    hint = f"add {_END}() at the end of the file"
+    return write_between(end, end, f"\n{_END}()", hint)
+
+
+def _missing_command(place: Place, message: str, hint: str | Fix) -> Problem:
     return Problem.at(place, "error", "cmake-command-missing", message, hint)
 
 
@@ -133,6 +163,39 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
                     hint="write DIRECTORY for FILES",
                 ),
             )
+
+
+def malformed_installs(around: Surroundings) -> Iterator[Problem]:
+    """Report install( … ) that does not say what is installed, or where."""
+    cmake = around.cmake
+    for command in cmake.commands if cmake is not None else ():
+        words = command.words
+        if cmake is None or command.name != "install" or not words:
+            continue
+        said = {word.text for word in words}
+        first, last = words[0], words[-1]
+        if said & _INSTALLED == set() and _is_folder(first.text, around):
+            what, place, word = "what is installed", cmake.place(first.line), first.text
+            fix = write(
+                place, word, f"DIRECTORY {word}", hint="write DIRECTORY before it"
+            )
+        elif first.text in ("DIRECTORY", "FILES") and not said & _PLACES:
+            what, place, word = (
+                "where it is installed",
+                cmake.place(last.line),
+                last.text,
+            )
+            target = "DESTINATION share/${PROJECT_NAME}"
+            fix = write(place, word, f"{word} {target}", hint=f"add {target} behind it")
+        else:
+            continue
+        yield Problem.at(
+            place,
+            "error",
+            "install-destination",
+            f"install( … ) has {word} and does not say {what}: colcon build stops",
+            fix,
+        )
 
 
 def _kinds(folders: Sequence[CMakeWord]) -> str:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import posixpath
 from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
-from sambot_viz.checks.around.build_file import folders_as_files, near_folder
+from sambot_viz.checks.around.build_file import (
+    folders_as_files,
+    malformed_installs,
+    near_folder,
+)
 from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.installs import Installed, Piece
@@ -15,8 +20,8 @@ from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
-from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import write, write_between
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.parts import MeshFile
 
 if TYPE_CHECKING:
@@ -33,7 +38,7 @@ _NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests
 
 def not_installed(around: Surroundings) -> Iterator[Problem]:
     """Report each file that is used and exists, but is not installed where it is."""
-    if any(folders_as_files(around)):
+    if any(folders_as_files(around)) or any(malformed_installs(around)):
         return
     used: dict[str, Place] = {}
     for path, user in sorted(_used(around), key=lambda u: (u[1].file, u[1].line)):
@@ -114,8 +119,27 @@ def _nowhere(
             "error",
             "folder-not-installed",
             f"{names} {are} not installed, but {needs}: it is not found",
-            f"add {_addition(setup, folder, paths, around, partly=partly)}",
+            _added(
+                setup, _addition(setup, folder, paths, around, partly=partly), around
+            ),
         )
+
+
+def _added(setup: SetupFile | None, line: str, around: Surroundings) -> Fix:
+    """Return the fix that adds a line to data_files, or before ament_package()."""
+    ends = ("ament_package", "ament_auto_package")
+    cmake, given = around.cmake, setup.given("data_files") if setup else None
+    if setup is None and cmake is not None:
+        end = next((c for c in cmake.commands if c.name in ends), None)
+        at = cmake.place(end.line if end else 1)
+        at = Place(at.file, at.line, 1)
+        hint = f"add {line}"
+        return Fix(hint) if end is None else write_between(at, at, f"{line}\n", hint)
+    if setup is None or not isinstance(given, ast.List):
+        return Fix(f"add {line}")
+    place, bare = setup.place(given), line.removesuffix(" to data_files")
+    at = Place(place.file, place.line, (place.column or 1) + 1)
+    return write_between(at, at, f"\n        {bare},", f"add {line}")
 
 
 def _addition(

@@ -232,6 +232,8 @@ def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         for call in launch.called():
             started.setdefault(launch.text(call, "package") or "", call.place)
+        if any(text.startswith("xacro ") for text in launch.strings):
+            started.setdefault("xacro", Place(launch.shown, 1))
     for element in (e for root in around.files.frontends for e in root.iter()):
         if element.get("exec") is not None:
             started.setdefault(element.get("pkg") or "", element.place)
@@ -261,10 +263,35 @@ def _words(launch: LaunchFile) -> set[str]:
     return {word for text in launch.strings for word in text.split()}
 
 
+def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem]:
+    """Report a package that ament is to build, and that colcon gives to catkin."""
+    uses = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
+    cmake = around.files.text("CMakeLists.txt")
+    kind = "ament_python" if cmake is None else "ament_cmake"
+    by_ament = "ament_cmake" in (cmake or "") or any("ament_" in use for use in uses)
+    whole = all(root.find(tag) is not None for tag in _REQUIRED)
+    if "catkin" in uses or not whole or not (by_ament or around.setup is not None):
+        return
+    export = root.find("export")
+    added = f"<build_type>{kind}</build_type>"
+    added = added if export else f"<export>{added}</export>"
+    here = (export or root).place
+    yield Problem.at(
+        Place(around.files.shown(_FILE), here.line, here.column),
+        "error",
+        "package-build-type",
+        "package.xml has no <build_type>, so that colcon builds the package with "
+        "catkin, the one of ROS 1: colcon build stops",
+        f"add {added} inside it",
+    )
+
+
 def build_types(around: Surroundings) -> Iterator[Problem]:
     """Report a build type whose file is not there, where that of the other is."""
     root = around.manifest
     kinds = [e for e in root.iter() if e.tag == "build_type"] if root else []
+    if root is not None and not kinds:
+        yield from _without_build_type(root, around)
     if len(kinds) != 1 or kinds[0].get("condition") is not None:
         return
     said, place = kinds[0].text.strip(), kinds[0].place

@@ -29,6 +29,7 @@ from sambot_viz.checks.around.bridges import (
 from sambot_viz.checks.around.build_file import (
     commands_after_the_end,
     folders_as_files,
+    malformed_installs,
     missing_commands,
     missing_folders,
     project_name,
@@ -188,6 +189,7 @@ OF_BUILD: tuple[Check, ...] = (
     missing_commands,
     commands_after_the_end,
     folders_as_files,
+    malformed_installs,
     setup_name,
     xacro_py,
     project_name,

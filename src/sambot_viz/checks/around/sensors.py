@@ -22,6 +22,10 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
+_SIMULATORS = ("Gazebo", "Gazebo Classic")
+_OF_GZ = {"ray": "gpu_lidar", "lidar": "gpu_lidar"}
+_OF_CLASSIC = {"lidar": "ray", "gpu_lidar": "gpu_ray"}
+"""Type of a lidar that a simulator does not compute → that which it has for it."""
 _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
 _FRAMES = ("frame_id", "frame", "sensor_frame", "optical_frame_id", "link_frame")
@@ -86,23 +90,25 @@ def _frame_of(robot: Robot, sensor: Element) -> str | None:
 
 
 def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
-    """Report lidars of a type that only Gazebo Classic computes."""
+    """Report lidars of a type that only the other Gazebo computes."""
     made_for = {plugin.generation: plugin for plugin in plugins(robot.gazebo)}
-    if "gz" not in made_for or "classic" in made_for:
+    if len({*made_for} - {None}) != 1:
         return
+    is_classic = "classic" in made_for
+    plugin = made_for["classic" if is_classic else "gz"]
     for _, sensor in sensors(robot.gazebo):
-        kind = sensor.get("type")
-        if kind in ("ray", "lidar"):
-            place = sensor.place
-            plugin = made_for["gz"]
+        kind, place = sensor.get("type") or "", sensor.place
+        right = (_OF_CLASSIC if is_classic else _OF_GZ).get(kind)
+        if right is not None:
+            other, own = _SIMULATORS if is_classic else _SIMULATORS[::-1]
             yield Problem.at(
                 place,
                 "warning",
                 "gazebo-sensor",
-                f'a lidar of type "{kind}" is for Gazebo Classic: with '
-                f"{plugin.filename} ({where(plugin.element.place, place)}) the robot "
-                "is for Gazebo, whose lidars are computed by the graphics alone",
-                write_attribute(place, "type", kind, "gpu_lidar"),
+                f'a lidar of type "{kind}" is for {other}: with {plugin.filename} '
+                f"({where(plugin.element.place, place)}) the robot is for {own}, whose "
+                f"lidars are of type {right}",
+                write_attribute(place, "type", kind, right),
             )
 
 
@@ -112,7 +118,9 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
     for _, sensor in sensors(robot.gazebo):
         kind = (sensor.get("type") or "").strip()
         bare = kind.lower().removesuffix("_sensor")
-        near = None if kind in known else nearest(bare, known, _LIKENESS)
+        same = (each for each in known if _words(each) == _words(bare))
+        near = next(same, None) or nearest(bare, known, _LIKENESS)
+        near = None if kind in known else near
         if near is not None:
             yield Problem.at(
                 sensor.place,
@@ -124,6 +132,10 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
             )
 
 
+def _words(kind: str) -> list[str]:
+    return sorted(kind.replace("-", "_").split("_"))
+
+
 def sensor_values(robot: Robot) -> Iterator[Problem]:
     """Report angles of sensors in degrees, and limits that are exchanged."""
     for _, sensor in sensors(robot.gazebo):
@@ -132,6 +144,16 @@ def sensor_values(robot: Robot) -> Iterator[Problem]:
                 if fact.number is not None and abs(fact.number) > _FULL_TURN:
                     yield _in_degrees(sensor, fact, fact.number)
             yield from _exchanged(sensor, element)
+        for fact in facts(sensor, "update_rate"):
+            if fact.number is not None and fact.number < 0:
+                yield Problem.at(
+                    fact.place,
+                    "warning",
+                    "gazebo-sensor",
+                    f"the sensor {_named(sensor)} is to be updated {fact.value} times "
+                    "in a second, which is less than never",
+                    write(fact.place, fact.value, fact.value.lstrip("-")),
+                )
 
 
 def _in_degrees(sensor: Element, fact: Fact, degrees: float) -> Problem:

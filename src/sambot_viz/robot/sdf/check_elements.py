@@ -347,7 +347,8 @@ def _check_word(text: str, wanted: Values) -> None:
     if near:
         words = ", ".join(wanted.words)
         right = meant_word(text, wanted) or ""
-        raise BadValue(f"is not known ({near})", f"write one of {words}", right)
+        hint = f"write {right}" if right else f"write one of {words}"
+        raise BadValue(f"is not known ({near})", hint, right)
 
 
 def _unlike(text: str, wanted: Values) -> str:

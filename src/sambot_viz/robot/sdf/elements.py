@@ -127,7 +127,10 @@ def _values(text: str, required: bool) -> Values:
 def meant_word(text: str, wanted: Values) -> str | None:
     """Return which of the known words was meant by another one, or None."""
     plain = {_plain(word): word for word in wanted.words}
-    return plain.get(_plain(text)) or nearest(text.strip(), wanted.words)
+    for word in (text, text.strip().removesuffix("_sensor")):
+        if _plain(word) in plain:
+            return plain[_plain(word)]
+    return nearest(text.strip(), wanted.words)
 
 
 def _plain(word: str) -> str:

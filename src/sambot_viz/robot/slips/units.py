@@ -23,6 +23,7 @@ _FACTORS = _LENGTHS | _ANGLES | {"kg": 1.0, "g": 0.001}
 """Unit → how many metres, radians or kilograms it is."""
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
+_LETTERS = str.maketrans("OolI", "0011")
 _UNIT = "|".join(sorted(map(re.escape, _FACTORS), key=len, reverse=True))
 _ENDS = r"(?=[\s,;]|$)"
 _WITH_UNIT = re.compile(rf"(?<![\w.])({_NUMBER})\s*({_UNIT}){_ENDS}", re.IGNORECASE)
@@ -35,6 +36,12 @@ _HAS_UNIT = re.compile(rf"(?:{_NUMBER}\s*)?(?:{_UNIT})", re.IGNORECASE)
 def is_with_unit(part: str) -> bool:
     """Tell whether a text is one number with a known unit, or such a unit alone."""
     return _HAS_UNIT.fullmatch(part) is not None
+
+
+def meant_number(part: str) -> str | None:
+    """Return the number that was meant: O for 0, l for 1, a sign or point twice."""
+    better = re.sub(r"([.+-])\1+", r"\1", part.translate(_LETTERS))
+    return better if better != part and re.fullmatch(_NUMBER, better) else None
 
 
 def without_units(text: str, *, degrees: bool = False) -> str:

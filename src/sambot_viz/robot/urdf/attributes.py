@@ -13,7 +13,7 @@ from sambot_viz.errors import Fix
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Origin
-from sambot_viz.robot.slips.units import is_with_unit, without_units
+from sambot_viz.robot.slips.units import is_with_unit, meant_number, without_units
 from sambot_viz.robot.xml.element import Element
 
 NOT_REPLACED = "which xacro has not replaced"
@@ -87,7 +87,9 @@ def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
     if len(numbers) != count:
         needed = _WORDS.get(count, str(count))
         have = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
-        raise BadNumber(f"{have}, {needed} are needed", _filled_up(parts, count, name))
+        hint = _filled_up(parts, count, name)
+        better = " ".join(parts * count) if name == "scale" and len(parts) == 1 else ""
+        raise BadNumber(f"{have}, {needed} are needed", hint, better)
     return numbers
 
 
@@ -165,6 +167,10 @@ def _complaint(part: str, whole: str) -> _Bad:
             f"contains {part}, which is not a number: a $ is missing before it",
             whole.replace(part, f"${part}"),
         )
+    better = meant_number(part)
+    if better is not None:
+        reason = f"contains {part}, which is not a number"
+        return _rather(reason, whole.strip().replace(part, better))
     return _Bad(f"contains {part}, which is not a number", "write a number such as 0.1")
 
 

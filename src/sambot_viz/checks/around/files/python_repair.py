@@ -7,14 +7,8 @@ import re
 import warnings
 
 from sambot_viz.checks.around.files.fault import Fault
+from sambot_viz.checks.around.files.line_repairs import line_repairs
 
-_CERTAIN = re.compile(
-    "forgot a comma|was never closed|unmatched|does not match|unterminated|"
-    "expected ':'|Missing parentheses|invalid character|non-printable|"
-    "positional argument follows|keyword argument repeated|cannot assign|"
-    "unexpected indent|unindent|expected an indented|inconsistent use of tabs|"
-    "unexpected EOF|after line continuation|cannot contain assignment"
-)
 _NEWER = re.compile(
     r"\b[fFtT][rR]?[\"']|\b[rR][fFtT][\"']|^\s*(type|match|except)\b|"
     r"(def|class) \w+\["
@@ -22,7 +16,8 @@ _NEWER = re.compile(
 """Text that one version of Python reads and another does not."""
 
 _NAME_AT_END = re.compile(r"[A-Za-z_][\w.]*$")
-_LISTED = re.compile(r"""\[(?=["'][\w/]+["']\s*:)""")
+_FURTHER = 2
+"""Another error so many lines further on is another one."""
 _MOST_LINES = 200
 _COMMA = "a comma is missing at the end of this line"
 
@@ -35,7 +30,7 @@ def fault_in_python(text: str) -> Fault | None:
     lines = text.splitlines()
     last = max(error.end_lineno or 0, error.lineno)
     at = max(1, min(error.lineno, len(lines)))
-    if any(_NEWER.search(line) for line in lines[at - 1 : last]):
+    if any(_NEWER.search(line) for line in lines[max(at - 2, 0) : last]):
         return None
     comma = _comma(lines, at, last)
     if comma is not None:
@@ -44,13 +39,11 @@ def fault_in_python(text: str) -> Fault | None:
     opened = _opened(lines, at) if "unexpected indent" in error.msg else None
     if opened is not None:
         return opened
-    table = _table(lines, at)
-    if table is not None:
-        hint = f"write {table[table.index('[') :].strip()}"
-        return Fault(at, "a : is in square brackets", hint, table)
-    if not _CERTAIN.search(error.msg):
-        return None
     cause = error.msg.removeprefix("invalid syntax. ").rstrip("?.")
+    for n, better, said in line_repairs(lines, at, error.msg):
+        again = _error("\n".join([*lines[: n - 1], better, *lines[n:]]))
+        if again is None or (again.lineno or 0) > max(last, n) + _FURTHER:
+            return Fault(n, said or cause, f"write {better.strip()}", better)
     return Fault(at, cause, _hint(error.msg))
 
 
@@ -90,21 +83,6 @@ def _opened(lines: list[str], at: int) -> Fault | None:
     if again is not None and (again.lineno or 0) <= at:
         return None
     return Fault(n, f"the ( after {name[0]} is missing", f"write {name[0]}(")
-
-
-def _table(lines: list[str], at: int) -> str | None:
-    """Return a line with braces in its list; None when they mend nothing."""
-    line = lines[at - 1]
-    listed = _LISTED.search(line)
-    if listed is None:
-        return None
-    start, end = listed.end() - 1, line.rfind("]")
-    inner = line[start + 1 : end]
-    better = f"{line[: start + 1]}{{{inner}}}{line[end:]}"
-    again = _error("\n".join([*lines[: at - 1], better, *lines[at:]]))
-    if end < start or (again is not None and (again.lineno or 0) <= at):
-        return None
-    return better
 
 
 def _hint(message: str) -> str:
