@@ -117,6 +117,11 @@ def test_what_is_right_is_left_alone(package: Path) -> None:
             "('cmd_vel', 'cmd_vel_joy')",
             "remappings are a list of tuples",
         ),
+        (
+            "('cmd_vel', 'cmd_vel_joy')",
+            "('cmd_vel_joy', 'cmd_vel')",
+            "uses no name cmd_vel_joy, but cmd_vel",
+        ),
     ],
 )
 def test_what_launch_takes_otherwise(

@@ -10,6 +10,7 @@ from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.actions import Action, Expression, Joined
 from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
 from sambot_viz.checks.around.place import bracketed, rewritten
+from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Fix, Problem, nearest
 
@@ -108,6 +109,31 @@ def _no_pair(launch: LaunchFile, node: ast.expr, right: str | None) -> Problem:
         if right is None
         else rewritten(node, launch.shown, right),
     )
+
+
+def reversed_remappings(around: Surroundings) -> Iterator[Problem]:
+    """Report a remapping to a name of the node, from one that it does not use."""
+    nodes = {node.place: node for node in around.running.started if node.endpoints}
+    for launch in around.launches:
+        for call in launch.called():
+            node = nodes.get(call.place)
+            own = {bare(end.written) for end in node.endpoints} if node else set[str]()
+            for item, pair in call.listing("remappings").items:
+                parts = item.items if isinstance(item, Listing) else ()
+                if len(parts) != 2 or not isinstance(pair, ast.Tuple) or node is None:
+                    continue
+                old, new = (launch.values.said(part) or "" for part, _ in parts)
+                if not old or bare(old) in own or bare(new) not in own:
+                    continue
+                right = ", ".join(ast.unparse(part) for part in reversed(pair.elts))
+                yield Problem.at(
+                    launch.place(pair),
+                    "warning",
+                    _CODE,
+                    f"{node.name} uses no name {old}, but {new}: a remapping is from "
+                    "the name in the node to the new one, and this one has no effect",
+                    rewritten(pair, launch.shown, f"({right})"),
+                )
 
 
 def plain_conditions(around: Surroundings) -> Iterator[Problem]:

@@ -100,6 +100,7 @@ from sambot_viz.checks.around.launch_kinds import (
     plain_conditions,
     plain_substitutions,
     remappings_without_pairs,
+    reversed_remappings,
 )
 from sambot_viz.checks.around.launch_nodes import (
     descriptions,
@@ -229,6 +230,7 @@ OF_FILES: tuple[Check, ...] = (
     files_without_folder,
     arguments_without_list,
     remappings_without_pairs,
+    reversed_remappings,
     plain_conditions,
     lists_of_actions,
     plain_substitutions,
