@@ -15,6 +15,7 @@ REVEALED = {
     "sdf-name-taken": {"root-not-unique"},
     "xacro-prefix-missing": {"root-not-unique"},
     "xacro-prefix-undeclared": {"xacro-left-over"},
+    "cmake-command-missing": {"install-folder-missing"},
     "python-syntax": {"launch-code"},
 }
 """What is seen only when the macro is called, or the file can be read."""
