@@ -844,14 +844,6 @@ MISTAKES = [
         ("CMakeLists.txt", "ament_package()"),
         (LAUNCH, 'os.path.join(share, "config/ekf.yaml"),'),
         "add install(DIRECTORY config DESTINATION share/${PROJECT_NAME})",
-        fixed=(
-            (
-                "CMakeLists.txt",
-                "ament_package()",
-                "install(DIRECTORY config DESTINATION share/${PROJECT_NAME})\n"
-                "ament_package()",
-            ),
-        ),
     ),
     Mistake(
         "folder-not-installed",
@@ -859,14 +851,6 @@ MISTAKES = [
         ("CMakeLists.txt", "ament_package()"),
         (LAUNCH, "import os"),
         "add install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})",
-        fixed=(
-            (
-                "CMakeLists.txt",
-                "ament_package()",
-                "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
-                "ament_package()",
-            ),
-        ),
         name="launch",
     ),
     one(

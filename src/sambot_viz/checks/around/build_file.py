@@ -168,9 +168,11 @@ def folders_as_files(around: Surroundings) -> Iterator[Problem]:
 def malformed_installs(around: Surroundings) -> Iterator[Problem]:
     """Report install( … ) that does not say what is installed, or where."""
     cmake = around.cmake
-    for command in cmake.commands if cmake is not None else ():
+    if cmake is None or cmake.fault is not None:
+        return
+    for command in cmake.commands:
         words = command.words
-        if cmake is None or command.name != "install" or not words:
+        if command.name != "install" or not words:
             continue
         said = {word.text for word in words}
         first, last = words[0], words[-1]

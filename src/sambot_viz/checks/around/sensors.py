@@ -91,10 +91,12 @@ def _frame_of(robot: Robot, sensor: Element) -> str | None:
 
 def lidars_of_the_other(robot: Robot) -> Iterator[Problem]:
     """Report lidars of a type that only the other Gazebo computes."""
-    made_for = {plugin.generation: plugin for plugin in plugins(robot.gazebo)}
-    if len({*made_for} - {None}) != 1:
-        return
+    known = [each for each in plugins(robot.gazebo) if each.generation is not None]
+    made_for = {plugin.generation: plugin for plugin in known}
     is_classic = "classic" in made_for
+    # A single one of Classic may be what is wrong itself.
+    if len(made_for) != 1 or (is_classic and len(known) == 1):
+        return
     plugin = made_for["classic" if is_classic else "gz"]
     for _, sensor in sensors(robot.gazebo):
         kind, place = sensor.get("type") or "", sensor.place
