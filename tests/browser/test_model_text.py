@@ -85,3 +85,9 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
     written = model.read_bytes()
     assert b'<link name="leg"/>' in written and written.count(b"\r\n") == 5
     user.find("button", re.compile("Download"))
+
+    # Completion has the words that the checks know, and the names of the model.
+    user.keys("Control+Home", "ArrowDown")
+    page.keyboard.type("<jo")
+    offered = "document.querySelector('.cm-tooltip-autocomplete')"
+    viewer.wait_for(f"{offered}?.innerText.includes('joint')")

@@ -235,6 +235,21 @@ def test_each_private_session_has_its_own_text(edit: Callable[..., Editor]) -> N
     assert "model/save" not in one.client.rows
 
 
+def test_a_click_on_a_link_finds_its_lines_in_the_file_that_has_it(
+    edit: Callable[..., Editor],
+) -> None:
+    editor = edit()
+    for link, name in (("leg", "urdf/leg.xacro"), ("arm", MODEL)):
+        editor.client.act("model/find", link)
+        editor.client.wait_until(lambda name=name: editor.value("text")["file"] == name)
+        wanted = editor.value("wanted")
+        start, end = (2 * at for at in wanted["extent"])
+        units = editor.text.encode("utf-16-le")
+        assert units[start:end].decode("utf-16-le") == f'<link name="{link}"/>'
+    editor.client.act("model/find", "no_link")
+    editor.client.wait_until(lambda: "no_link" in editor.notice)
+
+
 def test_a_text_for_an_older_version_is_not_taken(edit: Callable[..., Editor]) -> None:
     editor = edit()
     editor.replace('name="j"', 'name="jj"')

@@ -49,6 +49,8 @@ class ModelPanel(Panel):
         self._remake = remake
         self._shown = False
         self._open = ""
+        self._wanted: Json = None
+        self._count = 0
 
     def rows(self) -> Sequence[Row]:
         """Return a row that says that there are files."""
@@ -64,9 +66,11 @@ class ModelPanel(Panel):
         found = None if buffer is None else self._found(buffer)
         return [
             Data("model/shown", self._shown),
+            Data("model/wanted", self._wanted),
             Data("model/files", files),
             Data("model/text", text),
             Data("model/found", found),
+            Data("model/words", None if buffer is None else self._words(buffer)),
         ]
 
     def offers(self, command_id: str) -> bool:
@@ -116,6 +120,24 @@ class ModelPanel(Panel):
         made = [self._problem(p, source) for p in self._problems_of(buffer.name)]
         return {"file": buffer.name, "version": buffer.version, "problems": made}
 
+    def _words(self, buffer: Buffer) -> Json:
+        """Return the elements that the editor offers, as CodeMirror reads them."""
+        if not buffer.name.endswith((".urdf", ".xacro", ".sdf", ".xml")):
+            return None
+        return [
+            {
+                "name": each.name,
+                "top": each.is_root,
+                "children": [*each.children],
+                "attributes": [
+                    {"name": name, "values": [*values]}
+                    for name, values in each.attributes.items()
+                ],
+                "textContent": [*each.texts],
+            }
+            for each in self._text.words()
+        ]
+
     def _problems_of(self, name: str) -> Iterator[Problem]:
         listed = self._problems.shown.value.listed[: limits.PROBLEM_ROWS.value]
         return (p for p in listed if self._text.name_of(p.file) == name)
@@ -163,6 +185,17 @@ class ModelPanel(Panel):
     def _open_file(self, name: str) -> None:
         self._text.buffer(name)
         self._open = name
+        self._remake(self)
+
+    @command("model/find", TEXT, name="Find the link", client_local=True)
+    def _find(self, link: str) -> None:
+        """Open the file that has a link, and tell the page where it is."""
+        found = self._text.place_of(link)
+        if found is None:
+            raise UsageError(f"the files of the model do not say where '{link}' is")
+        self._open, extent = found
+        self._count += 1
+        self._wanted = {"number": self._count, "file": self._open, "extent": [*extent]}
         self._remake(self)
 
     @command(

@@ -40,9 +40,12 @@ export class Editor {
     this.view = new cm.EditorView({ parent: host, dispatchTransactions: this.dispatch });
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
+    /** The last place that was asked for. */
+    this.went = rows.data("model/wanted")?.number ?? 0;
     const listened = /** @type {[string, () => void][]} */ ([
       ["model/text", this.take],
       ["model/found", this.mark],
+      ["model/wanted", this.goTo],
       ["model/type", this.follow],
       ["whole:browser", this.sendAgain],
       [ONLINE, this.sendAgain],
@@ -118,6 +121,19 @@ export class Editor {
     }
     this.compare(content);
     this.mark();
+    this.goTo();
+  };
+
+  /** Select what a click in the view has asked for, as soon as its file is shown. */
+  goTo = () => {
+    const { number = 0, file, extent } = rows.data("model/wanted") ?? {};
+    if (number <= this.went || file !== this.file) return;
+    this.went = number;
+    const [anchor, head] = extent.map((/** @type {number} */ at) =>
+      Math.min(at, this.view.state.doc.length),
+    );
+    const shown = this.cm.EditorView.scrollIntoView(anchor, { y: "center" });
+    this.view.dispatch({ selection: { anchor, head }, effects: shown });
   };
 
   /** @param {any} changes of others */
@@ -163,12 +179,8 @@ export class Editor {
         parts.merge.of([]),
         EditorState.changeFilter.of((/** @type {any} */ one) => {
           if (one.newDoc.length <= most) return true;
-          const length = one.newDoc.length.toLocaleString("en");
-          tell(
-            `The text would have ${length} characters: ${most.toLocaleString("en")} at most are
-            taken`.replace(/\s+/g, " "),
-            "error",
-          );
+          const limit = most.toLocaleString("en");
+          tell(`A file may have ${limit} characters; nothing was added to this one`, "error");
           return false;
         }),
       ],

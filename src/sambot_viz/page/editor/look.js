@@ -1,6 +1,10 @@
 // @ts-check
 /* How texts look in the editor, and its keys: those of VS Code, as CodeMirror has them. */
 
+import { rows } from "../wire/channel.js";
+
+const IS_MODEL = /\.(xacro|urdf|sdf|xml)$/;
+
 /** Load CodeMirror, which is no part of the page. @type {Promise<any> | null} */
 let loading = null;
 
@@ -38,6 +42,7 @@ export function lookOf(cm, name, save) {
     cm.lintGutter(),
     cm.EditorState.tabSize.of(2),
     language(cm, name),
+    completion(cm, name),
     cm.keymap.of([
       { key: "Mod-s", run: save, preventDefault: true },
       { key: "Ctrl-g", run: cm.gotoLine },
@@ -59,6 +64,18 @@ function language(cm, name) {
   if (/\.py$/.test(name)) return cm.python();
   if (/\.(yaml|yml|rviz)$/.test(name)) return cm.yaml();
   return /\.(xacro|urdf|sdf|xml|launch|world)$/.test(name) ? cm.xml() : [];
+}
+
+/** Offer the words that the checks know, and the names of the model: those of now, when asked.
+ * @param {any} cm @param {string} name */
+function completion(cm, name) {
+  if (!IS_MODEL.test(name)) return cm.autocompletion();
+  /** @param {any} context */
+  const offer = (context) => {
+    const words = rows.data("model/words");
+    return words ? cm.completeFromSchema(words, [])(context) : null;
+  };
+  return cm.autocompletion({ override: [offer] });
 }
 
 /** @param {any} cm */

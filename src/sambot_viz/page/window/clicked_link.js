@@ -1,8 +1,8 @@
 // @ts-check
-/* A double click on a link in the view goes to the row of its joint. */
+/* A double click on a link in the view goes to the row of its joint, or to its text. */
 
 import { reveal } from "../tree/tree.js";
-import { rows } from "../wire/channel.js";
+import { act, rows } from "../wire/channel.js";
 import { tell } from "./notices.js";
 import { openPanel } from "./panels.js";
 
@@ -14,6 +14,8 @@ export function followClickedLink() {
     const before = seen;
     seen = number;
     if (number <= before || !link) return;
+    // Beside the text, its lines are what is asked for.
+    if (rows.data("model/shown")) return act("model/find", [link]);
     if (!row) tell(`No joint moves ${link}`, "info");
     else if (rows.get(row)) {
       openPanel("joints");

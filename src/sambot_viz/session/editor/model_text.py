@@ -10,13 +10,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz import limits
-from sambot_viz.edits import apply_edits, by_file
+from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
 from sambot_viz.errors import Edit, RobotError, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.background import Background
 from sambot_viz.session.editor.buffer import Buffer
+from sambot_viz.session.editor.file_text import to_units
 from sambot_viz.session.editor.model_files import ModelFiles
+from sambot_viz.session.editor.words import OfferedElement, offered
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Checks, Problems
@@ -66,6 +68,7 @@ class ModelText:
         self._suspects: tuple[Path, ...] = ()
         self._background = Background("sambot-viz-text")
         self._closed = False
+        self._words: tuple[Robot | None, tuple[OfferedElement, ...]] | None = None
         self.changed = Signal(change, None)
         self.checked: dict[str, int] = {}
         # A copy of a session begins with the texts that are not saved there.
@@ -138,6 +141,33 @@ class ModelText:
         if name not in self._buffers:
             self._buffers[name] = Buffer.opened(path, name)
         return self._buffers[name]
+
+    def place_of(self, link: str) -> tuple[str, Extent] | None:
+        """Return the file that has a link of the robot, and where its element is there.
+
+        A link that a macro makes is written in the macro. None for what is not known.
+        """
+        robot = self._robot.model
+        found = None if robot is None else robot.links.get(link)
+        name = (
+            "" if found is None or not found.place else self.name_of(found.place.file)
+        )
+        if not name or found is None or found.place is None:
+            return None
+        source = SourceFile(self.buffer(name).text, "utf-8")
+        start = min(source.offset(found.place), len(source.text))
+        tag = source.tag(start)
+        end = start if tag is None else source.end_of(tag) or tag.end
+        return name, Extent(to_units(source.text, start), to_units(source.text, end))
+
+    def words(self) -> tuple[OfferedElement, ...]:
+        """Return what an editor offers in the model; worked out once for each robot."""
+        robot = self._robot.model
+        if self._words is None or self._words[0] is not robot:
+            files = () if robot is None else map(str, robot.files)
+            with unsaved(self.texts):
+                self._words = robot, tuple(offered(robot, files))
+        return self._words[1]
 
     # What users do; with the session locked.
 

@@ -13,7 +13,7 @@ export {
   indentWithTab,
 } from "@codemirror/commands";
 export { python } from "@codemirror/lang-python";
-export { xml } from "@codemirror/lang-xml";
+export { completeFromSchema, xml } from "@codemirror/lang-xml";
 export { yaml } from "@codemirror/lang-yaml";
 export {
   bracketMatching,

@@ -1,0 +1,129 @@
+"""The words that an editor offers: those that `check` knows, and names of the model."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import get_args
+
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import JointType
+from sambot_viz.robot.sdf.elements import ElementType, model_type
+from sambot_viz.robot.urdf.urdf_words import URDF
+from sambot_viz.robot.xacro.diagnose.source_files import definitions_in, read_source
+
+_PARAMETER = re.compile(r"(?:^|\s)(\*{0,2}\w+)")
+_XACRO = {
+    "include": "filename",
+    "property": "name value default",
+    "arg": "name default",
+    "macro": "name params",
+    "if": "value",
+    "unless": "value",
+    "insert_block": "name",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class OfferedElement:
+    """An element that an editor offers.
+
+    Attributes:
+        name: its tag.
+        children: tags that may be in it.
+        attributes: name → the values that are offered for it.
+        texts: what its text may be.
+        is_root: whether a document begins with it.
+    """
+
+    name: str
+    children: tuple[str, ...] = ()
+    attributes: Mapping[str, tuple[str, ...]] = field(
+        default_factory=dict[str, "tuple[str, ...]"]
+    )
+    texts: tuple[str, ...] = ()
+    is_root: bool = False
+
+
+def offered(robot: Robot | None, files: Iterable[str]) -> list[OfferedElement]:
+    """Return what a model may have.
+
+    Args:
+        robot: the last one that loaded; its links and joints are offered.
+        files: those of the model; their macros are offered.
+    """
+    if robot is not None and robot.language == "sdf":
+        return list(_sdf(robot))
+    macros = list(_macros(files))
+    calls = tuple(macro.name for macro in macros)
+    own = tuple(f"xacro:{name}" for name in _XACRO)
+    anywhere = (*calls, *own)
+    values = _values(robot)
+    made = [
+        OfferedElement(
+            tag,
+            (*sorted(word.has), *anywhere),
+            {name: values.get(f"{tag}.{name}", ()) for name in word.named},
+            is_root=tag == URDF.root,
+        )
+        for tag, word in URDF.words.items()
+    ]
+    inside = tuple(sorted(URDF.words))
+    for name, attributes in _XACRO.items():
+        given = dict.fromkeys(attributes.split(), ())
+        has = (*inside, *anywhere) if name in ("macro", "if", "unless") else ()
+        made.append(OfferedElement(f"xacro:{name}", has, given))
+    return [*made, *macros]
+
+
+def _values(robot: Robot | None) -> dict[str, tuple[str, ...]]:
+    """Return the values of attributes, by "tag.name"."""
+    links = () if robot is None else tuple(robot.links)
+    joints = () if robot is None else tuple(robot.joints)
+    return {
+        "parent.link": links,
+        "child.link": links,
+        "gazebo.reference": (*links, *joints),
+        "mimic.joint": joints,
+        "joint.type": get_args(JointType),
+    }
+
+
+def _macros(files: Iterable[str]) -> Iterator[OfferedElement]:
+    for file in files:
+        source = read_source(file)
+        for found in definitions_in(source, file) if source is not None else ():
+            if found.kind == "macro":
+                names = _PARAMETER.findall(found.params)
+                plain = dict.fromkeys((n for n in names if "*" not in n), ())
+                yield OfferedElement(f"xacro:{found.name}", (), plain)
+
+
+def _sdf(robot: Robot) -> Iterator[OfferedElement]:
+    links, joints = tuple(robot.links), tuple(robot.joints)
+    texts = {"parent": ("world", *links), "child": links, "joint": joints}
+    yield OfferedElement("sdf", ("model", "world"), {"version": ()}, is_root=True)
+    merged: dict[str, OfferedElement] = {}
+    for element in _below(model_type(), set()):
+        made = OfferedElement(
+            element.name,
+            tuple(element.children),
+            {name: tuple(v.words) for name, v in element.attributes.items()},
+            texts.get(element.name, tuple(element.text.words)),
+        )
+        # An element means several things, such as <joint> in a model and in a plugin.
+        other = merged.get(made.name, made)
+        children = tuple(dict.fromkeys((*other.children, *made.children)))
+        attributes = {**other.attributes, **made.attributes}
+        merged[made.name] = replace(other, children=children, attributes=attributes)
+    yield from merged.values()
+
+
+def _below(element: ElementType, seen: set[int]) -> Iterator[ElementType]:
+    if id(element.children) in seen and element.children:
+        return
+    seen.add(id(element.children))
+    yield element
+    for child in element.children.values():
+        yield from _below(child, seen)
