@@ -3,6 +3,8 @@
 
 import { act, ONLINE, CUT, rows } from "../wire/channel.js";
 import { refusals, tell } from "../window/notices.js";
+import { hovered } from "../panels/pointed_joint.js";
+import { jointAround } from "./joint_around.js";
 import { lookOf } from "./look.js";
 import { TextSync } from "./text_sync.js";
 
@@ -31,6 +33,8 @@ export class Editor {
     this.cm = cm;
     this.file = "";
     this.theirs = "";
+    /** The joint that is lit. */
+    this.lit = "";
     parts ??= {
       access: new cm.Compartment(),
       merge: new cm.Compartment(),
@@ -64,6 +68,7 @@ export class Editor {
   close() {
     this.keep();
     for (const end of this.ends) end();
+    if (this.lit) hovered.set("");
     this.view.destroy();
   }
 
@@ -81,12 +86,22 @@ export class Editor {
   /** @param {any[]} transactions @param {any} view */
   dispatch = (transactions, view) => {
     view.update(transactions);
+    this.light();
     for (const transaction of transactions) {
       if (!transaction.docChanged || transaction.annotation(parts.fromServer)) continue;
       this.open?.sync.type(transaction.changes, transaction.newDoc.toString());
       this.sendSoon();
     }
   };
+
+  /** Light the joint that the cursor is in. */
+  light() {
+    const { doc, selection } = this.view.state;
+    const name = this.view.hasFocus ? jointAround(doc.toString(), selection.main.head) : "";
+    if (name === this.lit) return;
+    this.lit = name;
+    hovered.set(name && `j/${name}`);
+  }
 
   sendSoon() {
     clearTimeout(this.timer);

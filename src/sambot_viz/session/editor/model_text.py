@@ -149,13 +149,12 @@ class ModelText:
         """
         robot = self._robot.model
         found = None if robot is None else robot.links.get(link)
-        name = (
-            "" if found is None or not found.place else self.name_of(found.place.file)
-        )
-        if not name or found is None or found.place is None:
+        place = None if found is None else found.place
+        name = "" if place is None else self.name_of(place.file)
+        if place is None or not name:
             return None
         source = SourceFile(self.buffer(name).text, "utf-8")
-        start = min(source.offset(found.place), len(source.text))
+        start = min(source.offset(place), len(source.text))
         tag = source.tag(start)
         end = start if tag is None else source.end_of(tag) or tag.end
         return name, Extent(to_units(source.text, start), to_units(source.text, end))
