@@ -77,6 +77,12 @@ def test_a_world_without_systems_gets_those_of_gazebo(
     assert check(package / MODEL) == []
 
 
+def test_a_system_of_another_package_may_have_a_word_more(package: Path) -> None:
+    own = '<plugin filename="gz-sim-yarp-forcetorque-system" name="x::Y"/>'
+    edit(package, WORLD, "  </world>", f"    {own}\n  </world>")
+    assert check(package / MODEL) == []
+
+
 @pytest.mark.parametrize(
     ("code", "file", "right", "wrong", "line", "hint"),
     [

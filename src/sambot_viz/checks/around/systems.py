@@ -95,6 +95,9 @@ def near_system(filename: str) -> str | None:
     if nearest(last, ["system"], _LIKENESS):
         name = head
     near = nearest(name, vocabulary("gz_systems"), _LIKENESS)
+    if near is not None and {*near.split("-")} < {*name.split("-")}:
+        # With a word more, such as yarp-forcetorque, it is of another package.
+        return None
     better = f"{file[1] or ''}{file[2]}-{near}-system{file[4] or ''}"
     return None if near is None or better == filename else better
 
