@@ -143,6 +143,8 @@ def _of_a_node(around: Surroundings, topic: str) -> bool:
     nodes = {
         part for file in around.yaml_files for n in file.nodes for part in n.split("/")
     }
+    if around.simulates_only_known:
+        return owner in nodes
     return bool(owner) and (owner in nodes or around.said_elsewhere(owner))
 
 
