@@ -139,8 +139,8 @@ ROOMS: Mapping[str, Row] = {
     "views": Row("rviz", "numpy"),
     "tools": Row("displays frames meshes publishing robot rviz views", "numpy viser"),
     "session": Row(
-        "bundled checks displays drive fixes frames graph joints meanings meshes "
-        "options problems publishing robot rviz sources tools topics views "
+        "bundled checks displays drive fixes frames graph joints lessons meanings "
+        "meshes options problems publishing robot rviz sources tools topics views "
         "viser_private",
         "PIL numpy viser",
         "asyncio concurrent",
@@ -148,8 +148,8 @@ ROOMS: Mapping[str, Row] = {
     # From the scene to the page.
     "page": Row(),
     "panels": Row(
-        "_version displays drive fixes frames graph joints options page problems "
-        "publishing robot rviz session tools topics views viser_private",
+        "_version displays drive fixes frames graph joints lessons options page "
+        "problems publishing robot rviz session tools topics views viser_private",
         "msgspec numpy viser",
     ),
     "server": Row(
@@ -201,7 +201,9 @@ ROOMS: Mapping[str, Row] = {
     "matrices": Row("", "numpy"),
     "listened": Row("sources topics", "", "threading"),
     "moved_by": Row("messages options rviz sources topics"),
-    "options": Row("flags frames joints publishing robot rviz sources", "yourdfpy"),
+    "options": Row(
+        "flags frames joints lessons publishing robot rviz sources", "yourdfpy"
+    ),
     "outlet": Row("", "segno"),
     "problems": Row(),
     "text": Row(),

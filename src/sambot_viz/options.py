@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
     from sambot_viz.frames.static_transform import StaticTransform
     from sambot_viz.joints.presets import StartPose
+    from sambot_viz.lessons.study import Study
     from sambot_viz.robot.model import Robot
     from sambot_viz.rviz import RvizConfig
     from sambot_viz.sources.given import GivenSource
@@ -277,11 +278,14 @@ class Options:
     gui: bool = option(
         True, "the Joints panel with its sliders", "--gui", word="gui", switch="yes-no"
     )
-    host: str = option("127.0.0.1", "the address to listen on", "--host")
+    host: str = option(
+        "127.0.0.1", "the address to listen on", "--host", group="listen"
+    )
     port: int = option(
         0,
         "the port to listen on; 0 takes any free one",
         "--port",
+        group="listen",
         type=int,
         flag_default=8080,
     )
@@ -290,6 +294,7 @@ class Options:
         "listen on a socket in the file system instead of a port, for a proxy of the "
         "same user: no other user can open it",
         "--unix-socket",
+        group="listen",
         metavar="PATH",
     )
     allowed_origins: Sequence[str] = option(
@@ -297,6 +302,7 @@ class Options:
         "another name of this machine, or an origin that may use the server, "
         f"such as https://lab.example.org for one behind a proxy{AGAIN}",
         "--allow-origin",
+        group="listen",
         metavar="ORIGIN",
         read=words_of,
     )
@@ -304,6 +310,7 @@ class Options:
         "/",
         "path under which a proxy shows the page, such as /robot for https://lab.example.org/robot/",
         "--base-path",
+        group="listen",
         metavar="PATH",
     )
     token: str | None = option(
@@ -311,6 +318,7 @@ class Options:
         "require this token to open the page (generated when no VALUE is given); by "
         "default the value of the variable SAMBOT_VIZ_TOKEN",
         "--token",
+        group="listen",
         metavar="VALUE",
         optional_value="word",
         variable="SAMBOT_VIZ_TOKEN",
@@ -396,6 +404,10 @@ class Options:
     )
     panels: bool = option(
         True, "whether the page has panels; without them the 3D view fills it"
+    )
+    study: Study | None = option(
+        None,
+        "a student's way through a lesson, which the page shows beside the robot",
     )
     on_reload: Callable[[Sequence[Problem]], None] | None = option(
         None,

@@ -1,13 +1,16 @@
-"""``sambot-viz lesson``: list, new and check, for teachers."""
+"""``sambot-viz lesson``: for students, and list, new and check for teachers."""
 
 from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from lesson_files import BASE, record_run
+from program import address, serving
+from protocol_client import ProtocolClient
 
 from sambot_viz.cli import main
 from sambot_viz.lessons.read_lesson import lesson_names
@@ -101,3 +104,39 @@ def test_files_that_are_not_there_are_errors(
 def test_usage_errors_exit_with_2(capsys: Capture, words: list[str], said: str) -> None:
     assert main(["lesson", *words]) == 2
     assert said in capsys.readouterr().err
+
+
+def test_a_lesson_is_served_with_files_to_begin_with(
+    tmp_path: Path, protocol: Callable[..., ProtocolClient]
+) -> None:
+    words = ("lesson", "nav2-first-robot", "--track", "sdf", "--dir", "mine")
+    with serving(*words, "--port", "0", cwd=tmp_path) as program:
+        client = protocol(int(address(program).rsplit(":", 1)[1]))
+        client.wait_until(lambda: "lesson/text" in client.rows)
+        assert client.rows["lesson/text"]["value"]["title"].startswith("A transform")
+        assert program.end()[0] == 0
+    model = tmp_path / "mine/src/description/sam_bot_description.sdf"
+    assert model.read_bytes() == b""
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["chekc", "lesson.yaml"], "did you mean 'check'?"),
+        (["nav2-frist-robot"], "did you mean 'nav2-first-robot'?"),
+        (["nav2-first-robot", "mine"], "name your folder with --dir: --dir mine"),
+        (["nav2-first-robot", "--track", "xacro"], "has no track 'xacro'"),
+        (["nav2-first-robot", "--dir", "a-file"], "cannot write into 'a-file'"),
+    ],
+)
+def test_a_lesson_that_cannot_be_shown_says_why(
+    words: list[str],
+    message: str,
+    capsys: Capture,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a-file").touch()
+    assert main(["lesson", *words]) == 2
+    assert message in capsys.readouterr().err

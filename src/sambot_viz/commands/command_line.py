@@ -103,6 +103,11 @@ class Parser(argparse.ArgumentParser):
             help="how to print it (default: %(default)s)",
         )
 
+    def add_open(self) -> None:
+        """Add ``--open``, for commands with a page."""
+        what = "open the page in this machine's browser"
+        self.add_argument("--open", action="store_true", help=what)
+
     def add_listen(
         self, default: float = LISTEN, what: str = "how long to listen to a live robot"
     ) -> None:

@@ -1,30 +1,32 @@
-"""``sambot-viz lesson``: the lessons that there are, a new one, and its check."""
+"""``sambot-viz lesson``: learn by one; list them, write a new one, check it."""
 
 from __future__ import annotations
 
 import shutil
+from argparse import Namespace
 from pathlib import Path
 
 from sambot_viz.bundled import assets_folder
-from sambot_viz.commands.command_line import Parser
-from sambot_viz.errors import LessonError, UsageError, did_you_mean
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.errors import LessonError, UsageError, nearest
 from sambot_viz.lessons.check_lesson import check_lesson
 from sambot_viz.lessons.lesson import Lesson
 from sambot_viz.lessons.read_lesson import lesson_names, open_lesson
-from sambot_viz.outlet import write_json, write_out
+from sambot_viz.lessons.study import Study
+from sambot_viz.options import Options
+from sambot_viz.outlet import write_err, write_json, write_out
 from sambot_viz.problems import write_problems
 
 ACTIONS = ("list", "new", "check")
 
 
 def run(words: list[str]) -> int:
-    """List, begin or check lessons; 0 when a lesson has no errors, else 1."""
-    given = parser().parse_args(words)
+    """Show a lesson, or list, begin or check some; 1 when one has errors, else 0."""
+    given, options = parse(parser(), words)
     if given.action == "list":
         return _list(given.format)
     if given.action not in ACTIONS:
-        near = did_you_mean(given.action, ACTIONS)
-        raise UsageError(f"sambot-viz lesson cannot '{given.action}'; {near}")
+        return _learn(given, options)
     if given.path is None:
         what = "a new folder" if given.action == "new" else "a lesson.yaml"
         raise UsageError(f"sambot-viz lesson {given.action} needs {what}")
@@ -40,13 +42,19 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz lesson",
-        description="list: name the lessons that ship. new DIR: write a lesson of one "
+        groups=("listen",),
+        takes_model=False,
+        description="LESSON: show a lesson beside the robot that you write, until "
+        "Ctrl-C. list: name the lessons that ship. new DIR: write a lesson of one "
         "step to begin with. check FILE: try a lesson with its solution, which has to "
         "pass, and its start, which must not. Exit status: 0 fine (there may be "
         "warnings), 1 errors found, 2 usage.",
     )
     made.add_argument(
-        "action", metavar="ACTION", help="one of list, new and check", default="list"
+        "action",
+        metavar="LESSON",
+        help="name of a lesson that ships, a lesson.yaml, or its folder; or one of the "
+        "words list, new and check",
     )
     made.add_argument(
         "path",
@@ -59,8 +67,59 @@ def parser() -> Parser:
         metavar="DIR",
         help="with check: what has to pass, in place of the solution that it names",
     )
+    made.add_argument(
+        "--track",
+        metavar="TRACK",
+        help="with a lesson: the way through it, such as urdf or sdf; by default that "
+        "of the files that are there, or the first one",
+    )
+    made.add_argument(
+        "--dir",
+        metavar="DIR",
+        help="with a lesson: your folder; by default a new one with the name of the "
+        "lesson",
+    )
+    made.add_open()
     made.add_format()
     return made
+
+
+def _learn(given: Namespace, options: Options) -> int:
+    """Show a lesson, and the model of a student, until Ctrl-C."""
+    lesson = _lesson_of(given.action)
+    if given.path is not None:
+        raise UsageError(f"name your folder with --dir: --dir {given.path}")
+    folder = Path(given.dir or lesson.name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        study = Study(lesson, folder, given.track)
+        study.begin()
+        model = study.model_of(study.step)
+        if not model.exists():
+            model.parent.mkdir(parents=True, exist_ok=True)
+            model.touch()
+    except OSError as error:
+        raise UsageError(f"cannot write into '{folder}': {error.strerror}") from error
+    write_err(f"sambot-viz: your files are in {folder}; you begin with {model}")
+    # The import is late: the other actions need no page.
+    from sambot_viz.commands.show import serve
+
+    options = options.having(model=model, study=study, watch=True, edit=True)
+    serve(options, given.open)
+    return 0
+
+
+def _lesson_of(word: str) -> Lesson:
+    """Return a lesson; a word that is nearly an action says so.
+
+    Raises:
+        UsageError: there is no such lesson.
+        LessonError: it cannot be read.
+    """
+    near = nearest(word, ACTIONS, likeness=0.7)
+    if near is not None and not Path(word).exists():
+        raise UsageError(f"sambot-viz lesson cannot '{word}'; did you mean '{near}'?")
+    return open_lesson(word)
 
 
 def _list(how: str) -> int:

@@ -17,6 +17,7 @@ from sambot_viz._version import __version__
 from sambot_viz.commands.command_line import Parser, parse, warn
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
+from sambot_viz.options import Options
 from sambot_viz.outlet import write_code, write_err, write_out
 from sambot_viz.problems import write_problems
 
@@ -97,17 +98,28 @@ def run(words: list[str], notes: Sequence[Problem] = ()) -> int:
         words: the command line.
         notes: findings that the page shows with those of the model.
     """
-    _return_large_blocks()
-    report = _Reports()
-    given, options = parse(parser(), words, on_reload=report, notes=notes)
+    given, options = parse(parser(), words, notes=notes)
     for (_, flag), _, why in _OF_RVIZ:
         if getattr(given, flag.removeprefix("--").replace("-", "_")):
             warn(f"{flag} has no meaning here: {why}")
-    report.model = options.model
-    with Inputs(options, may_be_broken=options.watch) as inputs:
-        _serve(inputs, report, given.open)
-    _report_recording(inputs)
+    serve(options, given.open)
     return 0
+
+
+def serve(options: Options, open_it: bool) -> None:
+    """Show the page of some options until Ctrl-C.
+
+    Args:
+        options: what is shown; changes while files are followed are written.
+        open_it: whether it is opened in this machine's browser.
+    """
+    _return_large_blocks()
+    report = _Reports()
+    report.model = options.model
+    options = options.having(on_reload=report)
+    with Inputs(options, may_be_broken=options.watch) as inputs:
+        _serve(inputs, report, open_it)
+    _report_recording(inputs)
 
 
 def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
@@ -161,7 +173,7 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz",
-        groups=("model", "check", "source", "view", "pose", "server"),
+        groups=("model", "check", "source", "view", "pose", "server", "listen"),
         description="Show a URDF, SDF or xacro robot in the browser: no ROS, no X "
         "server.",
         epilog=EPILOG,
@@ -169,7 +181,7 @@ def parser() -> Parser:
     )
     add = made.add_argument
     add("--version", action="version", version=f"sambot-viz {__version__}")
-    add("--open", action="store_true", help="open the page in this machine's browser")
+    made.add_open()
     for names, given, _ in _OF_RVIZ:
         add(*names, **given)
     return made

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, cast
 
 import yaml
 
@@ -48,6 +49,25 @@ class Demand:
         """
         faults = [_unmet(condition, work) for condition in self.conditions]
         return min(faults, key=len)
+
+    @property
+    def subject(self) -> str:
+        """What it is about, for one that holds, such as "joint: left_wheel_joint"."""
+        first = self.conditions[0]
+        kind = next(name for name, cls in KINDS.items() if type(first) is cls)
+        words, names = kind.replace("-", " "), ", ".join(_names_in(first))
+        return f"{words}: {names}" if names else words
+
+
+def _names_in(condition: Any) -> Iterator[str]:
+    """Give the names that a condition needs; of several that it takes, the first."""
+    for one in fields(condition):
+        value: Any = getattr(condition, one.name) if one.default is MISSING else ""
+        several = cast(
+            "tuple[Any, ...]", value if isinstance(value, tuple) else (value,)
+        )
+        if several and isinstance(several[0], str) and several[0]:
+            yield several[0]
 
 
 def _unmet(condition: Condition, work: Work) -> list[Unmet]:

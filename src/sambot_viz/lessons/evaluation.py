@@ -30,6 +30,19 @@ class StepFault:
 
 
 @dataclass(frozen=True, slots=True)
+class DemandResult:
+    """What became of one thing that a step demands.
+
+    Attributes:
+        subject: what it is about; empty when the model cannot be read.
+        faults: what does not hold of it.
+    """
+
+    subject: str
+    faults: tuple[StepFault, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class StepResult:
     """What became of a step.
 
@@ -71,10 +84,10 @@ class StepResult:
         }
 
 
-def faults_of(
+def outcomes_of(
     step: LessonStep, work: Work, track: str = "", tries: int = 0
-) -> list[StepFault]:
-    """Return what does not hold in a step.
+) -> list[DemandResult]:
+    """Return what holds in a step, and what does not.
 
     Args:
         step: the step.
@@ -83,17 +96,33 @@ def faults_of(
         tries: how often it has failed before; what is hidden comes with the last hint.
     """
     hides = not step.is_exhausted(track, tries)
-    found: dict[str, StepFault] = {}
+    found: list[DemandResult] = []
     for demand in step.demands(track):
         try:
             unmet = demand.unmet(work)
         except RobotError as error:
             # Every other condition would say the same.
             said = explained(error)
-            return [StepFault(said, said.found)]
-        for fault in _in_words(demand, unmet, hides):
+            return [DemandResult("", (StepFault(said, said.found),))]
+        faults = _in_words(demand, unmet, hides)
+        found.append(DemandResult(demand.subject, tuple(faults)))
+    return found
+
+
+def faults_in(outcomes: Iterable[DemandResult]) -> list[StepFault]:
+    """Return what does not hold, each once."""
+    found: dict[str, StepFault] = {}
+    for outcome in outcomes:
+        for fault in outcome.faults:
             found.setdefault(fault.message, fault)
     return list(found.values())
+
+
+def faults_of(
+    step: LessonStep, work: Work, track: str = "", tries: int = 0
+) -> list[StepFault]:
+    """Return what does not hold in a step; the arguments are as for `outcomes_of`."""
+    return faults_in(outcomes_of(step, work, track, tries))
 
 
 def _in_words(demand: Demand, unmet: Iterable[Unmet], hides: bool) -> list[StepFault]:

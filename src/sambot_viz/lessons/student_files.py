@@ -12,7 +12,8 @@ from sambot_viz.robot.packages.package_index import package_around
 
 _BEGIN = 4096
 """A model of SDF says so in its first bytes."""
-_BUILT = frozenset({"build", "install", "log"})
+BUILT = frozenset({"build", "install", "log"})
+"""Folders of a workspace that no student writes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +83,7 @@ def _track_by_content(lesson: Lesson, path: Path) -> str:
 def _models(folder: Path, name: str) -> Iterator[Path]:
     """Give the files of a name at and below a folder; what is built is left out."""
     for file in (folder / name, *sorted(folder.glob(f"*/**/{name}"))):
-        if file.is_file() and _BUILT.isdisjoint(file.relative_to(folder).parts):
+        if file.is_file() and BUILT.isdisjoint(file.relative_to(folder).parts):
             yield file
 
 

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from sambot_viz import limits
 from sambot_viz.errors import Problem, RobotError, UsageError, did_you_mean
-from sambot_viz.lessons.evaluation import StepFault, StepResult, faults_of
+from sambot_viz.files import is_below, read_limited
+from sambot_viz.lessons.evaluation import (
+    DemandResult,
+    StepFault,
+    StepResult,
+    faults_in,
+    outcomes_of,
+)
 from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.lessons.markdown import TextBlock, blocks
 from sambot_viz.lessons.progress import Progress
-from sambot_viz.lessons.student_files import HandedIn, handed_in
+from sambot_viz.lessons.student_files import BUILT, HandedIn, handed_in
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.model import Robot
 
@@ -81,6 +90,33 @@ class Study:
                 written.append(target)
         return written
 
+    def model_of(self, step: LessonStep) -> Path:
+        """Return the model file of a step; it need not exist."""
+        return self._handed_in().model_of(step)
+
+    def files(self) -> list[Path]:
+        """Return the whole paths of the folders of the student, and of their files.
+
+        What is built or hidden is left out, and so is what comes behind the limit.
+        """
+        found: list[Path] = []
+        for folder, inner, names in os.walk(self._folder.absolute()):
+            inner[:] = sorted(n for n in inner if n[0] != "." and n not in BUILT)
+            found += Path(folder), *(Path(folder, n) for n in names if n[0] != ".")
+            if len(found) >= limits.STUDENT_FILES.value:
+                break
+        return found[: limits.STUDENT_FILES.value]
+
+    def picture(self, name: str) -> bytes:
+        """Return a picture of the lesson's folder; nothing where it cannot be read."""
+        folder = self.lesson.folder
+        if not is_below(folder / name, [folder.resolve()]):
+            return b""
+        try:
+            return read_limited(folder / name, limits.LESSON_PICTURE.value)
+        except OSError:
+            return b""
+
     def text_of(self, step: LessonStep) -> list[TextBlock]:
         """Return the text of a step, with that of the track."""
         return blocks(f"{step.text}\n\n{dict(step.in_track).get(self.track, '')}")
@@ -90,11 +126,20 @@ class Study:
         tries = self.progress.of(step.name).tries
         return [blocks(hint.text) for hint in step.shown_hints(self.track, tries)]
 
+    def tries_to_hint(self, step: LessonStep) -> int:
+        """Return after how many tries more the next hint comes; 0 when none is left."""
+        tries = self.progress.of(step.name).tries
+        later = step.shown_hints(self.track, 10**9)[
+            len(step.shown_hints(self.track, tries)) :
+        ]
+        return later[0].after - tries if later else 0
+
     def work_of(
         self,
         step: LessonStep,
         loaded: Robot | RobotError | None = None,
         problems: Iterable[Problem] | None = None,
+        edited: Mapping[str, str] | None = None,
     ) -> Work:
         """Return what the student has written for a step; the files are read once.
 
@@ -102,6 +147,7 @@ class Study:
             step: the step.
             loaded: the robot, or why there is none, where that is known already.
             problems: what `check` says, where that is known already.
+            edited: as for `load_robot`.
         """
         given = self._handed_in()
         return Work(
@@ -110,12 +156,17 @@ class Study:
             trusted=self._trusted,
             loaded=loaded,
             problems=problems,
+            edited=edited,
         )
+
+    def outcomes(self, step: LessonStep, work: Work) -> list[DemandResult]:
+        """Return what holds now, and what does not; nothing is counted."""
+        tries = self.progress.of(step.name).tries
+        return outcomes_of(step, work, self.track, tries)
 
     def look(self, step: LessonStep, work: Work) -> list[StepFault]:
         """Return what does not hold now; nothing is counted, for each key."""
-        tries = self.progress.of(step.name).tries
-        return faults_of(step, work, self.track, tries)
+        return faults_in(self.outcomes(step, work))
 
     def attempt(self, step: LessonStep, work: Work) -> StepResult:
         """Return the result of a step, count the try and keep it in the folder.
@@ -123,7 +174,15 @@ class Study:
         Raises:
             OSError: the progress cannot be written.
         """
-        said = "\n".join(fault.message for fault in self.look(step, work))
+        return self.count(step, self.look(step, work))
+
+    def count(self, step: LessonStep, faults: Iterable[StepFault]) -> StepResult:
+        """Count a try by what does not hold, and keep it in the folder.
+
+        Raises:
+            OSError: the progress cannot be written.
+        """
+        said = "\n".join(fault.message for fault in faults)
         result = StepResult.of(self.lesson, step, said)
         self.progress.note(result)
         self.progress.save()

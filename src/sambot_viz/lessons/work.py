@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,6 +28,7 @@ class Work:
         trusted: as for `load_robot`.
         loaded: the robot, or why there is none, where that is known already.
         problems: what `check` says, where that is known already.
+        edited: as for `load_robot`.
 
     Attributes:
         model: the model file.
@@ -42,19 +43,21 @@ class Work:
         trusted: bool = True,
         loaded: Robot | RobotError | None = None,
         problems: Iterable[Problem] | None = None,
+        edited: Mapping[str, str] | None = None,
     ) -> None:
         self.model = model
         self.folder = folder or package_around(model) or model.parent
         self._trusted = trusted
         self._known = loaded
         self._given = problems
+        self._edited = edited
 
     @cached_property
     def _loaded(self) -> Robot | RobotError:
         if self._known is not None:
             return self._known
         try:
-            return load_robot(self.model, trusted=self._trusted)
+            return load_robot(self.model, trusted=self._trusted, edited=self._edited)
         except RobotError as error:
             return error
 

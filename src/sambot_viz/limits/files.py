@@ -250,6 +250,18 @@ LESSON = LimitRow(
     "bytes",
     "it is refused, with an error; a student begins again",
 )
+LESSON_PICTURE = LimitRow(
+    "a picture of a lesson",
+    1_000_000,
+    "bytes",
+    "the page shows what it is in words",
+)
+STUDENT_FILES = LimitRow(
+    "files and folders of a student that are followed",
+    2000,
+    "",
+    "a save of the others is seen with the button Check",
+)
 GRADE_TIME = LimitRow(
     "grading what a student has written",
     60,

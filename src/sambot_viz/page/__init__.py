@@ -49,6 +49,7 @@ _STYLES = (
     "dialogs/dialogs.css",
     "panels/graph.css",
     "panels/model.css",
+    "panels/lesson.css",
 )
 _PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)

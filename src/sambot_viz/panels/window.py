@@ -15,6 +15,7 @@ from sambot_viz.panels.drive_panel import DrivePanel
 from sambot_viz.panels.files_panel import Files
 from sambot_viz.panels.joints.joints_panel import JointsPanel
 from sambot_viz.panels.joints.poses import PosesPanel
+from sambot_viz.panels.lesson_panel import LessonPanel
 from sambot_viz.panels.live_drive_panel import LiveDrivePanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
@@ -34,6 +35,7 @@ from sambot_viz.session.clients.client import Client
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.scene.joint_arrow import JointArrow
+from sambot_viz.session.shown_lesson import ShownLesson
 
 _NUMBERS = ("int", "float", "slider")
 
@@ -50,6 +52,7 @@ class Window:
         recordings: those that can be opened; None where none can.
         edits: writes fixes into files; None where no browser may.
         text: the text of the model; None where there is no file of it.
+        lesson: what there is to learn; None where nothing is.
     """
 
     def __init__(
@@ -62,6 +65,7 @@ class Window:
         recordings: OtherRecordings | None = None,
         edits: ModelEdits | None = None,
         text: ModelText | None = None,
+        lesson: ShownLesson | None = None,
     ) -> None:
         self._session = session
         self._files = files
@@ -70,6 +74,7 @@ class Window:
         self._recordings = recordings
         self._edits = edits
         self._text = text
+        self._lesson = lesson
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
         self._folders = files is not None and not session.roles.presented
@@ -115,6 +120,8 @@ class Window:
                 remake,
             ),
         ]
+        if self._lesson is not None:
+            panels.append(LessonPanel(self._lesson))
         if session.data is not None:
             panels.append(SourcePanel(session.sources, not session.private))
             panels.append(TimePanel(session.document, scene, session.sources))
@@ -165,6 +172,8 @@ class Window:
         self._shared.close()
         if self._text is not None:
             self._text.close()
+        if self._lesson is not None:
+            self._lesson.close()
 
     def _take_client(self, client: Client, joined: bool) -> None:
         if joined:

@@ -25,6 +25,7 @@ from sambot_viz.session import Session
 from sambot_viz.session.clients.client_camera import reported
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.session_copy import SessionCopy
+from sambot_viz.session.shown_lesson import ShownLesson
 
 # Most servers show no recording.
 if TYPE_CHECKING:
@@ -111,8 +112,23 @@ class ClientSessions:
                     None if recordings is None else recordings.of(sessions, session),
                     edits,
                     text,
+                    self._lesson(session, text) if shared else None,
                 )
         self._on_joined()
+
+    def _lesson(self, session: Session, text: ModelText | None) -> ShownLesson | None:
+        """Return the lesson of the shared session; its student is one."""
+        study = self._options.study
+        if study is None:
+            return None
+        facts = [session.saved, *([] if text is None else [text.changed])]
+        return ShownLesson(
+            study,
+            lambda: {} if text is None else text.texts,
+            facts,
+            session.change,
+            session.problems.report_error,
+        )
 
     def take_edit(self, client_id: int, edit: object) -> None:
         """Give an edit of a client to the window of its session."""

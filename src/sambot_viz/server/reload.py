@@ -105,6 +105,11 @@ class Reloader:
         """The files that were compared with the model."""
         return {f for s in self._sessions.all() for f in s.checks.files.value}
 
+    def _files_of_student(self) -> set[Path]:
+        """The files of a student, and the folders: those change with each new file."""
+        study = self._sessions.options.study
+        return set() if study is None else {*study.files()}
+
     def _displays(self) -> Iterator[RobotDisplay]:
         for session in self._sessions.all():
             yield from robot_displays(session.scene.displays)
@@ -114,7 +119,7 @@ class Reloader:
         config = {file} if file is not None else set[Path]()
         own = {file for display in self._displays() for file in display.files}
         files = self._model_files() | self._asset_files() | config | own
-        files |= self._files_around()
+        files |= self._files_around() | self._files_of_student()
         # A file that is missing now may appear anywhere in the package.
         waits = self._waiting_for_files
         return Watched(frozenset(files), self._model if waits else None)
@@ -146,6 +151,8 @@ class Reloader:
         config = self._documents.file
         if config is not None and config in changed:
             self._reload_config(config)
+        if self._sessions.options.study is not None:
+            self._ask_again()
         self._sessions.for_each(lambda session: session.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:

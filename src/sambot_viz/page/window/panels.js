@@ -7,6 +7,7 @@ import { DrivePanel } from "../panels/drive.js";
 import { FramesPanel } from "../panels/frames.js";
 import { GraphPanel } from "../panels/graph.js";
 import { ImagesPanel } from "../panels/images.js";
+import { LessonPanel } from "../panels/lesson.js";
 import { ModelPanel } from "../panels/model.js";
 import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
@@ -50,6 +51,7 @@ export const TABS = {
 };
 /** @type {Record<string, {title: string, short?: string, content: any}>} */
 export const SHEET = {
+  lesson: { title: "Lesson", content: LessonPanel },
   joints: TABS.joints,
   displays: { title: "Displays", content: DisplaysPanel },
   views: { title: "Views", content: ViewsPanel },
@@ -57,13 +59,20 @@ export const SHEET = {
   problems: { title: "Problems", content: ProblemsPanel },
 };
 
+/** Whether there is a lesson: at the left it is in front of the other panels, or behind them. */
+export const hasLesson = () => Boolean(rows.panels.get("lesson")?.length);
+
+/** What else a shown panel changes: which one is in front at the left. @param {string} name */
+export const inFront = (name) =>
+  hasLesson() && !(name in TABS) && name !== "problems" ? { lesson: name !== "lesson" } : {};
+
 /** Show a panel, wherever it is. @param {string} name */
 export function openPanel(name) {
   if (hidden.value.all) hidden.set({ ...hidden.value, all: false });
   if (shape.value !== "wide") return choose(name);
   if (name === "problems") return showProblems(true);
   const side = name in TABS ? "right" : "left";
-  hidden.set({ ...hidden.value, [side]: false, [name]: false });
+  hidden.set({ ...hidden.value, [side]: false, [name]: false, ...inFront(name) });
   if (name in TABS) choose(name);
 }
 
@@ -113,7 +122,7 @@ export function panelList() {
       const shown = byTab
         ? current === name && !folded
         : side
-          ? !away.left && !away[name]
+          ? !away.left && !away[name] && (name === "lesson" || !hasLesson() || Boolean(away.lesson))
           : away[name] === false;
       const toggle = () => {
         if (byTab && !shown) choose(name);
@@ -121,7 +130,7 @@ export function panelList() {
           hidden.set({
             ...hidden.value,
             [name]: shown,
-            ...(side && !shown ? { [side]: false } : {}),
+            ...(side && !shown ? { [side]: false, ...inFront(name) } : {}),
           });
       };
       return { name, title, shown, toggle };
@@ -137,9 +146,11 @@ export function tabNames(of) {
   );
 }
 
-/** What is in front until somebody chooses: pictures, which RViz docks in sight, then joints; data,
- * where there is no joint to move. */
-function firstTab() {
+/** What is in front until somebody chooses: a lesson and the text to write, then pictures, which
+ * RViz docks in sight, then joints; data, where there is no joint to move.
+ * @param {Record<string, any>} of */
+function firstTab(of) {
+  if (hasLesson()) return of === TABS ? "model" : "lesson";
   if (rows.panels.get("images")?.length) return "images";
   return rows.get("joints/none") ? "topics" : "joints";
 }
@@ -147,5 +158,5 @@ function firstTab() {
 /** @param {Record<string, any>} of */
 export function shownTab(of) {
   const names = tabNames(of);
-  return [tab.value, firstTab(), names[0]].find((name) => names.includes(name));
+  return [tab.value, firstTab(of), names[0]].find((name) => names.includes(name));
 }

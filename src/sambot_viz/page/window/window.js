@@ -16,10 +16,13 @@ import {
 } from "./splitters.js";
 import { DisplaysPanel } from "../panels/displays.js";
 import { Driving } from "../panels/drive.js";
+import { LessonPanel } from "../panels/lesson.js";
 import { LiveDriving, StopRobot } from "../panels/live_drive.js";
 import { ProblemCorner, ProblemsPanel } from "../panels/problems.js";
 import { ViewsPanel } from "../panels/views.js";
 import {
+  hasLesson,
+  inFront,
   panelList,
   problemsOver,
   SHEET,
@@ -107,11 +110,18 @@ function placeView(view) {
 function Left() {
   const away = hidden.use();
   useRow("panel:views");
+  useRow("panel:lesson");
+  const lesson = hasLesson();
   const views = rows.children("panel:views").length > 0 && !away.views;
   const { views: height } = useSizes();
   const lower = useChosenViews() ? "lower" : "lower free";
-  if (away.left || (away.displays && !views)) return html`<${Tab} side="left" />`;
+  if (away.left || (away.displays && !views && !lesson)) return html`<${Tab} side="left" />`;
+  if (lesson && !away.lesson)
+    return html`<aside class="left" aria-label="Left panels"><${LessonOrOthers} />
+      <${Part} title="Lesson"><${LessonPanel} /><//>
+      <${Splitter} side="left" label="Width of the left panels" /></aside>`;
   return html`<aside class="left" aria-label="Left panels">
+    ${lesson && html`<${LessonOrOthers} />`}
     ${!away.displays && html`<${Part} title="Displays"><${DisplaysPanel} /><//>`}
     ${
       views &&
@@ -121,6 +131,20 @@ function Left() {
     }
     <${Splitter} side="left" label="Width of the left panels" />
   </aside>`;
+}
+
+/** The tabs of the left panels, where there is a lesson. */
+function LessonOrOthers() {
+  const away = hidden.use();
+  const chosen = away.lesson ? "displays" : "lesson";
+  const choose = (/** @type {string} */ name) => () =>
+    hidden.set({ ...hidden.value, [name]: false, ...inFront(name) });
+  return html`<div class="tabs" role="tablist" aria-label="Left panels">
+    ${["lesson", "displays"].map(
+      (name) => html`<button role="tab" key=${name} aria-selected=${String(name === chosen)}
+        onClick=${choose(name)}>${SHEET[name].title}</button>`,
+    )}
+  </div>`;
 }
 
 /** Draw again when another tab may be there. @param {Record<string, any>} of */

@@ -229,10 +229,13 @@ class ProblemsPanel(Panel):
 
 def place_of(problem: Problem) -> str:
     """Return the name of a problem's file, and the line."""
-    if problem.file is None:
-        return ""
-    name = text(PurePath(problem.file).name, _LONGEST_FILE)
-    return name if problem.line is None else f"{name}:{problem.line}"
+    return "" if problem.file is None else place_of_line(problem.file, problem.line)
+
+
+def place_of_line(file: str, line: int | None) -> str:
+    """Return the name of a file, and a line in it."""
+    name = text(PurePath(file).name, _LONGEST_FILE)
+    return name if line is None else f"{name}:{line}"
 
 
 def without_folders(value: Json) -> Json:

@@ -1,0 +1,143 @@
+"""A lesson in a session: the step that is shown, and what holds of it by now.
+
+What the student has written is read in a thread, after each save and each text that is
+typed in the page. That counts no try: only the button Check does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from sambot_viz.lessons.evaluation import DemandResult, faults_in
+from sambot_viz.lessons.lesson import LessonStep
+from sambot_viz.lessons.study import Study
+from sambot_viz.session.background import Background
+from sambot_viz.session.signals import Change, Signal, connect
+from sambot_viz.unsaved import unsaved
+
+
+class ShownLesson:
+    """The lesson of one session.
+
+    Args:
+        study: the student's way through it.
+        texts: whole path of a file → its text in the page, where that is not saved.
+        facts: after a change of one of these the student may have written something.
+        change: of the session.
+        report: shows an error that nobody expected.
+
+    Attributes:
+        study: the student's way through it.
+        changed: told after a change of what is shown.
+        step: the step that is shown.
+        outcomes: what holds of it, and what does not; None until that is known.
+        checking: whether a try is being counted.
+        trouble: why the progress cannot be kept; "" when it is.
+    """
+
+    def __init__(
+        self,
+        study: Study,
+        texts: Callable[[], Mapping[str, str]],
+        facts: Iterable[Signal[Any]],
+        change: Change,
+        report: Callable[[Exception], object],
+    ) -> None:
+        self.study, self._texts = study, texts
+        self._change, self._report = change, report
+        self.changed = Signal(change, None)
+        self.step = study.step
+        self.outcomes: list[DemandResult] | None = None
+        self.checking = False
+        self.trouble = ""
+        self._closed = False
+        self._background = Background("sambot-viz-lesson")
+        self._disconnect = connect(facts, self.look)
+        self.look()
+
+    def close(self) -> None:
+        """Follow the session no longer."""
+        self._closed = True
+        self._disconnect()
+
+    def wait(self, timeout: float) -> bool:
+        """Wait until all is looked at; False when that takes longer [s]."""
+        return self._background.wait(timeout)
+
+    # What users do; with the session locked.
+
+    def show(self, number: int) -> None:
+        """Show a step.
+
+        Args:
+            number: from 1.
+
+        Raises:
+            UsageError: there is no such step.
+        """
+        self.step = self.study.lesson.step(number)
+        self.outcomes = None
+        self.changed.touch()
+        self.look()
+
+    def check(self) -> None:
+        """Count a try of the step that is shown; a second call waits for the first."""
+        if not self.checking:
+            self.checking = True
+            self.changed.touch()
+            self._background.do(self.changed, self._check)
+
+    def look(self) -> None:
+        """Look again at what the student has written; returns at once."""
+        self._background.do(self, self._look)
+
+    # In the thread
+
+    def _check(self) -> None:
+        step = self.step
+        try:
+            outcomes = self._read(step)
+            with self._change(self.changed):
+                self._count(step, outcomes)
+            # The last hint may say what was hidden.
+            self._look()
+        except Exception as error:
+            self._report(error)
+        finally:
+            with self._change(self.changed):
+                self.checking = False
+
+    def _look(self) -> None:
+        with self._change.lock:
+            step, texts = self.step, self._texts()
+            if self._closed:
+                return
+        try:
+            outcomes = self._read(step)
+        except Exception as error:
+            self._report(error)
+            return
+        with self._change():
+            if step is not self.step:
+                return
+            passed = self.study.progress.of(step.name).passed
+            if not passed and not texts and not faults_in(outcomes):
+                self._count(step, outcomes)
+            if outcomes != self.outcomes:
+                self.outcomes = outcomes
+                self.changed.touch()
+
+    def _read(self, step: LessonStep) -> list[DemandResult]:
+        with self._change.lock:
+            texts = dict(self._texts())
+        with unsaved(texts):
+            return self.study.outcomes(step, self.study.work_of(step, edited=texts))
+
+    def _count(self, step: LessonStep, outcomes: Iterable[DemandResult]) -> None:
+        try:
+            self.study.count(step, faults_in(outcomes))
+            self.trouble = ""
+        except OSError as error:
+            self.trouble = f"the progress cannot be kept: {error.strerror}"
+        self.changed.touch()
