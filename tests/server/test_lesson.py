@@ -203,3 +203,26 @@ def test_a_picture_of_the_lesson_comes_with_its_text(
     picture = desk.value("text")["blocks"][0]
     assert picture["text"] == "a box"
     assert picture["data"] == "data:image/svg+xml;base64,PHN2Zy8+"
+
+
+def test_progress_that_cannot_be_kept_is_told(learn: Learn) -> None:
+    desk = learn(WRONG)
+    (desk.folder / PROGRESS_FILE).mkdir()
+    desk.check()
+    desk.client.wait_until(lambda: desk.value("state")["trouble"])
+    assert desk.value("state")["trouble"].startswith("the progress cannot be kept: ")
+
+
+def test_a_step_about_another_file_says_that_the_view_shows_the_first(
+    learn: Learn, tmp_path: Path
+) -> None:
+    lesson = tmp_path / "lesson"
+    shutil.copytree(BASE, lesson)
+    text = (lesson / "lesson.yaml").read_text()
+    own = "title: A wheel\n    model: wheel.urdf"
+    (lesson / "lesson.yaml").write_text(text.replace("title: A wheel", own))
+    desk = learn(RIGHT, lesson)
+    desk.client.act("lesson/show", 2)
+    desk.client.wait_until(lambda: desk.value("text")["other_model"] == "wheel.urdf")
+    desk.client.act("lesson/show", 1)
+    desk.client.wait_until(lambda: desk.value("text")["other_model"] == "")

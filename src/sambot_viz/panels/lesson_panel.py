@@ -41,7 +41,14 @@ class LessonPanel(Panel):
         text = self._study.text_of(step)
         return [
             Data("lesson/steps", {"title": self._study.lesson.title, **self._steps()}),
-            Data("lesson/text", {"title": step.title, "blocks": self._blocks(text)}),
+            Data(
+                "lesson/text",
+                {
+                    "title": step.title,
+                    "blocks": self._blocks(text),
+                    "other_model": self._lesson.other_model,
+                },
+            ),
             Data("lesson/hints", [self._blocks(hint) for hint in hints]),
             Data("lesson/state", self._state()),
         ]

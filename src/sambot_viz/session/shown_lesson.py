@@ -33,6 +33,7 @@ class ShownLesson:
         step: the step that is shown.
         outcomes: what holds of it, and what does not; None until that is known.
         checking: whether a try is being counted.
+        other_model: the name of its model file, where the view shows another one.
         trouble: why the progress cannot be kept; "" when it is.
     """
 
@@ -48,9 +49,10 @@ class ShownLesson:
         self._change, self._report = change, report
         self.changed = Signal(change, None)
         self.step = study.step
+        self._model = study.model_of(self.step)
         self.outcomes: list[DemandResult] | None = None
         self.checking = False
-        self.trouble = ""
+        self.trouble = self.other_model = ""
         self._closed = False
         self._background = Background("sambot-viz-lesson")
         self._disconnect = connect(facts, self.look)
@@ -78,6 +80,8 @@ class ShownLesson:
         """
         self.step = self.study.lesson.step(number)
         self.outcomes = None
+        model = self.study.model_of(self.step)
+        self.other_model = "" if model == self._model else model.name
         self.changed.touch()
         self.look()
 

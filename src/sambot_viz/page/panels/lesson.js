@@ -45,6 +45,11 @@ export function LessonPanel() {
     <div class="page" ref=${scrolled}>
       <h2>${`${all.shown}. ${text.title}`}</h2>
       <${Blocks} blocks=${text.blocks} />
+      ${
+        text.other_model &&
+        html`<p class="l-warn">This step is about ${text.other_model}, and the view shows the file
+          of another one. Call the program again to begin with this one.</p>`
+      }
       <${Conditions} />
       <${Hints} />
     </div>
