@@ -74,7 +74,7 @@ NO_LIMITS = {
         sources/zenoh/readings.py _LONGEST_PAUSE
         sources/dds/ends.py _LONGEST_WRITE
         sources/dds/participant.py LONGEST_STOP
-        sources/zenoh/session.py LONGEST_OPENING
+        sources/zenoh/session.py LONGEST_OPENING _LONGEST_TELLING
     """,
     "work: what is kept to be quick, or for how long a quick way is taken": """
         displays/robot_model/link_overlays.py MOST_ELEMENTS

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from lesson_files import BASE
+from lower_limit import lower
 
 from sambot_viz.errors import LessonError, UsageError
 from sambot_viz.lessons.read_lesson import lesson_names, open_lesson, read_lesson
@@ -132,3 +133,13 @@ def test_a_lesson_is_opened_by_name_file_or_folder() -> None:
 @pytest.mark.parametrize("name", lesson_names())
 def test_a_lesson_that_ships_is_called_as_its_folder(name: str) -> None:
     assert open_lesson(name).name == name
+
+
+def test_a_lesson_that_is_too_large_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = write(tmp_path, GOOD)
+    lower(monkeypatch, "LESSON", len(GOOD) - 1)
+    with pytest.raises(LessonError) as refused:
+        read_lesson(file)
+    assert [p.code for p in refused.value.problems] == ["lesson-unreadable"]

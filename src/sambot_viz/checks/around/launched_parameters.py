@@ -25,7 +25,7 @@ _OWN_RULES = frozenset({"use_sim_time", "robot_description"})
 _TYPES = {"bool": "boolean", "int": "integer", "float": "number", "str": "string"}
 
 
-class _Given(NamedTuple):
+class _GivenValue(NamedTuple):
     """A parameter in a launch file.
 
     Attributes:
@@ -58,7 +58,7 @@ def launched_parameters(around: Surroundings) -> Iterator[Problem]:
             yield from _wrong(package, program, list(_in_element(node)))
 
 
-def _wrong(package: str, program: str, given: list[_Given]) -> Iterator[Problem]:
+def _wrong(package: str, program: str, given: list[_GivenValue]) -> Iterator[Problem]:
     known = known_nodes().nodes.get((package, program)) if given else None
     block = known_parameters().nodes.get(known.name) if known is not None else None
     names = {one.name for one in given}
@@ -68,7 +68,7 @@ def _wrong(package: str, program: str, given: list[_Given]) -> Iterator[Problem]
 
 
 def _of_block(
-    one: _Given, block: ParameterBlock, names: set[str], program: str
+    one: _GivenValue, block: ParameterBlock, names: set[str], program: str
 ) -> Iterator[Problem]:
     known, near = block.find(one.name), block.meant(one.name, names)
     if near is not None:
@@ -94,7 +94,7 @@ def _of_block(
         )
 
 
-def _in_call(launch: LaunchFile, call: Call) -> Iterator[_Given]:
+def _in_call(launch: LaunchFile, call: Call) -> Iterator[_GivenValue]:
     for table, _ in call.listing("parameters").items:
         for pair in table.pairs if isinstance(table, Table) else ():
             node, name = pair.node, pair.key
@@ -107,10 +107,12 @@ def _in_call(launch: LaunchFile, call: Call) -> Iterator[_Given]:
 
             if isinstance(name, str):
                 there = launch.place(pair.key_node)
-                yield _Given(name, kind, str(value), launch.place(node), there, fix)
+                yield _GivenValue(
+                    name, kind, str(value), launch.place(node), there, fix
+                )
 
 
-def _in_element(node: Element) -> Iterator[_Given]:
+def _in_element(node: Element) -> Iterator[_GivenValue]:
     for param in node.find_all("param"):
         name, value = param.get("name"), param.get("value")
         if not name or value is None or OPEN.search(value) or param.get("sep"):
@@ -126,4 +128,4 @@ def _in_element(node: Element) -> Iterator[_Given]:
                 return Fix(f"write {right}")
             return write_attribute(param.place, "value", value, right)
 
-        yield _Given(name, kind, value, place, place, fix)
+        yield _GivenValue(name, kind, value, place, place, fix)

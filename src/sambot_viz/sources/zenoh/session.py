@@ -110,7 +110,7 @@ class ZenohSession:
         # A router answers one after the other: after those tokens that there are none.
         liveliness.get(
             _NO_TOKEN,
-            _at_once(lambda reply: None, lambda: self._post(all_told)),
+            _in_a_thread(lambda: self._post(all_told)),
             timeout=_LONGEST_TELLING,
         )
 
@@ -277,16 +277,20 @@ def _refused(address: Address) -> str:
     )
 
 
-def _at_once(
-    callback: Callable[[Any], object], ended: Callable[[], object] | None = None
-) -> Any:
-    """Return a handler that is called without a Python thread of its own.
+def _at_once(callback: Callable[[Any], object]) -> Any:
+    """Return a handler that is called without a Python thread of its own."""
+    import zenoh
 
-    Args:
-        callback: is called with what comes.
-        ended: is called when nothing more comes.
+    library: Any = zenoh
+    return library.handlers.Callback(callback, indirect=False)
+
+
+def _in_a_thread(ended: Callable[[], object]) -> Any:
+    """Return a handler that calls back, in a thread, when nothing more comes.
+
+    At its end zenoh holds a lock, for which `is_closed` waits with that of Python.
     """
     import zenoh
 
     library: Any = zenoh
-    return library.handlers.Callback(callback, ended, indirect=False)
+    return library.handlers.Callback(lambda reply: None, ended, indirect=True)
