@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import yaml
 
 from sambot_viz.checks import check
 from sambot_viz.edits import apply_edits
@@ -133,6 +134,22 @@ def test_a_misspelt_ros_parameters(copied: Copied, wrong: str) -> None:
     assert wrong in problem.message
     assert "display.launch.py line 40" in problem.message
     assert problem.hint == "write ros__parameters"
+
+
+@pytest.mark.parametrize("indent", ["  ", "    "])
+def test_values_that_are_not_below_ros_parameters(copied: Copied, indent: str) -> None:
+    package = copied("gz")
+    right = (package / EKF).read_text()
+    text = right.replace("  ros__parameters:\n", "").replace("\n    ", f"\n{indent}")
+    (package / EKF).write_text(text)
+    (problem,) = found(package)
+    assert (problem.code, problem.severity) == ("parameters-key", "error")
+    assert (problem.file, problem.line) == (str(package / EKF), 1)
+    assert "display.launch.py line 40" in problem.message
+    mended = apply_edits(problem.edits, text)
+    assert yaml.safe_load(mended) == yaml.safe_load(right)
+    (package / EKF).write_text(mended)
+    assert found(package) == []
 
 
 def test_a_key_below_ros_parameters_is_a_parameter(copied: Copied) -> None:

@@ -160,6 +160,7 @@ from sambot_viz.checks.around.shared_topics import shared_topics
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
+    missing_key,
     misspelt_key,
     unreadable_python,
     unreadable_yaml,
@@ -207,6 +208,7 @@ OF_FILES: tuple[Check, ...] = (
     entries_without_type,
     misspelt_entries,
     empty_parameters,
+    missing_key,
     misspelt_key,
     wrong_values,
     unreadable_parameters,

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import Any, cast
 
 import yaml
 
-from sambot_viz.checks.around.files.parameters import YamlFile, pairs
+from sambot_viz.checks.around.files.parameters import YamlFile, pairs, place_of
 from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
-from sambot_viz.edits import write
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.edits import source_of, write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _KNOWN = re.compile(
     r"(.*/)?(ekf|ukf|nav2|amcl|slam|navsat|.*bridge|.*params|.*controllers?)"
@@ -83,6 +84,51 @@ def misspelt_key(around: Surroundings) -> Iterator[Problem]:
                 f"file is for{named} finds no parameters and stops",
                 write(place, key, _KEY),
             )
+
+
+def missing_key(around: Surroundings) -> Iterator[Problem]:
+    """Report files given to nodes whose values are not below ros__parameters."""
+    files = {file.shown: file for file in around.yaml_files}
+    users = {
+        given.shown: (node, given)
+        for node in reversed(around.running.started)
+        for given in node.files
+    }
+    for shown, (node, given) in users.items():
+        file = files.get(shown)
+        for key, block in pairs(file.root) if file and not file.nodes else ():
+            below = pairs(block)
+            if any(isinstance(value, yaml.ScalarNode) for _, value in below):
+                place = Place(shown, key.start_mark.line + 1)
+                if any(nearest(k.value, [_KEY], _LIKENESS) for k, _ in pairs(block)):
+                    continue
+                yield Problem.at(
+                    place,
+                    "error",
+                    "parameters-key",
+                    f"the values of {key.value} are not below {_KEY}: {node.name}, "
+                    f"which is given this file ({where(given.place, place)}), stops",
+                    _put_below(key, block, shown),
+                )
+
+
+def _put_below(key: yaml.Node, block: yaml.Node, shown: str) -> Fix:
+    """Return the fix that writes the key above a block, which moves where it must."""
+    source = source_of(shown)
+    above, first = (place_of(node, shown).column or 1 for node in (key, block))
+    hint = f"write {_KEY}: above them, and move them to the right"
+    if source is None:
+        return Fix(hint)
+    begin = cast("Any", block).start_mark.line
+    lines = source.text.split("\n")[begin : cast("Any", block).end_mark.line + 1]
+    # The mark of the end is where the next block begins, or what stands above it.
+    while len(lines) > 1 and not lines[-1][: first - 1].isspace():
+        lines.pop()
+    move = max(0, above + 4 - first)
+    own = [f"{' ' * move}{line}" if line[:1].isspace() else line for line in lines]
+    text = "\n".join([" " * ((above + first + move) // 2 - 1) + f"{_KEY}:", *own])
+    end = Place(shown, begin + len(lines), len(lines[-1]) + 1)
+    return write_between(Place(shown, begin + 1, 1), end, text, hint)
 
 
 def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
