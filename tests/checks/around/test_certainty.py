@@ -404,6 +404,7 @@ def test_a_yaml_file_that_is_none_does_no_harm(
         "clock-not-bridged",
         "launch-parameters-unread",
         "parameters-empty",
+        "parameters-key",
         "parameters-yaml",
     }
     assert time.process_time() - begin < 3

@@ -150,3 +150,23 @@ def test_a_state_interface_that_is_missing(package: Path) -> None:
     assert problem.hint == 'add <state_interface name="position"/> to the joint'
     model.write_text(apply_edits(problem.edits, model.read_text()))
     assert CODES.isdisjoint(found.code for found in check(model))
+
+
+def test_a_joint_that_is_in_ros2_control_already_is_not_meant_again(
+    package: Path,
+) -> None:
+    model = package / "r.urdf"
+    renamed = MODEL.replace("right_joint", "second_joint", 1)
+    for text, hint, edits in (
+        (renamed, "write second_joint", 1),
+        (
+            renamed.replace("</robot>", f"{LINK.format('lamp')}</robot>"),
+            "write the joint that is meant",
+            0,
+        ),
+    ):
+        model.write_text(text)
+        found = [p for p in check(model) if p.file == str(model)]
+        assert [(p.hint, len(p.edits)) for p in found if p.code == "gazebo-joint"] == [
+            (hint, edits)
+        ]

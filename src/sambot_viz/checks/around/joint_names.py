@@ -131,9 +131,14 @@ def _named_joints(robot: Robot) -> Iterator[tuple[Fact, _User]]:
                 )
     for part in robot.gazebo:
         if part.tag == "ros2_control":
-            for joint in part.find_all("joint"):
+            joints = part.find_all("joint")
+            for joint in joints:
                 fact = Fact(joint.get("name") or "", joint.place)
-                yield fact, _User("<ros2_control>", drives=False)
+                taken = {other.get("name") or "" for other in joints} - {fact.value}
+                yield (
+                    fact,
+                    _User("<ros2_control>", False, taken=frozenset(taken)),
+                )
 
 
 def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
@@ -148,10 +153,17 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
                 Fix(f"write the joint of the {side}wheel"),
             )
     else:
-        near = nearest(fact.value, robot.joints)
+        near = nearest(fact.value, [j for j in robot.joints if j not in user.taken])
     if near is None:
         movable = [j.name for j in robot.joints.values() if j.type != "fixed"]
-        near = next(iter(movable or robot.joints), "")
+        free = [name for name in movable if name not in user.taken]
+        if len(free) > 1:
+            return (
+                f"{user.name} names the joint {fact.value}, which does not exist: the "
+                f"model has {listed(free)}",
+                Fix("write the joint that is meant"),
+            )
+        near = next(iter(free or movable or robot.joints), "")
     known = robot.joints.get(near)
     place = known.place if known else robot.links[robot.root].place
     what = f"the model has {near}" if near else "the model has no joints"
