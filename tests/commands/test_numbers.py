@@ -33,7 +33,7 @@ OTHERS = {
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
     "A", "B", "JOINT", "NAME", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
-    "FROM:=TO", "FORMAT",
+    "FROM:=TO", "FORMAT", "LESSON", "STEP", "TRACK",
 }  # fmt: skip
 """Placeholders of what is no number."""
 

@@ -292,5 +292,8 @@ def _in_a_thread(ended: Callable[[], object]) -> Any:
     """
     import zenoh
 
+    def answered(reply: Any) -> None:
+        """Wait for the end."""
+
     library: Any = zenoh
-    return library.handlers.Callback(lambda reply: None, ended, indirect=True)
+    return library.handlers.Callback(answered, ended, indirect=True)
