@@ -152,6 +152,13 @@ def test_values_that_are_not_below_ros_parameters(copied: Copied, indent: str) -
     assert found(package) == []
 
 
+def test_values_in_one_line_are_not_moved(copied: Copied) -> None:
+    package = copied("gz")
+    (package / EKF).write_text("ekf_filter_node: {frequency: 30.0}\n")
+    problem = next(p for p in found(package) if p.code == "parameters-key")
+    assert problem.line == 1 and problem.edits == ()
+
+
 def test_a_key_below_ros_parameters_is_a_parameter(copied: Copied) -> None:
     package = copied("gz")
     edit(package / EKF, "    publish_tf", "    ros_parameters: {a: 1}\n    publish_tf")

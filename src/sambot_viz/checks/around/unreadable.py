@@ -97,19 +97,23 @@ def missing_key(around: Surroundings) -> Iterator[Problem]:
     for shown, (node, given) in users.items():
         file = files.get(shown)
         for key, block in pairs(file.root) if file and not file.nodes else ():
-            below = pairs(block)
-            if any(isinstance(value, yaml.ScalarNode) for _, value in below):
-                place = Place(shown, key.start_mark.line + 1)
-                if any(nearest(k.value, [_KEY], _LIKENESS) for k, _ in pairs(block)):
-                    continue
-                yield Problem.at(
-                    place,
-                    "error",
-                    "parameters-key",
-                    f"the values of {key.value} are not below {_KEY}: {node.name}, "
-                    f"which is given this file ({where(given.place, place)}), stops",
-                    _put_below(key, block, shown),
-                )
+            below = list(pairs(block))
+            has_values = any(isinstance(v, yaml.ScalarNode) for _, v in below)
+            if not has_values or any(_is_like_key(k.value) for k, _ in below):
+                continue
+            place = Place(shown, key.start_mark.line + 1)
+            yield Problem.at(
+                place,
+                "error",
+                "parameters-key",
+                f"the values of {key.value} are not below {_KEY}: {node.name}, "
+                f"which is given this file ({where(given.place, place)}), stops",
+                _put_below(key, block, shown),
+            )
+
+
+def _is_like_key(written: str) -> bool:
+    return nearest(written, [_KEY], _LIKENESS) is not None
 
 
 def _put_below(key: yaml.Node, block: yaml.Node, shown: str) -> Fix:
@@ -117,9 +121,10 @@ def _put_below(key: yaml.Node, block: yaml.Node, shown: str) -> Fix:
     source = source_of(shown)
     above, first = (place_of(node, shown).column or 1 for node in (key, block))
     hint = f"write {_KEY}: above them, and move them to the right"
-    if source is None:
-        return Fix(hint)
     begin = cast("Any", block).start_mark.line
+    if source is None or begin == cast("Any", key).start_mark.line:
+        # Nothing can be moved in {a: 1, b: 2}, behind the key.
+        return Fix(hint)
     lines = source.text.split("\n")[begin : cast("Any", block).end_mark.line + 1]
     # The mark of the end is where the next block begins, or what stands above it.
     while len(lines) > 1 and not lines[-1][: first - 1].isspace():
@@ -137,7 +142,7 @@ def _above_parameters(file: YamlFile) -> Iterator[tuple[str, Place]]:
     for _ in range(4):
         below = [pair for node in level for pair in pairs(node)][:1000]
         for key, _value in below:
-            if key.value != _KEY and nearest(key.value, [_KEY], _LIKENESS):
+            if key.value != _KEY and _is_like_key(key.value):
                 yield key.value, Place(file.shown, key.start_mark.line + 1)
         level = [value for key, value in below if key.value != _KEY]
 
