@@ -20,6 +20,7 @@ from sambot_viz.robot.parts import (
     MeshFile,
     Origin,
     Sphere,
+    written_sizes,
 )
 
 if TYPE_CHECKING:
@@ -195,12 +196,13 @@ def _sides(geometry: Geometry) -> tuple[float, float]:
 
 def written_lengths(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
     """Return what the numbers of a shape are, and the numbers."""
-    if isinstance(geometry, Box):
-        return "size of the box", geometry.size
-    if isinstance(geometry, Sphere):
-        return "radius of the sphere", (geometry.radius,)
-    if isinstance(geometry, Cylinder):
-        return "radius and length of the cylinder", (geometry.radius, geometry.length)
-    if isinstance(geometry, Capsule):
-        return "radius and length of the capsule", (geometry.radius, geometry.length)
-    return "scale of the mesh", geometry.scale
+    return _NUMBERS[type(geometry)], written_sizes(geometry)
+
+
+_NUMBERS = {
+    Box: "size of the box",
+    Sphere: "radius of the sphere",
+    Cylinder: "radius and length of the cylinder",
+    Capsule: "radius and length of the capsule",
+    MeshFile: "scale of the mesh",
+}

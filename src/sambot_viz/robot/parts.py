@@ -103,6 +103,19 @@ class MeshFile:
 Geometry = Box | Cylinder | Sphere | Capsule | MeshFile
 
 
+def written_sizes(geometry: Geometry) -> tuple[float, ...]:
+    """Return the numbers that a shape is written with [m]; the scale of a mesh."""
+    match geometry:
+        case Box():
+            return geometry.size
+        case Sphere():
+            return (geometry.radius,)
+        case Cylinder() | Capsule():
+            return geometry.radius, geometry.length
+        case MeshFile():
+            return geometry.scale
+
+
 @dataclass(frozen=True, slots=True)
 class Material:
     """A resolved material: what urdfdom would hand to RViz.

@@ -28,14 +28,12 @@ from sambot_viz.lessons.reading.values import (
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.balance.solid_feet import half_sides, solid_foot
 from sambot_viz.robot.parts import (
-    Box,
-    Capsule,
-    Cylinder,
     Geometry,
     Link,
     MeshFile,
     Shape,
     Sphere,
+    written_sizes,
 )
 
 _STRAIGHT = 0.9999
@@ -43,15 +41,9 @@ _STRAIGHT = 0.9999
 
 def measured(geometry: Geometry) -> tuple[str, tuple[float, ...]]:
     """Return the element of a shape and its sizes [m]; none for a mesh."""
-    if isinstance(geometry, Box):
-        return "box", geometry.size
-    if isinstance(geometry, Sphere):
-        return "sphere", (geometry.radius,)
-    if isinstance(geometry, Cylinder):
-        return "cylinder", (geometry.radius, geometry.length)
-    if isinstance(geometry, Capsule):
-        return "capsule", (geometry.radius, geometry.length)
-    return "mesh", ()
+    if isinstance(geometry, MeshFile):
+        return "mesh", ()
+    return type(geometry).__name__.lower(), written_sizes(geometry)
 
 
 def in_words(geometry: Geometry) -> str:
