@@ -278,10 +278,11 @@ def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem
     here = (export or root).place
     yield Problem.at(
         Place(around.files.shown(_FILE), here.line, here.column),
-        "error",
+        # A CMakeLists.txt catkin may get through, a setup.py it never does.
+        "error" if cmake is None else "warning",
         "package-build-type",
         "package.xml has no <build_type>, so that colcon builds the package with "
-        "catkin, the one of ROS 1: colcon build stops",
+        "catkin, the one of ROS 1" + (": colcon build stops" if cmake is None else ""),
         f"add {added} inside it",
     )
 
