@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from importlib import metadata
 from pathlib import Path
 
+from sambot_viz import extras
+
 
 def declared(repository: Path) -> dict[str, str]:
     return listed(repository, "dependencies")
@@ -58,13 +60,25 @@ def test_what_is_imported_is_declared_and_the_other_way_round(
     repository: Path,
 ) -> None:
     wanted = {name.lower() for name in declared(repository)}
-    extras = {*listed(repository, "zenoh"), *listed(repository, "dds")}
-    assert wanted | extras == imported(repository)
+    optional = {*listed(repository, "zenoh"), *listed(repository, "dds")}
+    assert wanted | optional == imported(repository)
+
+
+def test_the_packages_of_the_extras_are_those_that_are_advised(
+    repository: Path,
+) -> None:
+    text = (repository / "pyproject.toml").read_text("utf-8")
+    table = text.partition("[project.optional-dependencies]")[2].partition("\n[p")[0]
+    blocks = re.findall(r"^(\w+) = \[\n(.*?)^\]", table, re.MULTILINE | re.DOTALL)
+    written = {name: tuple(re.findall(r'"([^"]+)"', block)) for name, block in blocks}
+    assert dict(extras.PACKAGES) == written
+    command = extras.installation("zenoh")
+    assert command == 'pip install "eclipse-zenoh>=1.10,<2"'
 
 
 def test_every_declared_package_has_a_reason(repository: Path) -> None:
     # What is for Jupyter is not imported: it starts this program.
-    extras = (listed(repository, name) for name in ("jupyter", "zenoh", "dds"))
-    named = {**declared(repository), **ChainMap(*extras)}
+    optional = (listed(repository, name) for name in ("jupyter", "zenoh", "dds"))
+    named = {**declared(repository), **ChainMap(*optional)}
     assert [name for name, why in named.items() if not why] == []
     assert "jupyter-server-proxy" in named

@@ -352,8 +352,8 @@ def test_without_its_package_one_line_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(registry, "find_spec", lambda name: None)
-    for uri, extra in (("zenoh://robot", "zenoh"), ("dds:", "dds")):
-        with pytest.raises(UsageError, match=rf'pip install "sambot-viz\[{extra}\]"'):
+    for uri, package in (("zenoh://robot", "eclipse-zenoh"), ("dds:", "cyclonedds")):
+        with pytest.raises(UsageError, match=f'pip install "{package}[^"]+"$'):
             registry.open_source(uri)
     assert registry.live_address("foxglove://robot").port == 8765
 

@@ -33,6 +33,7 @@ from pathlib import Path
 from string import Template
 from typing import Any, Protocol
 
+from sambot_viz.extras import installation
 from sambot_viz.options import Options
 
 HEIGHT = 600
@@ -45,7 +46,7 @@ _ANSWERS_WITHIN = 2.0
 _ALL_NETWORKS = ("", "*", "0.0.0.0", "::")
 _WITHOUT_PROXY = (
     "The page cannot be shown here: your Jupyter server has no jupyter-server-proxy. "
-    'Run pip install "sambot-viz[jupyter]" where it is installed, and start it again.'
+    f"Run {installation('jupyter')} where it is installed, and start it again."
 )
 
 

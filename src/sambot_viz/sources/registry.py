@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from sambot_viz.errors import UsageError
+from sambot_viz.extras import installation
 from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.sources.live.address import Address, parse_address
 from sambot_viz.sources.source import Source
@@ -15,7 +16,7 @@ KNOWN = f"FILE or folder of a recording, {LIVE_SOURCES}"
 _LATER = ("rclpy",)
 _LIVE = ("foxglove", "rosbridge", "ws", "wss", "zenoh", "dds")
 _EXTRAS = {"zenoh": "zenoh", "dds": "cyclonedds"}
-"""Kinds that need a package, from an extra that is called like them."""
+"""Kinds that need a package → its module; the extra is called like the kind."""
 
 
 def is_live(uri: str) -> bool:
@@ -41,7 +42,7 @@ def live_address(uri: str) -> Address:
         raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
     if scheme in _EXTRAS and find_spec(_EXTRAS[scheme]) is None:
         raise UsageError(
-            f'{text(uri)}: needs the extra {scheme}: pip install "sambot-viz[{scheme}]"'
+            f"{text(uri)}: needs {_EXTRAS[scheme]}: {installation(scheme)}"
         )
     return parse_address(uri)
 
