@@ -5,11 +5,12 @@ from __future__ import annotations
 import tempfile
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
 from sambot_viz.errors import Problem, SourceError
+from sambot_viz.outlet import write_err
 from sambot_viz.sources.bag import open_recording
 from sambot_viz.sources.message import SourceTopic
 from sambot_viz.sources.playback import RecordingPlayback
@@ -21,6 +22,9 @@ from sambot_viz.topics.source_robot import SourceRobot
 CONNECTED_WITHIN = LONGEST_SILENCE + 2.0
 """A robot that has told no topics after this time is not there; by then it is known
 whether what is there speaks another protocol [s]."""
+
+QUIET = 1.0
+"""A robot that does not answer for so long is waited for with a note [s]."""
 
 
 class Listened:
@@ -56,7 +60,9 @@ class Listened:
             if self._listen(live, path):
                 types = live.decoding.types
                 heard = RecordingPlayback(open_recording(path), live.name)
-                self.recorded = SourceRobot(heard, types, at=at, is_heard=True)
+                self.recorded = SourceRobot(
+                    heard, types, at=at, published=self._published()
+                )
                 text = self.recorded.description or ""
                 self.missing = fetch_files(live.source, text, self.packages)
         except BaseException:
@@ -70,6 +76,14 @@ class Listened:
         if self.recorded is not None:
             self.recorded.close()
         self._folder.cleanup()
+
+    def _published(self) -> Collection[str]:
+        """Return the topics of the robot that have a publisher, as far as is known."""
+        return [
+            one.name
+            for one in self.topics.values()
+            if one.publishers is None or one.publishers
+        ]
 
     def _listen(self, live: SourceRobot, path: Path) -> bool:
         """Write what comes to a file; False when that is nothing."""
@@ -100,14 +114,18 @@ class Listened:
         return status.messages > 0
 
     def _wait_for_topics(self, live: SourceRobot, changed: threading.Event) -> None:
-        source, until = live.source, time.monotonic() + CONNECTED_WITHIN
+        source, begin = live.source, time.monotonic()
+        until, told = begin + CONNECTED_WITHIN, begin + QUIET
         # It may have left already: then what it said until then is shown.
         while not source.topics():
             left = until - time.monotonic()
             if left <= 0:
                 none = "; it has no topic" if source.status.is_connected else ""
                 raise SourceError(f"{source.status.sentence}{none}")
-            changed.wait(left)
+            if time.monotonic() >= told and not source.status.is_connected:
+                told = until
+                write_err(f"{source.status.sentence}; trying for {left:.0f} s more …")
+            changed.wait(min(left, QUIET))
             changed.clear()
 
 

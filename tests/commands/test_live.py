@@ -157,6 +157,39 @@ def test_a_robot_that_says_nothing_is_said(peer: FoxglovePeer, capsys: Capture) 
     assert "nothing came within 0.2 s" in err and peer.uri in err
 
 
+def test_a_latched_topic_that_is_silent_is_not_called_missing(
+    peer: FoxglovePeer, capsys: Capture
+) -> None:
+    peer.advertise("/robot_description")
+    peer.advertise("/chatter")
+    source, done = ["--source", peer.uri, "--for", "1"], threading.Event()
+
+    def talk() -> None:
+        while not done.wait(0.02):
+            peer.publish("/chatter", "hello")
+
+    talking = threading.Thread(target=talk)
+    talking.start()
+    try:
+        assert main(["topics", *source]) == 0
+    finally:
+        done.set()
+        talking.join()
+    err = capsys.readouterr().err
+    assert "/robot_description is published, but no message of it came" in err
+    assert "latched (Transient Local)" in err and "--for" in err
+
+
+def test_a_robot_that_does_not_answer_is_waited_for_with_a_note(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listened, "CONNECTED_WITHIN", 0.5)
+    monkeypatch.setattr(listened, "QUIET", 0.1)
+    assert main(["topics", "--source", f"foxglove://127.0.0.1:{free_port()}"]) == 1
+    first, last = capsys.readouterr().err.splitlines()
+    assert first.endswith("s more …") and "foxglove_bridge" in last
+
+
 def test_a_robot_that_is_not_there_is_said(
     capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -181,15 +181,27 @@ class Placement:
         topics = self._robot.topics
         recorded = self._robot.recording is not None and not topics.spaces
         if topics.moving and not topics.static and recorded:
-            return (
-                "/tf_static is not in this recording: record it too (ros2 bag record "
-                "-a, or name it)"
-            )
+            return self._without_static()
         top = top_frame(refused.source, self._transforms.pairs())
         words = f"0 0 0 0 0 0 {refused.target} {top}"
         return (
             f'add it: --static-transform "{words}", or ros2 run tf2_ros '
             f"static_transform_publisher {words}"
+        )
+
+    def _without_static(self) -> str:
+        """Return what to do where the frames that do not move are missing."""
+        published = self._robot.published
+        if published is None:
+            return (
+                "/tf_static is not in this recording: record it too (ros2 bag record "
+                "-a, or name it)"
+            )
+        if "/tf_static" in published:
+            return reasons.latched_but_silent("/tf_static")
+        return (
+            "nothing publishes /tf_static: start robot_state_publisher, or what else "
+            "tells the frames that do not move"
         )
 
     def _begin(self, at_ns: int | None, *, is_later: bool = False) -> str:

@@ -265,6 +265,14 @@ def nothing_came(seconds: float) -> TopicReason:
     return TopicReason("no-message", text)
 
 
+def latched_but_silent(name: str) -> str:
+    """Say that nothing came of a live robot's latched topic, and how to get it."""
+    return (
+        f"{name} is published, but no message of it came: let its publisher be latched "
+        "(Transient Local), start its node again, or listen longer with --for"
+    )
+
+
 def not_listened() -> TopicReason:
     """Say that messages are not asked for, as they would fill the network."""
     return TopicReason(

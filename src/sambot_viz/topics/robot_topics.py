@@ -102,7 +102,12 @@ def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTo
 
 def describes_robot(name: str, type_name: str) -> bool:
     """Return whether a topic describes a robot, by its name and type."""
-    return meaning_of(type_name) is Meaning.TEXT and _last(name) == "robot_description"
+    return meaning_of(type_name) is Meaning.TEXT and is_description(name)
+
+
+def is_description(name: str) -> bool:
+    """Return whether a topic is called as those that describe robots."""
+    return _last(name) == "robot_description"
 
 
 def stand_in_model(link: str = STAND_IN_LINK) -> str:

@@ -29,11 +29,13 @@ from sambot_viz.topics.first_topics import shown_at_first
 from sambot_viz.topics.joint_index import JointIndex
 from sambot_viz.topics.joint_states import JointNames, JointStateTopics
 from sambot_viz.topics.name_spaces import NameSpaces, space_of
+from sambot_viz.topics.reasons import latched_but_silent
 from sambot_viz.topics.robot_topics import (
     STAND_IN_LINK,
     STAND_IN_NAME,
     RobotTopics,
     base_frame,
+    is_description,
     robot_topics,
     stand_in_model,
     top_frame,
@@ -77,11 +79,13 @@ class SourceRobot:
             there.
         recordings: the folder of recordings of a live robot that users of the page
             start; None: they may not.
-        is_heard: whether it is what a live robot has said within some seconds.
+        published: the topics of a live robot, where the source is what it said within
+            some seconds; None for other sources.
 
     Attributes:
         source: as given.
         name: as given.
+        published: as given.
         given: what a user has named it by.
         spaces: name the frames of robots with name spaces.
         decoding: decodes its messages.
@@ -105,9 +109,10 @@ class SourceRobot:
         at: float | None = None,
         recordings: Path | None = None,
         *,
-        is_heard: bool = False,
+        published: Collection[str] | None = None,
     ) -> None:
         self.source = source
+        self.published = published
         self.name = name or source.uri
         self.given: Sequence[GivenSource] = ()
         self._lease: Callable[[], Lease | None] = lambda: None
@@ -121,7 +126,6 @@ class SourceRobot:
         self.on_topics: list[Callable[[], object]] = []
         self.on_status: list[Callable[[], object]] = []
         self.at_ns: int | None = None
-        self._is_heard = is_heard
         self._framed = threading.Condition()
         self._seen = 0
         self._texts: dict[str, str] = {}
@@ -209,6 +213,7 @@ class SourceRobot:
         shown = "showing frames only" if frames else "no transforms either"
         if shown_at_first(self.types):
             shown = "showing its data"
+        silent = next(filter(is_description, self.published or ()), None)
         # Who wants to see frames or a sensor has not asked for a robot.
         severity: Severity = (
             "info" if frames or shown == "showing its data" else "warning"
@@ -217,7 +222,9 @@ class SourceRobot:
             severity,
             "no-description",
             f"no robot model in {self.name} ({told}); {shown}",
-            "add --model ROBOT.urdf.xacro",
+            "add --model ROBOT.urdf.xacro"
+            if silent is None
+            else f"{latched_but_silent(silent)}; or add --model ROBOT.urdf.xacro",
         )
         return (*found, missing)
 
@@ -229,7 +236,7 @@ class SourceRobot:
         length, asked = (end - start) * 1e-9, (at_ns - start) * 1e-9
         nearest = "its end" if asked > 0 else "its begin"
         hint = f"give a time from 0 to {length:.3f} with --at"
-        if self._is_heard:
+        if self.published is not None:
             hint = f"{hint}, or listen longer with --for"
         yield Problem(
             "warning",
