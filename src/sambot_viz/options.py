@@ -243,7 +243,7 @@ class Options:
     )
     joint_positions: Mapping[str, float] = option(
         None,
-        f"position of a joint at the start [rad or m]{AGAIN}",
+        f"position of a joint at the start [rad, m, or as 90deg]{AGAIN}",
         "--joint",
         factory=dict,
         group="pose",
@@ -534,6 +534,12 @@ class Options:
         """Whether the robot is the one that a live source will describe."""
         live = self.live_sources
         return self.model is None and bool(live) and live == self.sources
+
+    @property
+    def names_wheels(self) -> bool:
+        """Whether they say anything of the wheels to drive with."""
+        wheels = (self.left_wheel, self.right_wheel)
+        return (*wheels, self.wheel_radius, self.wheel_separation) != (None,) * 4
 
     @property
     def start_pose(self) -> StartPose:

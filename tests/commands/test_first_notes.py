@@ -44,6 +44,14 @@ def test_a_fixed_frame_that_does_not_exist_is_said_once_with_the_nearest(
     assert "no fixed frame 'base_lnk' (-f): did you mean 'base_link'?" in note
 
 
+def test_a_wheel_that_does_not_exist_is_said_with_the_nearest(tmp_path: Path) -> None:
+    words = ["--left-wheel", "drivewhl_l_jnt", "--right-wheel", "drivewhl_r_joint"]
+    note = note_of(words, tmp_path)
+    assert (
+        "no continuous joint 'drivewhl_l_jnt'; did you mean 'drivewhl_l_joint'" in note
+    )
+
+
 def test_a_frame_that_exists_is_no_news(capsys: pytest.CaptureFixture[str]) -> None:
     with (
         Inputs(Options(fixed_frame="drivewhl_l_link", port=0)) as inputs,

@@ -32,6 +32,12 @@ def test_assignments_are_read_as_given() -> None:
     }
 
 
+def test_an_assignment_has_the_units_that_the_page_takes() -> None:
+    texts = ["a=90deg", "b= -45 °", "c=15mm", "d=1.5 rad", "e=.2m"]
+    values = parse_assignments(texts, "--joint")
+    assert list(values.values()) == [math.pi / 2, -math.pi / 4, 0.015, 1.5, 0.2]
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -44,12 +50,14 @@ def test_assignments_are_read_as_given() -> None:
             "--zeros =1: expected NAME=VALUE, such as --zeros drivewhl_l_joint=1.57",
         ),
         (
-            "wheel=90°",
-            "--zeros wheel=90°: '90°' is not a finite number of radians or metres",
+            "wheel=90grad",
+            "--zeros wheel=90grad: '90grad' is not a finite number of radians or "
+            "metres, nor one with its unit, such as 90deg or 15mm",
         ),
         (
             "wheel=nan",
-            "--zeros wheel=nan: 'nan' is not a finite number of radians or metres",
+            "--zeros wheel=nan: 'nan' is not a finite number of radians or metres, "
+            "nor one with its unit, such as 90deg or 15mm",
         ),
     ],
 )

@@ -258,7 +258,7 @@ def test_only_what_has_moved_is_sent(viz: Visualizer, player: Player) -> None:
 
 
 def test_a_robot_that_a_recording_moves_is_not_driven(viz: Visualizer) -> None:
-    with pytest.raises(JointError, match="a recording moves it"):
+    with pytest.raises(JointError, match="messages move it"):
         session_of(viz).drive.set_velocity(0.1, 0.0)
 
 

@@ -1,4 +1,4 @@
-"""Says in the terminal, once, that a source or a frame of the command is missing."""
+"""Says in the terminal, once, what the command names and is not there."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ def write_notes(stop: threading.Event, inputs: Inputs, sessions: Sessions) -> No
     if inputs.live is not None:
         lives = [one for one in each_of(inputs.live.source) if one.live is not None]
         waiting += [_SourceNote(one).look for one in lives]
+    if inputs.options.names_wheels:
+        waiting.append(_WheelsNote(sessions).look)
     if inputs.options.fixed_frame is not None:
         waiting.append(_FrameNote(inputs, sessions).look)
     while waiting and not stop.wait(PERIOD):
@@ -49,6 +51,21 @@ class _SourceNote:
         if status.retry_s is not None:
             write_err(f"sambot-viz: note: {status.sentence}; the page goes on trying")
         return status.retry_s is not None
+
+
+class _WheelsNote:
+    def __init__(self, sessions: Sessions) -> None:
+        self._sessions = sessions
+
+    def look(self) -> bool:
+        """Return whether a robot has the wheels, or has been said not to."""
+        for session in self._sessions.all()[:1]:
+            if session.robot.model is None:
+                return False
+            for problem in session.drive.problems:
+                write_err(f"sambot-viz: note: wheels to drive with: {problem.message}")
+            return True
+        return False
 
 
 class _FrameNote:

@@ -28,7 +28,7 @@ commands:
   sambot-viz [MODEL]           show a robot in the browser
   sambot-viz check MODEL       report what is wrong with a model, and how to fix it
   sambot-viz expand MODEL      print the URDF that xacro makes from a model
-  sambot-viz echo MODEL SOURCE TARGET
+  sambot-viz echo SOURCE TARGET MODEL
                                print the pose of a frame in another, as tf2_echo does
   sambot-viz frames MODEL [-o FILE.svg|.dot|.json]
                                draw the tree of frames

@@ -14,14 +14,15 @@ from sambot_viz import limits
 from sambot_viz.errors import JointError, UsageError
 from sambot_viz.files import read_limited
 from sambot_viz.geometry import finite
+from sambot_viz.robot.slips.units import quantity
 
 
 def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
     """Read the arguments of ``--joint`` or ``--zeros``.
 
     Args:
-        texts: each "NAME=VALUE", VALUE in radians or metres. The last one of a name
-            counts.
+        texts: each "NAME=VALUE", VALUE in radians or metres, or with its unit, such as
+            90deg or 15mm. The last one of a name counts.
         option: the name of the option, for the message.
 
     Raises:
@@ -41,13 +42,11 @@ def parse_assignments(texts: Iterable[str], option: str) -> dict[str, float]:
 
 
 def _argument(text: str, label: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
+    number = quantity(text)
+    if number is None or not math.isfinite(number):
         raise UsageError(
-            f"{label}: '{text}' is not a finite number of radians or metres"
+            f"{label}: '{text}' is not a finite number of radians or metres, nor one "
+            "with its unit, such as 90deg or 15mm"
         )
     return number
 

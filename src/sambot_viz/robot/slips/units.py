@@ -27,6 +27,7 @@ _LETTERS = str.maketrans("OolI", "0011")
 _UNIT = "|".join(sorted(map(re.escape, _FACTORS), key=len, reverse=True))
 _ENDS = r"(?=[\s,;]|$)"
 _WITH_UNIT = re.compile(rf"(?<![\w.])({_NUMBER})\s*({_UNIT}){_ENDS}", re.IGNORECASE)
+_QUANTITY = re.compile(rf"({_NUMBER})\s*({_UNIT})?", re.IGNORECASE)
 _UNIT_BEHIND_ALL = re.compile(
     rf"({_NUMBER}(?:[\s,;]+{_NUMBER})+)\s+({_UNIT})", re.IGNORECASE
 )
@@ -72,6 +73,18 @@ def _in_si(number: str, unit: str, degrees: bool) -> str:
     # A converted length is short; an angle is as long as one writes π.
     digits = 5 if unit in _ANGLES else 10
     return f"{float(number) * factor:.{digits}g}"
+
+
+def quantity(text: str) -> float | None:
+    """Return a number with or without a unit [m, rad or kg]; None for other texts."""
+    found = _QUANTITY.fullmatch(text.strip())
+    if found is None:
+        return None
+    unit = (found[2] or "").lower()
+    # Division by 180 comes last, as in the page: 90deg is exactly pi/2.
+    if unit in _DEGREES:
+        return float(found[1]) * math.pi / 180
+    return float(found[1]) * _FACTORS.get(unit, 1.0)
 
 
 def usual_degrees(value: float) -> bool:

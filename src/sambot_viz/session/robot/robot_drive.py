@@ -101,14 +101,7 @@ class Drive:
     @property
     def problems(self) -> tuple[Problem, ...]:
         """Why the robot cannot be driven with the wheels that the options name."""
-        options = self._options
-        named = (
-            options.left_wheel,
-            options.right_wheel,
-            options.wheel_radius,
-            options.wheel_separation,
-        )
-        if not self.why_not or named == (None, None, None, None):
+        if not self.why_not or not self._options.names_wheels:
             return ()
         return (Problem("warning", "drive-wheels", self.why_not),)
 
@@ -246,7 +239,7 @@ class Drive:
     def _find(self, robot: Robot) -> WheelPair:
         options = self._options
         if self._robot.has_messages:
-            raise JointError("a recording moves it")
+            raise JointError("messages move it")
         return find_wheel_pair(
             robot,
             left=options.left_wheel,
