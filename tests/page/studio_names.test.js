@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { apart } from "../../src/sambot_viz/page/view/studio_names.js";
+import { apart, towards } from "../../src/sambot_viz/page/view/studio_names.js";
 
 /** Numbers from 0 to 1 that are the same in every run. */
 function* numbers(seed) {
@@ -79,4 +79,9 @@ test("one that would have to go far stays", () => {
   }));
   const name = { x: 0, y: 0.03, w: 1, h: 0.1, index: 99 };
   assert.equal(apart([...wall, name], new Map()).at(-1).by, 0);
+});
+
+test("a name comes in front of its axes on the line to the eye, half of the way at most", () => {
+  assert.deepEqual(towards([1, 0, 0], [1, 0, 4], 1), [0, 0, 1]);
+  assert.deepEqual(towards([1, 0, 0], [1, 0, 4], 100), [0, 0, 2]);
 });

@@ -1,7 +1,7 @@
 // @ts-check
-/* Studio: names that would cover each other move up or down. viser keeps the place
- * of each name in a texture that it writes for every picture: here it is changed before it is
- * drawn. */
+/* Studio: names that would cover each other move up or down, and all of them stand in front of
+ * the axes of their frames. viser keeps the place of each name in a texture that it writes for
+ * every picture: here it is changed before it is drawn. */
 
 /** A name does not go farther from its frame than so many of its own heights. */
 const FARTHEST = 8;
@@ -9,6 +9,10 @@ const FARTHEST = 8;
 const HIGH = 0.85;
 /** What is left free between two names, as a part of their height. */
 const GAP = 0.15;
+/** How far a name comes towards the eye, in heights of its box: the axes of a frame are shorter. */
+const NEARER = 2;
+/** It comes this part of the way at most. */
+const NEAREST = 0.5;
 
 /** The name that each name stands beside, and on which side: "" for its own place.
  * @type {Map<number, string>} */
@@ -50,6 +54,17 @@ export function apart(boxes, before) {
   });
 }
 
+/**
+ * The way from a place towards the eye, which leaves it where it is in the picture.
+ * @param {number[]} from @param {number[]} eye @param {number} length
+ * @returns {number[]}
+ */
+export function towards(from, eye, length) {
+  const way = from.map((v, k) => eye[k] - v);
+  const part = Math.min(NEAREST, length / Math.hypot(...way));
+  return way.map((v) => v * part);
+}
+
 /** The place of a name as viser wrote it. @param {Float32Array} data @param {number} index */
 function placeOf(data, index) {
   const now = [...data.subarray(4 * index, 4 * index + 3)];
@@ -83,7 +98,8 @@ export function moveNames(object, camera, on) {
   const p = camera.projectionMatrix.elements;
   const v = camera.matrixWorldInverse.elements;
   const up = [...camera.matrixWorld.elements.slice(4, 7)];
-  /** @type {(Box & {from: number[], unit: number})[]} */
+  const eye = [...camera.matrixWorld.elements.slice(12, 15)];
+  /** @type {(Box & {from: number[], nearer: number[], unit: number})[]} */
   const boxes = [];
   let changed = false;
   for (let i = 0; i < object.geometry.instanceCount; i += 1) {
@@ -96,12 +112,14 @@ export function moveNames(object, camera, on) {
       if (moved.has(index)) changed = move(data, index, from, [0, 0, 0]) || changed;
       continue;
     }
+    const [left, bottom, width, height] = aRect.array.subarray(4 * i, 4 * i + 4);
+    const nearer = towards(from, eye, NEARER * height * scale);
+    const at = from.map((value, k) => value + nearer[k]);
     const [x, y, z] = [0, 1, 2].map(
-      (k) => v[k] * from[0] + v[k + 4] * from[1] + v[k + 8] * from[2] + v[k + 12],
+      (k) => v[k] * at[0] + v[k + 4] * at[1] + v[k + 8] * at[2] + v[k + 12],
     );
     if (z > -1e-6) continue;
     const size = (scale * p[5]) / -z;
-    const [left, bottom, width, height] = aRect.array.subarray(4 * i, 4 * i + 4);
     boxes.push({
       x: (x * p[5]) / -z + (left + width / 2) * size,
       y: (y * p[5]) / -z + (bottom + height / 2) * size,
@@ -109,20 +127,15 @@ export function moveNames(object, camera, on) {
       h: height * size * HIGH,
       index,
       from,
+      nearer,
       unit: scale / size,
     });
   }
   apart(boxes, sides).forEach(({ by, side }, i) => {
-    const { index, from, unit } = boxes[i];
+    const { index, from, nearer, unit } = boxes[i];
     sides.set(index, side);
-    if (by || moved.has(index))
-      changed =
-        move(
-          data,
-          index,
-          from,
-          up.map((u) => u * by * unit),
-        ) || changed;
+    const way = nearer.map((value, k) => value + up[k] * by * unit);
+    changed = move(data, index, from, way) || changed;
   });
   if (!on) {
     moved.clear();
