@@ -63,7 +63,7 @@ def test_the_readme_calls_the_program() -> None:
 
 @pytest.mark.parametrize("line", written_commands())
 def test_a_command_line_of_the_documents_is_accepted(line: str) -> None:
-    words = shlex.split(line)[1:]
+    words = shlex.split(line, comments=True)[1:]
     command = words.pop(0) if words[0] in COMMANDS else "show"
     parser_of(command).parse_args([word for word in words if ":=" not in word])
 
