@@ -109,6 +109,18 @@ def test_links_of_the_documents_lead_to_files() -> None:
                 assert (document.parent / link).exists(), f"{name}: {link}"
 
 
+def test_nothing_advises_a_package_that_no_index_has() -> None:
+    """Anybody could take the name. The first release takes this test away."""
+    folders = [ROOT / name for name in ("docs", "src", "deploy", "assets", ".github")]
+    files = [path for folder in folders for path in folder.rglob("*.*")]
+    advised = re.compile(r"pip3? install [^`\n]*")
+    for path in [ROOT / "README.md", *files]:
+        if path.suffix in (".md", ".py", ".js", ".yaml", ".yml", ".1"):
+            for line in advised.findall(path.read_text("utf-8")):
+                words = [word.strip("\"'\\") for word in line.split()]
+                assert not [w for w in words if w.startswith("sambot-viz")], path
+
+
 def test_the_rooms_of_the_contributors_map_exist() -> None:
     text = (ROOT / ".github" / "CONTRIBUTING.md").read_text("utf-8")
     rows = re.findall(r"^\| (`\w+/`.*?) \|", text, re.MULTILINE)

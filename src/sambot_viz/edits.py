@@ -365,7 +365,7 @@ class SourceFile:
         return [0, *(match.end() for match in re.finditer("\n", self.text))]
 
     def offset(self, place: Place) -> int:
-        """Return the offset of a place; of a line without a column its begin."""
+        """Return the offset of a place; of a line without a column its beginning."""
         if place.line > len(self._lines):
             return len(self.text)
         return self._lines[place.line - 1] + (place.column or 1) - 1

@@ -186,7 +186,7 @@ def check_header(name: str | None) -> None:
 
 
 def check_base_path(text: str) -> str:
-    """Return a base path with a slash at its begin and none at its end.
+    """Return a base path with a slash at its beginning and none at its end.
 
     Raises:
         UsageError: it cannot be part of an address.

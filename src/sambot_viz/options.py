@@ -73,7 +73,7 @@ class Options:
     """The robot to show, its viewers, and its start.
 
     Attributes:
-        base_path: with a slash at its begin and none at its end.
+        base_path: with a slash at its beginning and none at its end.
         recorded: the positions of `joint_state`.
         transforms: `static_transforms`, read.
 
@@ -159,7 +159,7 @@ class Options:
     at: float | None = option(
         None,
         "the time of a recording to look at [s from its first message]; by default the "
-        "page plays it from the begin, and other commands take all of it",
+        "page plays it from the beginning, and other commands take all of it",
         "--at",
         group="source",
         type=float,

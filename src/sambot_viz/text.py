@@ -77,7 +77,7 @@ def _escaped(found: re.Match[str]) -> str:
 
 
 def capitalized(words: str) -> str:
-    """Return a text with a capital letter at its begin, as the page has them."""
+    """Return a text with a capital letter at its beginning, as the page has them."""
     return words[:1].upper() + words[1:]
 
 

@@ -60,7 +60,7 @@ def test_keys_go_through_a_recording_where_nothing_else_has_them(
     user.keys("Home")
     user.until(lambda: user.row("Displays", "Global Options").state("focused"))
     assert player.time_ns == player.end_ns - 10**9
-    # What elapsed counts from the begin of the recording, whenever the page came.
+    # What elapsed counts from the beginning of the recording, whenever the page came.
     viewer.reload()
     user.click("button", "Time: 0:18.969 / 0:19.969")
     user.until(lambda: "ROS Elapsed 18.97" in user.find("dialog", "Time").text)

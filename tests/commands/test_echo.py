@@ -164,7 +164,7 @@ def test_a_time_outside_of_a_recording_is_said(
     repository: Path, capsys: Capture
 ) -> None:
     square = str(repository / "assets" / "square.mcap")
-    for at, said in (("99", "its end is shown"), ("-1", "its begin is shown")):
+    for at, said in (("99", "its end is shown"), ("-1", "its beginning is shown")):
         main(["echo", square, "odom", "base_link", "--at", at])
         err = capsys.readouterr().err
         assert "at-outside" in err and said in err

@@ -47,7 +47,7 @@ HIGHLIGHT: Rgb = (255, 224, 0)
 Level = Literal["Ok", "Warn", "Error"]
 AHEAD = "No transform at this time yet: shown where the recording has it first"
 _ORDER: dict[Level, int] = {"Ok": 0, "Warn": 1, "Error": 2}
-"""Of a longer key or sentence only the begin is kept: messages may name anything."""
+"""Longer keys and sentences are cut here: messages may name anything."""
 
 
 @dataclass(frozen=True, slots=True)

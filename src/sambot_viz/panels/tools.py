@@ -148,7 +148,7 @@ class ToolsPanel(Panel):
     def _hover(self, x: float, y: float) -> None:
         self._client.tools.hover((x, y))
 
-    # Of the moves of a drag that wait only the last one counts: each has its begin.
+    # Of the moves of a drag that wait only the last one counts: each has its beginning.
     @command("tools/drag", *[NUMBER] * 4, _MODIFIER, client_local=True)
     def _drag(
         self, from_x: float, from_y: float, x: float, y: float, held: str | None

@@ -23,7 +23,7 @@ class McapFile:
     """Writes messages as `ros2 bag record` does: chunks of zstd, an index at the end.
 
     Args:
-        stream: where to write, from its begin; it is not closed.
+        stream: where to write, from its beginning; it is not closed.
 
     Attributes:
         definitions: the schemas and channels so far.

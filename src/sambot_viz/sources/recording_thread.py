@@ -262,7 +262,7 @@ class RecordingThread:
         if self._begin_ns is None:
             self._begin_ns = message.log_ns
             self._write_held(file)
-        # What was latched before the start stands at the begin of the file.
+        # What was latched before the start stands at the beginning of the file.
         log_ns = max(message.log_ns, self._begin_ns) if is_kept else message.log_ns
         self._count(file.write(message, log_ns))
 

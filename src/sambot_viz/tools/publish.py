@@ -38,8 +38,7 @@ GREEN = (0, 255, 0)
 FLATTEST = 0.0175
 """Where the ground is seen at a smaller angle than this [rad] nobody means a place."""
 SHORTEST = 0.01
-"""A drag that ends as near to its begin as this part of the camera's distance has no
-heading."""
+"""A drag shorter than this part of the camera's distance has no heading."""
 _DRAG = "Drag from the place towards the heading; Esc or a right click stops."
 _FINGER = "Drag from the place towards the heading; a second finger stops."
 

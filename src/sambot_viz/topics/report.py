@@ -36,7 +36,7 @@ class TopicReport:
 
     Attributes:
         survey: as given.
-        at_ns: the log time to look at [ns]; None for the begin of the recording.
+        at_ns: the log time to look at [ns]; None for the beginning of the recording.
     """
 
     def __init__(

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from sambot_viz.sources.recorder import SourceRecorder
 
 FIRST_SECONDS = 2.0
-"""The frames that move are learnt from the begin of a recording [s]."""
+"""The frames that move are learnt from the beginning of a recording [s]."""
 ENOUGH = 300
 """After so many messages of a live robot the frames that there are have been seen."""
 
@@ -234,7 +234,7 @@ class SourceRobot:
         if at_ns is None or start is None or end is None or start <= at_ns <= end:
             return
         length, asked = (end - start) * 1e-9, (at_ns - start) * 1e-9
-        nearest = "its end" if asked > 0 else "its begin"
+        nearest = "its end" if asked > 0 else "its beginning"
         hint = f"give a time from 0 to {length:.3f} with --at"
         if self.published is not None:
             hint = f"{hint}, or listen longer with --for"
@@ -397,7 +397,7 @@ class SourceRobot:
     def transforms(self, history: FrameHistory) -> TransformTopics:
         """Return what takes the transforms into a history.
 
-        Those of a recording expect the frames that its begin tells of.
+        Those of a recording expect the frames that its beginning tells of.
 
         Args:
             history: an empty one.
@@ -551,7 +551,7 @@ class SourceRobot:
             self.description = self.text_of(main)
         moving = [name for name in self.topics.moving if self.has_recorded(name)]
         self._index = TransformIndex(recording, moving, decode)
-        # What the begin tells of frames; every session starts from it.
+        # What the beginning tells of frames; every session starts from it.
         self._told = self._make_transforms(FrameHistory())
         if self.spaces:
             # Which frames all robots share is known once all have told of theirs.

@@ -17,7 +17,7 @@ Points = npt.NDArray[np.float64]
 """Some points, (N, 3), or one, (3,) [m]."""
 
 LOOKS = 8
-"""So often it is looked into a recording, from its begin to its end."""
+"""So often it is looked into a recording, from its beginning to its end."""
 _MESSAGES = 50
 """So many messages are taken at each look: a recording of any length costs the same."""
 _APART = 0.001

@@ -32,7 +32,7 @@ const KEYS = [
       ["Space", "play, pause"],
       [", .", "message before, next message"],
       ["← →", "one second back, on"],
-      ["Home End", "to the begin, to the end"],
+      ["Home End", "to the beginning, to the end"],
     ],
   ],
   [

@@ -22,7 +22,7 @@ const before = new WeakMap();
 const instead = new WeakMap();
 
 /**
- * A surface of revolution: rows from its begin to its end on the axis, each with radius, place on
+ * A surface of revolution: rows from its beginning to its end on the axis, each with radius, place on
  * the axis and normal; a row that repeats the place of the one before begins a new surface.
  * @typedef {[r: number, z: number, nr: number, nz: number]} Row
  */

@@ -56,7 +56,7 @@ const CALENDAR = 1e8;
 /** The time of a recording that was typed: seconds, minutes and seconds, or seconds since 1970 as
  * messages are stamped.
  * @param {string} text @param {number} begin of the recording [s since 1970]
- * @returns {number | null} seconds from its begin; null for what is none */
+ * @returns {number | null} seconds from its beginning; null for what is none */
 export function typedTime(text, begin) {
   const parts = text.trim().replace(/s$/, "").trim().replace(",", ".").split(":");
   const numbers = parts.map((part) =>
@@ -271,7 +271,7 @@ function Synchronization() {
 
 /** What RViz's Time panel shows: seconds since 1970 and since the first of them, of the messages
  * and of the wall. @param {number} ros @param {number} wall
- * @param {number} first the begin of a recording, so that what elapsed is the time of the player
+ * @param {number} first the beginning of a recording, so that what elapsed is the time of the player
  * @returns {[string, string][]} */
 export const times = (ros, wall, first, opened = OPENED) => [
   ["ROS Time", ros.toFixed(2)],

@@ -80,7 +80,7 @@ class SourcePanel(Panel):
         return found
 
     def rows(self) -> Sequence[Row]:
-        """Return what can be set: the time from the begin [s], playing, rate, loop."""
+        """Return what can be set: the time since the start [s], playing, rate, loop."""
         return () if self._player is None else self._controls(self._player)
 
     def changed_rows(self) -> Sequence[Row]:

@@ -365,7 +365,7 @@ class RobotData:
     def _note_joints(self, jumped: bool) -> None:
         changed = self._joint_states.changed()
         if jumped and self.source.live is None:
-            # Played from its begin, they would not have moved yet.
+            # Played from its beginning, they would not have moved yet.
             starts = self._robot.starts(self._joint_states.gone())
             changed = {**starts, **changed}
         self._robot.note_followed(changed)

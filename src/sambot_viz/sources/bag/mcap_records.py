@@ -125,7 +125,7 @@ class ChunkRecord:
         raw_size: length of its records once decompressed [bytes].
         crc: checksum of them, or 0.
         compression: "", "lz4" or "zstd".
-        at: where its records begin, counted from the begin of the content [bytes].
+        at: where its records begin, counted from the beginning of the content [bytes].
         size: length of its records as they stand in the file [bytes].
     """
 

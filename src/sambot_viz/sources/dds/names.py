@@ -107,7 +107,7 @@ def nodes_message(
 
 
 class _CdrReader:
-    """Reads CDR from its begin."""
+    """Reads CDR from its beginning."""
 
     def __init__(self, message: bytes) -> None:
         self._order = "<" if message[1:2] == b"\1" else ">"

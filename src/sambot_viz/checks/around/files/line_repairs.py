@@ -72,7 +72,7 @@ def line_repairs(lines: list[str], at: int, message: str) -> Iterator[Repair]:
 
 
 def _word(lines: list[str], n: int) -> Iterator[Repair]:
-    """Give the line with another word at its begin."""
+    """Give the line with another word at its beginning."""
     first = re.match(r"(\s*)([A-Za-z]+)\b", lines[n - 1])
     if first is None or first[2] in _WORDS:
         return

@@ -94,8 +94,8 @@ def moved_points(
 
     Args:
         points: (N, 3) [m], in that frame.
-        ratio: (N,) when each was measured: 0 at the begin, 1 at the end.
-        T_begin: the pose of the frame at the begin.
+        ratio: (N,) when each was measured: 0 at the beginning, 1 at the end.
+        T_begin: the pose of the frame at the beginning.
         T_end: its pose at the end.
 
     Returns:
