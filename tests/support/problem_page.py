@@ -16,8 +16,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "problems.md"
 _HEAD = """\
 # What can be wrong with a model
 
-This page is made by `python tests/support/problem_page.py` from the smallest wrong
-model of each code; what it quotes is what the program says about that model.
+Each code is a heading here, so `problems.md#CODE` leads to it. This page is made by
+`python tests/support/problem_page.py` from the smallest wrong model of each code; what
+it quotes is what `sambot-viz check` says about these files.
 An *error* is something that ROS refuses or loses, a *warning* will cause trouble later,
 an *info* is worth knowing. A unit, a wheel or another guess from numbers is a *warning*
 where two clues that are independent speak for it, and an *info* where only one does.
@@ -30,7 +31,7 @@ _ACCEPTED = """\
 """
 
 _AROUND = """\
-## Names that must meet
+## Names that must match
 
 These are about two places that contradict each other: the model and another file of its
 package, or two of these files.
@@ -48,19 +49,17 @@ A finding that no program confirms is a warning or an info, never an error.
 | program | what it does | known from | codes |
 |---|---|---|---|"""
 
-_HEADER = ("| code | severity | what | what to do |", "|---|---|---|---|")
-
 
 def problem_page() -> str:
     """The page as text."""
     samples = all_samples()
     lines = [_HEAD, _ACCEPTED]
-    lines += [_section(sample) for sample in samples if sample.why]
-    lines += [_AROUND, *_HEADER]
-    lines += [_row(sample) for sample in samples if sample.around]
-    lines += ["", _REST, *_HEADER]
-    lines += [_row(s) for s in samples if not s.why and not s.around]
-    lines += ["", _REFUSALS, *map(_refusal, refusals())]
+    lines += [_shown(sample) for sample in samples if sample.why]
+    lines.append(_AROUND)
+    lines += [_told(sample) for sample in samples if sample.around]
+    lines.append(_REST)
+    lines += [_told(s) for s in samples if not s.why and not s.around]
+    lines += [_REFUSALS, *map(_refusal, refusals())]
     return "\n".join(lines) + "\n"
 
 
@@ -70,35 +69,40 @@ def refusals() -> list[dict[str, str]]:
 
 
 def _refusal(row: dict[str, str]) -> str:
-    codes = ", ".join(f"`{code}`" for code in row["codes"].split())
+    codes = ", ".join(f"[{code}](#{code})" for code in row["codes"].split())
     return f"| {row['program']} | {row['does']} | {row['known']} | {codes} |"
 
 
-def _section(sample: Sample) -> str:
+def _shown(sample: Sample) -> str:
+    """A code with its files and what is said of them."""
+    files = {sample.name: sample.files[sample.name], **sample.files}
+    blocks = [_file(name, content) for name, content in files.items()]
     problem = sample.problem
-    place = f"line {problem.line}: " if problem.line else ""
-    quoted = _cell(f"{place}{problem.message}; {problem.hint}")
-    return (
-        f"### {sample.code} ({problem.severity})\n\n{sample.title}. {sample.why}\n\n"
-        f"```xml\n{_model(sample)}```\n\n> {quoted}\n"
-    )
+    title = f"{sample.title} ({problem.severity}). {sample.why}\n"
+    return "\n".join([_heading(sample), title, *blocks, f"> {_cell(str(problem))}\n"])
 
 
-def _model(sample: Sample) -> str:
-    content = sample.files[sample.name]
-    return content if isinstance(content, str) else content.decode()
-
-
-def _row(sample: Sample) -> str:
+def _told(sample: Sample) -> str:
+    """A code with what is said of its files, without these."""
     problem = sample.problem
-    title = _cell(sample.title)
-    what = title if sample.stated else f"{title}: “{_cell(problem.message)}”"
-    hint = _cell(problem.hint)
-    return f"| `{sample.code}` | {problem.severity} | {what} | {hint} |"
+    said = "" if sample.stated else f": “{_cell(problem.message)}”"
+    title = f"{_cell(sample.title)} ({problem.severity}){said}"
+    fix = f"\n\nWhat to do: {_cell(problem.hint)}." if problem.hint else "."
+    return f"{_heading(sample)}\n{title}{fix}\n"
+
+
+def _heading(sample: Sample) -> str:
+    return f"### {sample.code}\n"
+
+
+def _file(name: str, content: str | bytes) -> str:
+    text = content if isinstance(content, str) else content.decode()
+    kind = "xml" if text.lstrip().startswith("<") else "text"
+    return f"`{name}`:\n\n```{kind}\n{text.rstrip()}\n```\n"
 
 
 def _cell(text: str) -> str:
-    """Text that keeps its meaning in a table of Markdown."""
+    """Text that keeps its meaning in Markdown."""
     safe = text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "\\|")
     return " ".join(safe.replace("*", "\\*").split())
 

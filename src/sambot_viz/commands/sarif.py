@@ -46,7 +46,7 @@ def _rule(code: str) -> dict[str, Any]:
     return {
         "id": code,
         "shortDescription": {"text": said},
-        "help": {"text": f"{said}: see docs/problems.md of sambot-viz"},
+        "help": {"text": f"{said}: see docs/problems.md#{code} of sambot-viz"},
     }
 
 
