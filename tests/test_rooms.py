@@ -32,6 +32,7 @@ FOUNDATIONS = {
     "outlet",
     "text",
     "unsaved",
+    "waiting",
 }
 """Any room may import these; they import nothing of the package but each other."""
 
@@ -210,6 +211,7 @@ ROOMS: Mapping[str, Row] = {
     "problems": Row(),
     "text": Row(),
     "unsaved": Row(),
+    "waiting": Row(),
     "visualizer": Row(
         "export flags inputs jupyter options scripting server",
         "viser",

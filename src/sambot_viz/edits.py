@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.errors import Edit, Fix, Place
-from sambot_viz.files import read_limited
+from sambot_viz.files import read_limited, relative_path
 from sambot_viz.unsaved import unsaved_text
 
 _ENCODING = re.compile(
@@ -191,7 +191,7 @@ def include_before(place: Place, file: str) -> Fix:
         place: where a macro of the file is called.
         file: the file, as the user would write it.
     """
-    path = os.path.relpath(file, os.path.dirname(place.file) or ".")
+    path = relative_path(file, os.path.dirname(place.file) or ".").replace(os.sep, "/")
     written = f'<xacro:include filename="{path}"/>'
     hint = f"add {written} before it"
     source = source_of(place.file)

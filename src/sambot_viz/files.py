@@ -74,6 +74,14 @@ def _remove_leftovers(target: Path) -> None:
                 left.unlink()
 
 
+def relative_path(path: str | Path, start: str | Path = os.curdir) -> str:
+    """Return a path as seen from a folder; a whole one on another drive of Windows."""
+    try:
+        return os.path.relpath(path, start)
+    except ValueError:
+        return os.path.abspath(path)
+
+
 class FileTooLargeError(OSError):
     """A file with more bytes than the caller allows."""
 

@@ -9,6 +9,7 @@ logging, warnings, tracebacks) is cleaned in the process of a command, see `guar
 from __future__ import annotations
 
 import contextlib
+import io
 import logging
 import os
 import sys
@@ -97,6 +98,7 @@ def guarded() -> Generator[None]:
     For the process of a command; its readers may leave before the end (`2>&1 | head`).
     """
     out, err, last = sys.stdout, sys.stderr, logging.lastResort
+    _speak_utf8(out, err)
     sys.stdout = cast(TextIO, _Guard(out))
     sys.stderr = cast(TextIO, _Guard(err, may_leave=True))
     take_log()
@@ -236,6 +238,14 @@ def _write_encoded(stream: TextIO, words: str) -> None:
     except UnicodeEncodeError:
         encoding = stream.encoding or "ascii"
         stream.write(words.encode(encoding, "replace").decode(encoding))
+
+
+def _speak_utf8(*streams: TextIO | None) -> None:
+    """Let files and pipes get UTF-8 on Windows too, where they get its code page."""
+    for stream in streams:
+        if isinstance(stream, io.TextIOWrapper) and not stream.isatty():
+            if sys.platform == "win32":
+                stream.reconfigure(encoding="utf-8")
 
 
 def _own(stream: TextIO | None) -> TextIO | None:

@@ -20,6 +20,7 @@ from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 from sambot_viz.outlet import write_code, write_err, write_out
 from sambot_viz.problems import write_problems
+from sambot_viz.waiting import wait_for
 
 EPILOG = """\
 NAME:=VALUE, anywhere on the line, is an argument for xacro, as in ros2 launch.
@@ -160,7 +161,7 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
         with Visualizer.of_inputs(inputs, listener) as visualizer:
             _report_start(inputs, report)
             write_notes(stop, inputs, visualizer.server.sessions)
-            stop.wait()
+            wait_for(stop)
     except KeyboardInterrupt:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from urllib.parse import quote
 
+from sambot_viz.files import relative_path
 from sambot_viz.graph.node_graph import NodeGraph
 from sambot_viz.graph.placed_graph import (
     MARGIN,
@@ -162,9 +162,5 @@ def _lines(said: str) -> str:
 
 def _link(part: PlacedPart, beside: Path) -> str:
     """Return where a launch file is, seen from the picture."""
-    try:
-        path = Path(os.path.relpath(part.file, beside)).as_posix()
-    except ValueError:
-        # On another drive of Windows.
-        path = Path(part.file).absolute().as_posix()
+    path = Path(relative_path(part.file, beside)).as_posix()
     return quote(path, errors="surrogatepass") + (f"#L{part.line}" if part.line else "")

@@ -30,6 +30,9 @@ from sambot_viz.server.protection.inbound_filter import (
 from sambot_viz.server.protection.token_check import Knows
 from sambot_viz.server.tickets import Channels
 
+_OF_A_PROBE: int = getattr(socket, "SO_EXCLUSIVEADDRUSE", socket.SO_REUSEADDR)
+"""Of a socket that asks if a port is free. SO_REUSEADDR does without the port's pause
+after a program; on Windows it would let two programs have one port."""
 _ANYWHERE = {"0.0.0.0": "127.0.0.1", "": "127.0.0.1", "::": "::1"}
 """Addresses that mean all networks, and one of them that a browser can open."""
 
@@ -206,7 +209,7 @@ def _try_to_bind(host: str, port: int) -> None:
         raise ServerError(f"port {port} does not exist; choose one from 1 to 65535")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family, socket.SOCK_STREAM) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.setsockopt(socket.SOL_SOCKET, _OF_A_PROBE, 1)
         try:
             probe.bind((host, port))
         except (OSError, UnicodeError) as error:

@@ -46,7 +46,9 @@ class LiveModel:
         self._load = load
         self._show = show
         self._refuse = refuse
-        self._folder = tempfile.TemporaryDirectory(prefix="sambot-viz-live-")
+        self._folder = tempfile.TemporaryDirectory(
+            prefix="sambot-viz-live-", ignore_cleanup_errors=True
+        )
         # One after the other: the last description is the one that is shown.
         self._turn = threading.Lock()
         self._latest = ""

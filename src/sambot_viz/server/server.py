@@ -22,6 +22,7 @@ from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.outgoing import outbox
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.topics.source_robot import SourceRobot
+from sambot_viz.waiting import wait_for
 
 # Most servers show no recording.
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ class Server:
 
     def wait(self) -> None:
         """Return when the server is stopped."""
-        self._stopped.wait()
+        wait_for(self._stopped)
 
     def stop(self) -> None:
         """Stop the server and free the port; a second call does nothing."""

@@ -19,7 +19,7 @@ from sambot_viz.checks.around.files.cmake import CMakeFile
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile, read_yaml
 from sambot_viz.checks.around.launch_file import LaunchFile, read_launch
-from sambot_viz.files import is_below, read_limited
+from sambot_viz.files import is_below, read_limited, relative_path
 from sambot_viz.robot.packages.package_index import PackageIndex, package_name
 from sambot_viz.robot.xml.decode import XmlFault
 from sambot_viz.robot.xml.element import Element, parse_xml
@@ -348,7 +348,7 @@ class Workspace:
 
 def shown(path: Path, relative: bool) -> str:
     """Return a path as the user would write it."""
-    return os.path.relpath(path) if relative else str(path)
+    return relative_path(path) if relative else str(path)
 
 
 def _named_in(text: str) -> Iterator[str]:

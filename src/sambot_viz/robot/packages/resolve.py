@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -124,6 +125,9 @@ class FileResolver:
         for computer in _HERE:
             if rest.startswith(computer):
                 return self._plain(rest[len(computer) - 1 :])
+        if sys.platform == "win32" and _OF_WINDOWS.match(rest[1:]):
+            # file:///C:/robot/part.stl
+            rest = rest[1:]
         if rest.startswith("/") or _OF_WINDOWS.match(rest):
             return self._plain(rest)
         return Resolution(None)

@@ -210,7 +210,11 @@ class Expansion:
         """A file name as the user would write it: relative where the model is."""
         path = os.path.normpath(filename)
         if os.path.isabs(path) and not os.path.isabs(self._job["file"]):
-            relative = os.path.relpath(path)
+            try:
+                relative = os.path.relpath(path)
+            except ValueError:
+                # On another drive of Windows.
+                return path
             return path if relative.startswith(os.pardir) else relative
         return path
 
