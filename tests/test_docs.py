@@ -97,7 +97,10 @@ def test_links_of_the_documents_lead_to_files() -> None:
         *PAGES,
         "docs/deploy.md",
         "docs/first-robot.md",
+        "docs/install.md",
         "docs/live.md",
+        "docs/ros2.md",
+        "docs/troubleshooting.md",
         "docs/viser.md",
         ".github/CONTRIBUTING.md",
         ".github/SECURITY.md",
@@ -107,6 +110,14 @@ def test_links_of_the_documents_lead_to_files() -> None:
         for link in re.findall(r"\]\(([^)#]+)", document.read_text("utf-8")):
             if not link.startswith("http"):
                 assert (document.parent / link).exists(), f"{name}: {link}"
+
+
+def test_the_site_has_each_page_of_the_documentation() -> None:
+    text = (ROOT / ".github" / "mkdocs.yml").read_text("utf-8")
+    listed = set(re.findall(r"^ +- .*: (\S+\.md)$", text, re.MULTILINE))
+    made = {"index.md", "reference.md", "CHANGELOG.md"}
+    ours = {name for name in listed - made if not name.startswith("github/")}
+    assert ours == {path.name for path in (ROOT / "docs").glob("*.md")}
 
 
 def test_nothing_advises_a_package_that_no_index_has() -> None:

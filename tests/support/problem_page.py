@@ -104,7 +104,9 @@ def _file(name: str, content: str | bytes) -> str:
 def _cell(text: str) -> str:
     """Text that keeps its meaning in Markdown."""
     safe = text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "\\|")
-    return " ".join(safe.replace("*", "\\*").split())
+    # Two brackets in a row are a link of Markdown.
+    safe = safe.replace("*", "\\*").replace("][", "]\\[")
+    return " ".join(safe.split())
 
 
 if __name__ == "__main__":
