@@ -12,6 +12,7 @@ import unicodedata
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, is_dataclass
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any, cast
 from urllib.request import urlopen
@@ -247,6 +248,60 @@ def test_records_of_this_package_are_clean_for_any_handler() -> None:
         log.removeHandler(handler)
     assert stream.getvalue().count("\n") == 1
     assert unclean(stream.getvalue()) == set()
+
+
+def records(capsys: Capture) -> list[dict[str, str]]:
+    """Return what standard error has got, a record in each line."""
+    err = capsys.readouterr().err
+    assert unclean(err) == set()
+    return [json.loads(each) for each in err.splitlines()]
+
+
+def test_as_json_each_note_and_problem_is_one_record(capsys: Capture) -> None:
+    with outlet.guarded():
+        outlet.write_records(True)
+        outlet.write_err("sambot-viz: note: a note", "and its second line")
+        outlet.write_err(f"sambot-viz: warning: {BAD}")
+        problems = [
+            Problem("error", "a-code", "no link", "write one"),
+            Problem("info", "b-code", "no mass"),
+        ]
+        write_problems(problems)
+    written = records(capsys)
+    assert [each["level"] for each in written] == ["info", "warning", "error", "info"]
+    assert written[0]["message"] == "sambot-viz: note: a note\nand its second line"
+    assert "error[a-code]: no link; write one" in written[2]["message"]
+    times = [datetime.fromisoformat(each["time"]) for each in written]
+    assert all(time.utcoffset() == timedelta() for time in times)
+
+
+@pytest.mark.parametrize(
+    "write", [of_print, of_warnings, of_a_thread, of_other_libraries]
+)
+def test_as_json_what_others_write_is_records_too(
+    write: Callable[[], None], capsys: Capture
+) -> None:
+    with outlet.guarded():
+        outlet.write_records(True)
+        write()
+    assert "".join(each["message"] for each in records(capsys))
+
+
+def test_as_json_a_record_of_the_log_names_its_logger(capsys: Capture) -> None:
+    with outlet.guarded():
+        outlet.write_records(True)
+        of_other_libraries()
+    without, written = records(capsys)
+    assert written["logger"] == without["logger"] == "viser"
+    assert written["level"] == "error"
+    assert written["message"].startswith(f"{without['message']}\n  Traceback")
+
+
+def test_after_a_command_lines_are_lines_again(capsys: Capture) -> None:
+    with outlet.guarded():
+        outlet.write_records(True)
+    outlet.write_err("a line")
+    assert capsys.readouterr().err == "a line\n"
 
 
 class Terminal(io.StringIO):

@@ -155,9 +155,9 @@ ROOMS: Mapping[str, Row] = {
         "msgspec numpy viser",
     ),
     "server": Row(
-        "displays frames inputs joints meshes options page panels robot rviz session "
-        "topics viser_private",
-        "msgspec numpy segno viser watchfiles websockets zstandard",
+        "_version displays frames inputs joints meshes options page panels robot rviz "
+        "session sources topics viser_private",
+        "msgspec numpy prometheus_client segno viser watchfiles websockets zstandard",
         "asyncio concurrent http socket threading",
     ),
     "export": Row(

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+
+from sambot_viz.errors import UsageError
 
 PACKAGES: Mapping[str, Sequence[str]] = {
     "jupyter": ("jupyter-server-proxy>=4.2", "tornado>=6.5.10"),
     "zenoh": ("eclipse-zenoh>=1.10,<2",),
+    "metrics": ("prometheus-client>=0.22",),
     "dds": ("cyclonedds==11.0.1",),
 }
 """Extra → its requirements, as `pyproject.toml` has them."""
@@ -19,3 +23,22 @@ def installation(extra: str) -> str:
     packages may have for another one, or not at all.
     """
     return " ".join(["pip install", *(f'"{one}"' for one in PACKAGES[extra])])
+
+
+def require(extra: str, module: str, flag: str) -> None:
+    """Refuse an option whose package is not installed.
+
+    Args:
+        extra: its name.
+        module: of the package.
+        flag: the option.
+
+    Raises:
+        UsageError: with the command that installs it.
+    """
+    if find_spec(module) is None:
+        package = PACKAGES[extra][0].partition(">")[0]
+        raise UsageError(
+            f"{flag} needs the package {package}, which is not installed: "
+            f"{installation(extra)}"
+        )

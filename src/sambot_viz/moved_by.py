@@ -89,11 +89,13 @@ def refuse_mixture(options: Options) -> None:
 
 def _live(given: GivenSource) -> Source:
     """Return a live robot, not connected yet."""
+    from sambot_viz.sources.live.address import without_secrets
     from sambot_viz.sources.prefixed_source import PrefixedSource
     from sambot_viz.sources.registry import open_source
 
     source = open_source(given.uri)
-    source.uri = given.name or source.uri
+    # Pages show it, and whoever counts.
+    source.uri = given.name or without_secrets(source.uri)
     if not given.is_renamed:
         return source
     return PrefixedSource(source, given.prefix, given.remaps)

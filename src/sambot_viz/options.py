@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
+LogFormat = Literal["text", "json"]
 LATEST = 1e9
 """No recording is longer, about thirty years; nanoseconds fit in 64 bits [s]."""
 
@@ -333,6 +334,21 @@ class Options:
         metavar="=VALUE",
         optional_value="=",
         variable="SAMBOT_VIZ_PRESENTER",
+    )
+    metrics: bool = option(
+        False,
+        "count clients, bytes, sources and problems for Prometheus, at /metrics of the "
+        "same address and with the same token",
+        "--metrics",
+        group="listen",
+        switch="yes-no",
+    )
+    log_format: LogFormat = option(
+        "text",
+        "how notes and warnings are written to standard error: as text, or each as a "
+        "line of JSON with time, level, logger and message",
+        "--log-format",
+        choices=("text", "json"),
     )
     trust_user_header: str | None = option(
         None,

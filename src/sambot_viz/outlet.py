@@ -12,9 +12,11 @@ import contextlib
 import io
 import logging
 import os
+import re
 import sys
 import traceback
 from collections.abc import Generator, Sequence
+from datetime import datetime, timezone
 from typing import Any, Literal, NamedTuple, TextIO, TypeAlias, cast
 
 from sambot_viz.text import json_text, line, lines, xml_text
@@ -31,6 +33,8 @@ _CODES: dict[Style, str] = {
     "removed": "\033[31m",
 }
 _END = "\033[0m"
+_SAID = re.compile(r"\b(error|warning|note): ")
+_LEVELS = {"note": "info"}
 
 
 class Painted(NamedTuple):
@@ -45,8 +49,11 @@ Line: TypeAlias = "str | Sequence[str | Painted]"
 
 
 def write_err(*written: Line) -> None:
-    """Write lines to standard error."""
-    _write(sys.stderr, *written)
+    """Write lines to standard error; as JSON they are one record."""
+    if _FORMAT.records:
+        _write_record(_level(written), [_words(each, False) for each in written])
+    else:
+        _write(sys.stderr, *written)
 
 
 def write_out(*written: Line) -> None:
@@ -91,6 +98,18 @@ def ask(question: str) -> str | None:
     return answer.strip() if answer else None
 
 
+def write_records(wanted: bool) -> None:
+    """Write what goes to standard error as JSON from now on, a record in each line.
+
+    A record has time (UTC, as ISO 8601), level (error, warning or info), message, and
+    of the log of a module the name of its logger.
+
+    Args:
+        wanted: whether to; else lines are written as they are.
+    """
+    _FORMAT.records = wanted
+
+
 @contextlib.contextmanager
 def guarded() -> Generator[None]:
     """Let everything that this process writes pass the outlet.
@@ -106,6 +125,7 @@ def guarded() -> Generator[None]:
         yield
     finally:
         sys.stdout, sys.stderr, logging.lastResort = out, err, last
+        write_records(False)
 
 
 def take_log() -> None:
@@ -124,6 +144,15 @@ def drop_output() -> None:
     """Write standard output to nowhere from now on: nothing reads it any longer."""
     if (stream := _own(sys.stdout)) is not None:
         _write_to_nowhere(stream)
+
+
+class _Format:
+    """How standard error is written, in all threads."""
+
+    records = False
+
+
+_FORMAT = _Format()
 
 
 class _Guard:
@@ -147,7 +176,11 @@ class _Guard:
 
     def write(self, words: str) -> int:
         """Write lines of others."""
-        self.write_raw(lines(words))
+        if self._may_leave and _FORMAT.records:
+            if words.strip():
+                _write_record("info", words.rstrip("\n").split("\n"))
+        else:
+            self.write_raw(lines(words))
         return len(words)
 
     def writelines(self, several: Sequence[str]) -> None:
@@ -183,7 +216,11 @@ class _Log(logging.Handler):
             written = [record.getMessage()]
             if record.exc_info and record.exc_info[0] is not None:
                 written += _traceback(*record.exc_info)
-            write_err(*written)
+            if _FORMAT.records:
+                level = "error" if record.levelno >= logging.ERROR else "warning"
+                _write_record(level, written, logger=record.name)
+            else:
+                write_err(*written)
         except Exception:
             self.handleError(record)
 
@@ -208,6 +245,23 @@ def _write(stream: TextIO | None, *written: Line) -> None:
     own = _own(stream)
     colors = own is not None and own.isatty() and "NO_COLOR" not in os.environ
     _write_raw(stream, "".join(f"{_words(each, colors)}\n" for each in written))
+
+
+def _write_record(level: str, written: Sequence[str], **more: str) -> None:
+    now = datetime.now(timezone.utc).isoformat(timespec="milliseconds")
+    message = "\n".join(written)
+    record = {"time": now, "level": level, **more, "message": message}
+    _write_raw(sys.stderr, f"{json_text(record, indent=None)}\n")
+
+
+def _level(written: Sequence[Line]) -> str:
+    """Return how grave lines are: as they are painted, or as they say."""
+    for each in written:
+        for part in () if isinstance(each, str) else each:
+            if isinstance(part, Painted) and part.style in ("error", "warning"):
+                return part.style
+    said = _SAID.search(_words(written[0], False)) if written else None
+    return "info" if said is None else _LEVELS.get(said[1], said[1])
 
 
 def _words(written: Line, colors: bool) -> str:

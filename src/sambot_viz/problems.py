@@ -260,16 +260,17 @@ def write_problems(
     """
     groups = group_problems(problems)
     if most is None:
-        lines = [line for each in groups for line in _with_places(each)]
+        for each in groups:
+            write(*_with_places(each))
     else:
-        lines = [line for each in groups[:most] for line in group_in_words(each)]
+        for each in groups[:most]:
+            write(*group_in_words(each))
         rest = sum(len(group.problems) for group in groups[most:])
         if rest:
             commands = _commands(groups[most:], model)
-            lines.append(f"{rest} more; to see all of them: {commands}")
+            write(f"{rest} more; to see all of them: {commands}")
         elif joined := [group for group in groups if len(group.problems) > 1]:
-            lines.append(f"to see each of them: {_commands(joined, model)}")
-    write(*lines)
+            write(f"to see each of them: {_commands(joined, model)}")
 
 
 def _commands(groups: Iterable[ProblemGroup], model: object) -> str:

@@ -66,9 +66,15 @@ def lines(value: object) -> str:
     return _INVISIBLE_OF_LINES.sub(_SIGN, str(value).replace("\t", " "))
 
 
-def json_text(value: Any, *, ascii_only: bool = True) -> str:
-    """Return a value as JSON with an indent of 2; what is invisible is escaped."""
-    written = json.dumps(value, indent=2, ensure_ascii=ascii_only)
+def json_text(value: Any, *, ascii_only: bool = True, indent: int | None = 2) -> str:
+    """Return a value as JSON; what is invisible is escaped.
+
+    Args:
+        value: what to write.
+        ascii_only: whether other letters are escaped, too.
+        indent: of each level; None writes one line.
+    """
+    written = json.dumps(value, indent=indent, ensure_ascii=ascii_only)
     return _INVISIBLE_OF_LINES.sub(_escaped, written)
 
 

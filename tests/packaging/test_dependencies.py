@@ -60,8 +60,9 @@ def test_what_is_imported_is_declared_and_the_other_way_round(
     repository: Path,
 ) -> None:
     wanted = {name.lower() for name in declared(repository)}
-    optional = {*listed(repository, "zenoh"), *listed(repository, "dds")}
-    assert wanted | optional == imported(repository)
+    optional = (listed(repository, name) for name in ("zenoh", "dds", "metrics"))
+    found = {name.replace("_", "-") for name in imported(repository)}
+    assert {n.replace("_", "-") for n in wanted.union(*optional)} == found
 
 
 def test_the_packages_of_the_extras_are_those_that_are_advised(
@@ -78,7 +79,8 @@ def test_the_packages_of_the_extras_are_those_that_are_advised(
 
 def test_every_declared_package_has_a_reason(repository: Path) -> None:
     # What is for Jupyter is not imported: it starts this program.
-    optional = (listed(repository, name) for name in ("jupyter", "zenoh", "dds"))
+    extra = ("jupyter", "zenoh", "dds", "metrics")
+    optional = (listed(repository, name) for name in extra)
     named = {**declared(repository), **ChainMap(*optional)}
     assert [name for name, why in named.items() if not why] == []
     assert "jupyter-server-proxy" in named

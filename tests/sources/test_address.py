@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from sambot_viz.errors import UsageError
-from sambot_viz.sources.live.address import parse_address
+from sambot_viz.sources.live.address import parse_address, without_secrets
 from sambot_viz.sources.registry import is_live, open_source
 
 
@@ -33,6 +33,21 @@ def test_an_address_names_a_websocket(uri: str, websocket: str, label: str) -> N
     assert address.websocket == websocket
     assert address.label == label
     assert is_live(uri)
+
+
+@pytest.mark.parametrize(
+    ("uri", "shown"),
+    [
+        ("foxglove+wss://user:secret@lab/a?token=abc", "foxglove+wss://lab/a"),
+        ("rosbridge://secret@robot:1", "rosbridge://robot:1"),
+        ("ws://[::1]:5/?secret", "ws://[::1]:5/"),
+        ("zenoh://lab:1?domain=7", "zenoh://lab:1?domain=7"),
+        ("dds:?domain=0&peer=a,b", "dds:?domain=0&peer=a,b"),
+        ("my robot", "my robot"),
+    ],
+)
+def test_the_name_of_a_source_has_no_secret(uri: str, shown: str) -> None:
+    assert without_secrets(uri) == shown
 
 
 def test_what_is_shown_has_no_secret() -> None:

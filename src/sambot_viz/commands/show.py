@@ -18,7 +18,7 @@ from sambot_viz.commands.command_line import Parser, parse, warn
 from sambot_viz.errors import Problem
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
-from sambot_viz.outlet import write_code, write_err, write_out
+from sambot_viz.outlet import write_code, write_err, write_out, write_records
 from sambot_viz.problems import write_problems
 from sambot_viz.waiting import wait_for
 
@@ -118,6 +118,7 @@ def serve(options: Options, open_it: bool) -> None:
     report = _Reports()
     report.model = options.model
     options = options.having(on_reload=report)
+    write_records(options.log_format == "json")
     with Inputs(options, may_be_broken=options.watch) as inputs:
         _serve(inputs, report, open_it)
     _report_recording(inputs)

@@ -25,6 +25,7 @@ from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.connections import page_files
 from sambot_viz.server.connections.connection import ClientContext, Connection
 from sambot_viz.server.connections.connection_limit import ConnectionLimiter
+from sambot_viz.server.connections.traffic import Traffic
 from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import Knows, TokenCheck
 from sambot_viz.server.tickets import Channels
@@ -32,6 +33,9 @@ from sambot_viz.server.tickets import Channels
 _VERSION_MISMATCH = 1002
 COPY = "/copy"
 """Below this path, a page shows a private copy of the shared robot."""
+METRICS = "/metrics"
+"""Where a program that watches many servers asks this one for its counts."""
+AnswerMetrics = Callable[[Request], Awaitable[Response]]
 _TICKET = re.compile(r"[A-Za-z0-9_-]{16,64}")
 
 
@@ -58,12 +62,34 @@ def without_copy(path: str) -> tuple[str, bool]:
     return f"{where[len(COPY) :] or '/'}{mark}{query}", True
 
 
+class Answers:
+    """What is answered beside the page, and what is counted of all that goes out.
+
+    Attributes:
+        metrics: answers a request for the counts; None while there is nothing to
+            count, or nobody asked for it.
+        traffic: what goes out.
+    """
+
+    def __init__(self) -> None:
+        self.metrics: AnswerMetrics | None = None
+        self.traffic = Traffic()
+
+    def of(self, request: Request) -> Awaitable[Response] | None:
+        """Return the answer to a request; None for all that ask for the page."""
+        path = request.path.partition("?")[0]
+        if self.metrics is None or path != METRICS:
+            return None
+        return self.metrics(request)
+
+
 @contextlib.contextmanager
 def checked(
     options: Options,
     listening: socket.socket | None,
     largest_message: int,
     channels: Channels,
+    answers: Answers,
     knows: Knows | None = None,
 ) -> Generator[asyncio.Event]:
     """Check every request to a server that is started in here before viser does.
@@ -77,6 +103,7 @@ def checked(
         listening: a socket of the file system that listens in place of a port, or None.
         largest_message: a connection that sends a longer one is closed [bytes].
         channels: serves the channels of the pages.
+        answers: to requests for something else than the page.
         knows: as for `TokenCheck`.
 
     Yields:
@@ -103,6 +130,9 @@ def checked(
             if folder := _folder(request, options.base_path):
                 return access.plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
             request.path = without_base(request.path, options.base_path)
+            if not page_files.is_websocket(request):
+                if (answer_beside := answers.of(request)) is not None:
+                    return answer_beside
             request.path, copy = without_copy(request.path)
             presenter = check_token.is_presenter(request)
             connection.context = _context(request, presenter, copy, options)
@@ -145,7 +175,7 @@ def checked(
 
         settings["select_subprotocol"] = select
         settings["process_request"] = check
-        settings["create_connection"] = partial(Connection, limiter)
+        settings["create_connection"] = partial(Connection, limiter, answers.traffic)
         # Also for what is sent before the filter reads it.
         settings["max_size"] = largest_message
         if listening is not None:

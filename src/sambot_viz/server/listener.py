@@ -16,7 +16,7 @@ from typing import cast
 import viser
 from websockets.asyncio.server import ServerConnection
 
-from sambot_viz import limits, viser_private
+from sambot_viz import extras, limits, viser_private
 from sambot_viz.errors import ServerError
 from sambot_viz.options import Options
 from sambot_viz.server import handshake
@@ -44,15 +44,22 @@ class Listener:
         server: the viser server; it has no client yet.
         options: the address, the base path, and the secrets of the links.
         channels: the channels of the pages.
+        answers: what it answers beside the page.
 
     Attributes:
         viser: the viser server.
+        answers: as given.
     """
 
     def __init__(
-        self, server: viser.ViserServer, options: Options, channels: Channels
+        self,
+        server: viser.ViserServer,
+        options: Options,
+        channels: Channels,
+        answers: handshake.Answers,
     ) -> None:
         self.viser = server
+        self.answers = answers
         self._channels = channels
         self._options = options
         self._socket_file = options.unix_socket
@@ -176,7 +183,10 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
 
     Raises:
         ServerError: the address cannot be listened on, with what to do about it.
+        UsageError: a package of an extra is missing.
     """
+    if options.metrics:
+        extras.require("metrics", "prometheus_client", "--metrics")
     host, port = options.host, options.port
     path = None if options.unix_socket is None else os.fspath(options.unix_socket)
     listening = None
@@ -188,13 +198,13 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
     viser_private.remember_prop_types()
     viser_private.compare_poses_quickly()
     viser_private.tell_poses_of_remade_nodes()
-    channels = Channels()
+    channels, answers = Channels(), handshake.Answers()
     checked = handshake.checked(
-        options, listening, limits.PAGE_MESSAGE.value, channels, knows
+        options, listening, limits.PAGE_MESSAGE.value, channels, answers, knows
     )
     with viser_private.without_banner(), checked as ready:
         server = viser.ViserServer(host=host, port=port, verbose=False)
-    listener = Listener(server, options, channels)
+    listener = Listener(server, options, channels, answers)
     # Clients that were quicker than this wait for it; also those of a server that is
     # closed at once, which would wait for them.
     server.get_event_loop().call_soon_threadsafe(ready.set)

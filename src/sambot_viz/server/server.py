@@ -88,6 +88,11 @@ class Server:
             self._listener.tell_joined,
         )
         self._listener.give(clients)
+        if options.metrics:
+            from sambot_viz.server.metrics import Metrics
+
+            answers = self._listener.answers
+            answers.metrics = Metrics(sessions, answers.traffic, moved_by).answer
         prepare_page(self._viser)
         outbox.keep_apart(self._viser, clients.has_copy)
         if options.session == "shared":

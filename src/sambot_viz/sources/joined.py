@@ -100,6 +100,7 @@ class JoinedSources:
             sum(one.unreadable for one in every),
             sum(one.session for one in every),
             all(one.is_connected for one in every),
+            sum(one.received for one in every),
         )
 
     @property

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, Protocol
 
 from sambot_viz.errors import Problem, SourceError
@@ -169,6 +169,7 @@ class SourceStatus:
         unreadable: frames of the peer that made no sense.
         session: grows when the peer starts again; what came before is of another run.
         is_whole: of several sources each one is connected.
+        received: messages that came and somebody wanted; no change of it is told.
     """
 
     is_connected: bool = False
@@ -179,6 +180,7 @@ class SourceStatus:
     unreadable: int = 0
     session: int = 0
     is_whole: bool = True
+    received: int = field(default=0, compare=False)
 
 
 Capability = Literal[

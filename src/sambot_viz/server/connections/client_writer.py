@@ -5,10 +5,13 @@ from __future__ import annotations
 import asyncio
 import math
 import socket
+import time
 from collections.abc import AsyncIterator
 from contextlib import suppress
 
 from websockets.asyncio.server import ServerConnection
+
+from sambot_viz.server.connections.traffic import Traffic
 
 PIECE = 128 * 1024
 """A longer message is sent in pieces: so much of it is copied at a time [bytes]."""
@@ -23,11 +26,20 @@ class ClientWriter:
 
     Args:
         connection: of the client.
+        traffic: counts what is sent to all clients.
     """
 
-    def __init__(self, connection: ServerConnection) -> None:
+    def __init__(
+        self, connection: ServerConnection, traffic: Traffic | None = None
+    ) -> None:
         self._connection = connection
+        self._traffic = traffic or Traffic()
         self._given = 0
+        self._sends_since = math.inf
+
+    def waits(self) -> float:
+        """Return for how long the client has not taken a message [s]."""
+        return max(0.0, time.monotonic() - self._sends_since)
 
     def prepare(self) -> None:
         """Have the system take no more than a piece that the line cannot take yet.
@@ -50,20 +62,27 @@ class ClientWriter:
             message: bytes, or a text that is shorter than a piece.
         """
         timer = StallTimer(self)
+        self._traffic.frames += 1
+        self._sends_since = min(self._sends_since, time.monotonic())
         try:
             if isinstance(message, str) or len(message) <= PIECE:
-                self._given += len(message)
+                self._count(len(message))
                 await self._connection.send(message)
             else:
                 await self._connection.send(self._pieces(message))
         finally:
             timer.cancel()
+            self._sends_since = math.inf
+
+    def _count(self, size: int) -> None:
+        self._given += size
+        self._traffic.sent += size
 
     async def _pieces(self, message: bytes) -> AsyncIterator[memoryview]:
         view = memoryview(message)
         for start in range(0, len(view), PIECE):
             piece = view[start : start + PIECE]
-            self._given += len(piece)
+            self._count(len(piece))
             yield piece
             # A client that reads at once would keep all others waiting.
             await asyncio.sleep(0)

@@ -17,6 +17,7 @@ from sambot_viz import limits
 from sambot_viz.server.connections.client_writer import ClientWriter
 from sambot_viz.server.connections.connection_limit import ConnectionLimiter
 from sambot_viz.server.connections.rate_limit import TokenBucket
+from sambot_viz.server.connections.traffic import Traffic
 
 BURST = 600.0
 """How many messages may come at once."""
@@ -51,6 +52,7 @@ class Connection(ServerConnection):
 
     Args:
         limiter: counts it; one too many is closed at once.
+        traffic: counts what is sent to it.
 
     Attributes:
         context: what its request has said.
@@ -65,11 +67,15 @@ class Connection(ServerConnection):
     """
 
     def __init__(
-        self, limiter: ConnectionLimiter, *arguments: Any, **settings: Any
+        self,
+        limiter: ConnectionLimiter,
+        traffic: Traffic,
+        *arguments: Any,
+        **settings: Any,
     ) -> None:
         super().__init__(*arguments, **settings)
         self.context = ClientContext()
-        self.writer = ClientWriter(self)
+        self.writer = ClientWriter(self, traffic)
         self.rate = TokenBucket(limits.PAGE_MESSAGES.value, BURST)
         self.read: Callable[[], Awaitable[Data]] = self.receive
         self.client_id: int | None = None
@@ -77,6 +83,7 @@ class Connection(ServerConnection):
         self.on_lost: Callable[[], object] = lambda: None
         self.removed = False
         self._limiter = limiter
+        self._traffic = traffic
         self._limit_small_frames()
 
     def _limit_small_frames(self) -> None:
@@ -126,6 +133,7 @@ class Connection(ServerConnection):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Count a new connection."""
         super().connection_made(transport)
+        self._traffic.clients.add(self.writer)
         if not self._limiter.admit(self):
             self.transport.abort()
 
@@ -140,5 +148,6 @@ class Connection(ServerConnection):
     def connection_lost(self, exc: Exception | None) -> None:
         """Make place for another one."""
         self._limiter.lost(self)
+        self._traffic.clients.discard(self.writer)
         self.on_lost()
         super().connection_lost(exc)

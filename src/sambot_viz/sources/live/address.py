@@ -70,6 +70,24 @@ class Address:
         return replace(self, is_secure=is_secure).with_protocol(self.protocol)
 
 
+def without_secrets(uri: str) -> str:
+    """Return the address of a source as others may see it: without user and query.
+
+    What stands behind the question mark for zenoh and DDS is no secret.
+
+    Args:
+        uri: as it was written; anything else stays as it is.
+    """
+    try:
+        address = parse_address(uri)
+    except UsageError:
+        return uri
+    if not address.websocket:
+        return uri
+    parts = urlsplit(uri)
+    return parts._replace(netloc=parts.netloc.rpartition("@")[2], query="").geturl()
+
+
 def parse_address(uri: str) -> Address:
     """Read an address such as foxglove://robot:8765/path or zenoh://lab?domain=7.
 

@@ -50,11 +50,12 @@ class Delivery:
         name: of the thread.
 
     Attributes:
-        dropped: messages that were dropped since callbacks were too slow.
+        received: messages that came and somebody wanted.
+        dropped: those of them that were dropped since callbacks were too slow.
     """
 
     def __init__(self, name: str) -> None:
-        self.dropped = 0
+        self.received = self.dropped = 0
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self._changed = threading.Condition()
         self._queue: deque[str | Callable[[], object]] = deque()
@@ -123,6 +124,7 @@ class Delivery:
         with self._changed:
             if message.topic not in self._wanted or self._is_stopped:
                 return
+            self.received += 1
             waiting = self._waiting.setdefault(message.topic, _Waiting())
             waiting.messages.append(message)
             self._size += len(message.payload)

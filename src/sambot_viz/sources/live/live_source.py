@@ -120,7 +120,7 @@ class LiveSource(ABC):
     @property
     def status(self) -> SourceStatus:
         """How the source is now."""
-        return self._status
+        return replace(self._status, received=self._delivery.received)
 
     def of_session(self) -> Source:
         """Return it: one connection serves all sessions."""
