@@ -40,7 +40,7 @@ def test_what_differs_is_a_table(capsys: Capture, wider: Path) -> None:
         "joint drivewhl_r_joint: origin",
     ]
     assert lines[0].split() == (
-        "link base_link: visual size 0.42 0.31 0.18 m 0.42 0.33 0.18 m 20 mm".split()
+        "link base_link: visual size 420 310 180 mm 420 330 180 mm 20 mm".split()
     )
 
 

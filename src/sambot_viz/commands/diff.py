@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -12,7 +11,8 @@ from sambot_viz.errors import RobotError
 from sambot_viz.options import Options
 from sambot_viz.outlet import Line, Painted, write_json, write_out
 from sambot_viz.problems import write_problems
-from sambot_viz.robot.difference import Difference, Unit, Value, differences
+from sambot_viz.robot.difference import Difference, differences
+from sambot_viz.robot.difference_words import in_words
 from sambot_viz.robot.model import Robot, load_robot
 
 SAME, DIFFERENT, TROUBLE = 0, 1, 2
@@ -83,31 +83,11 @@ def _in_words(found: Sequence[Difference], mine: str, theirs: str) -> Iterator[L
     if not found:
         yield "the models are the same"
         return
-    rows = [("", mine, theirs, ""), *map(_row, found)]
+    rows = [("", mine, theirs, "")]
+    for whose, what, *values in map(in_words, found):
+        rows.append((f"{whose}: {what}" if what else whose, *values))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     for number, row in enumerate(rows):
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=False))
         written = "  ".join((*cells, row[3])).rstrip()
         yield [Painted(written, "bold")] if number == 0 else written
-
-
-def _row(found: Difference) -> tuple[str, str, str, str]:
-    whose = f"{found.kind} {found.name}".strip()
-    mine, theirs = (_shown(value, found.unit) for value in (found.mine, found.theirs))
-    apart = ""
-    if found.apart is not None:
-        is_angle = found.unit == "rad"
-        far = math.degrees(found.apart) if is_angle else 1000.0 * found.apart
-        apart = f"{far:.4g}{'°' if is_angle else ' mm'}"
-    return (f"{whose}: {found.what}" if found.what else whose, mine, theirs, apart)
-
-
-def _shown(value: Value, unit: Unit) -> str:
-    """Write a value with its unit; an angle in degrees."""
-    if value is None or isinstance(value, str):
-        return value or "none"
-    numbers = value if isinstance(value, tuple) else (value,)
-    if unit == "rad":
-        numbers = tuple(map(math.degrees, numbers))
-    text = " ".join(f"{number:.6g}" for number in numbers)
-    return f"{text}°" if unit == "rad" else f"{text} {unit}".rstrip()

@@ -88,6 +88,15 @@ def differences(mine: Robot, theirs: Robot) -> list[Difference]:
     return found
 
 
+def same_shapes(mine: Link, theirs: Link) -> bool:
+    """Tell whether two links are drawn with the same shapes, whatever their colours."""
+    one, other = (
+        {str(n): _of_shape(s, with_material=False) for n, s in enumerate(link.visuals)}
+        for link in (mine, theirs)
+    )
+    return not any(_of_values(one, other))
+
+
 def _of_parts(
     kind: Literal["link", "joint"],
     mine: Mapping[str, Link] | Mapping[str, Joint],

@@ -106,3 +106,13 @@ def _moved(joint: Joint, value: float) -> PlainPose:
         s = math.sin(value / 2)
         return PlainPose((x * s, y * s, z * s, math.cos(value / 2)))
     return PlainPose()
+
+
+def free_positions(robot: JointTree, given: Mapping[str, float]) -> dict[str, float]:
+    """Return the positions that are those of joints which follow no other."""
+    joints = robot.joints
+    return {
+        name: position
+        for name, position in given.items()
+        if name in joints and joints[name].movable and joints[name].mimic is None
+    }

@@ -34,7 +34,6 @@ from sambot_viz.displays.robot_model.robot_source import (
     FILE,
     TOPIC,
     RobotSource,
-    free_positions,
     publish_frames,
 )
 from sambot_viz.displays.robot_model.shape_nodes import ShapeNode
@@ -50,6 +49,7 @@ from sambot_viz.displays.topic_messages import values_of_topic
 from sambot_viz.displays.triangle_display import DrawnTriangles, TriangleDisplay
 from sambot_viz.errors import Problem
 from sambot_viz.meanings import Meaning, meaning_of
+from sambot_viz.robot.joint_tree import free_positions
 from sambot_viz.robot.model import Robot, asset_of
 from sambot_viz.robot.parts import Link, Shape
 from sambot_viz.rviz import DisplayConfig

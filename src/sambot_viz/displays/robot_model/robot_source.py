@@ -20,6 +20,7 @@ from sambot_viz.displays.robot_model.description_file import (
 )
 from sambot_viz.errors import FrameError
 from sambot_viz.frames import FrameTree, Transform
+from sambot_viz.robot.joint_tree import free_positions
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import DisplayConfig
 
@@ -191,16 +192,6 @@ def publish_frames(
             continue
         new.append(child)
     return tuple(new)
-
-
-def free_positions(robot: Robot, given: Mapping[str, float]) -> dict[str, float]:
-    """Return the positions that are those of joints which follow no other."""
-    joints = robot.joints
-    return {
-        name: position
-        for name, position in given.items()
-        if name in joints and joints[name].movable and joints[name].mimic is None
-    }
 
 
 def _known(tree: FrameTree, frame: str) -> bool:
