@@ -26,6 +26,8 @@ const opened = new Map();
 let current = null;
 /** What changes in the extensions of all texts. @type {any} */
 let parts = null;
+/** The last place that was asked for and shown; one may be asked for before there is an editor. */
+let went = 0;
 
 export class Editor {
   /** @param {any} cm CodeMirror @param {HTMLElement} host where it is */
@@ -44,8 +46,6 @@ export class Editor {
     this.view = new cm.EditorView({ parent: host, dispatchTransactions: this.dispatch });
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
-    /** The last place that was asked for. */
-    this.went = rows.data("model/wanted")?.number ?? 0;
     const listened = /** @type {[string, () => void][]} */ ([
       ["model/text", this.take],
       ["model/found", this.mark],
@@ -142,8 +142,8 @@ export class Editor {
   /** Select what a click in the view has asked for, as soon as its file is shown. */
   goTo = () => {
     const { number = 0, file, extent } = rows.data("model/wanted") ?? {};
-    if (number <= this.went || file !== this.file) return;
-    this.went = number;
+    if (number === went || file !== this.file) return;
+    went = number;
     const [anchor, head] = extent.map((/** @type {number} */ at) =>
       Math.min(at, this.view.state.doc.length),
     );
