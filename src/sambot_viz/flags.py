@@ -18,10 +18,12 @@ from sambot_viz.errors import UsageError
 if TYPE_CHECKING:
     from sambot_viz.frames.static_transform import StaticTransform
 
-Group = Literal["model", "check", "source", "pose", "view", "server", "listen"]
+Group = Literal[
+    "model", "check", "source", "pose", "view", "compare", "server", "listen"
+]
 """Options that the same commands take: all with a MODEL, those that check it, those
-that read recordings and live robots, those that pose the robot, those that draw it, and
-the one that serves a page."""
+that read recordings and live robots, those that pose the robot, those that draw it,
+those that draw another one beside it, and the one that serves a page."""
 AGAIN = "; may be given several times"
 
 SHORTEST_TOKEN = 8

@@ -146,6 +146,7 @@ class Inputs:
             Path(model) if isinstance(model, Path | str) and text is None else None,
             Path(config) if isinstance(config, Path | str) else None,
         )
+        self.reference = self._find_reference()
         document = config is not None and not isinstance(config, Path | str)
         self.config = None if document else found.config
         self._document: Document | None = None
@@ -154,6 +155,7 @@ class Inputs:
             self._open_config(self.config, may_be_broken)
         self._choose_robot()
         self._of_config: tuple[Problem, ...] = ()
+        self.may_be_broken = may_be_broken
         self._robot: Future[Robot] = Future()
         self._load: Callable[[], Robot] | None = None
         if text is not None:
@@ -275,6 +277,20 @@ class Inputs:
             workspace = (*self._options.workspace, model)
             self._options = self._options.having(workspace=workspace)
             return bundled.Found(started[0].model, config or bundled.config_in(model))
+
+    def _find_reference(self) -> Path | Robot | None:
+        """Return the model to compare with, or its file.
+
+        Raises:
+            UsageError: as `bundled.find`.
+        """
+        given = self._options.reference
+        if not isinstance(given, Path | str):
+            return given
+        try:
+            return bundled.find(Path(given)).model
+        except UsageError as error:
+            raise UsageError(f"--reference: {error}") from error
 
     def wait(self, timeout: float) -> bool:
         """Wait for the robot to be loaded, or refused, at most so long [s].

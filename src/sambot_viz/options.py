@@ -233,6 +233,14 @@ class Options:
         group="view",
         metavar="FRAME",
     )
+    reference: PathLike | Robot | None = option(
+        None,
+        "another model, or its package folder, to compare the robot with: what differs "
+        "is drawn as a ghost, and listed in the panel Compare",
+        "--reference",
+        group="compare",
+        metavar="FILE",
+    )
     look: Look | None = option(
         None,
         "how the 3D view is drawn: as RViz draws it, or with soft light and round "

@@ -84,8 +84,9 @@ def _in_words(found: Sequence[Difference], mine: str, theirs: str) -> Iterator[L
         yield "the models are the same"
         return
     rows = [("", mine, theirs, "")]
-    for whose, what, *values in map(in_words, found):
-        rows.append((f"{whose}: {what}" if what else whose, *values))
+    for one in map(in_words, found):
+        whose = f"{one.whose}: {one.what}" if one.what else one.whose
+        rows.append((whose, one.mine, one.theirs, one.apart))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     for number, row in enumerate(rows):
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=False))

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 from contextlib import suppress
 from queue import SimpleQueue
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sambot_viz._version import __version__
 from sambot_viz.commands.command_line import Parser, parse, warn
@@ -21,6 +21,9 @@ from sambot_viz.options import Options
 from sambot_viz.outlet import write_code, write_err, write_out, write_records
 from sambot_viz.problems import write_problems
 from sambot_viz.waiting import wait_for
+
+if TYPE_CHECKING:
+    from sambot_viz.server.reference import ReferenceModel
 
 EPILOG = """\
 NAME:=VALUE, anywhere on the line, is an argument for xacro, as in ros2 launch.
@@ -160,7 +163,7 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
         from sambot_viz.visualizer import Visualizer
 
         with Visualizer.of_inputs(inputs, listener) as visualizer:
-            _report_start(inputs, report)
+            _report_start(inputs, report, visualizer.server.sessions.reference)
             write_notes(stop, inputs, visualizer.server.sessions)
             wait_for(stop)
     except KeyboardInterrupt:
@@ -175,7 +178,16 @@ def parser() -> Parser:
     """Return the flags of the command."""
     made = Parser(
         prog="sambot-viz",
-        groups=("model", "check", "source", "view", "pose", "server", "listen"),
+        groups=(
+            "model",
+            "check",
+            "source",
+            "view",
+            "compare",
+            "pose",
+            "server",
+            "listen",
+        ),
         description="Show a URDF, SDF or xacro robot in the browser: no ROS, no X "
         "server.",
         epilog=EPILOG,
@@ -230,15 +242,18 @@ def _refuse_early(inputs: Inputs) -> None:
             options.start_pose.state(inputs.robot())
 
 
-def _report_start(inputs: Inputs, report: _Reports) -> None:
-    """Write what is wrong with the model, the config and the start pose."""
+def _report_start(
+    inputs: Inputs, report: _Reports, reference: ReferenceModel | None
+) -> None:
+    """Write what is wrong with the model, the config, the reference and the pose."""
     from sambot_viz.commands.command_line import start_state
 
     options = inputs.options
-    report.write(inputs.problems())
+    of_reference = () if reference is None else reference.problems
+    report.write((*inputs.problems(), *of_reference))
     if inputs.refusal() is None and not options.waits_for_robot:
         start_state(inputs.robot(), options)
-    if inputs.refusal() is not None or inputs.broken_config is not None:
+    if inputs.refusal() or inputs.broken_config or of_reference:
         write_err(_WAITING)
 
 

@@ -40,6 +40,12 @@ PROBLEM_ROWS = LimitRow(
     "",
     "the last row says how many more there are",
 )
+COMPARE_ROWS = LimitRow(
+    "rows of the Compare panel",
+    200,
+    "",
+    "its note says how many there are",
+)
 PAGE_MESSAGES = LimitRow(
     "messages of a page",
     300,

@@ -9,6 +9,7 @@ from sambot_viz.errors import SambotVizError
 from sambot_viz.panels import validation
 from sambot_viz.panels.browser import BrowserPanels
 from sambot_viz.panels.command import Command
+from sambot_viz.panels.compare_panel import ComparePanel
 from sambot_viz.panels.displays.display_commands import DisplayCommands
 from sambot_viz.panels.displays.displays_panel import DisplaysPanel
 from sambot_viz.panels.drive_panel import DrivePanel
@@ -122,6 +123,9 @@ class Window:
         ]
         if self._lesson is not None:
             panels.append(LessonPanel(self._lesson))
+        panels.append(
+            ComparePanel(session.comparison, robot, scene, self._text is not None)
+        )
         if session.data is not None:
             panels.append(SourcePanel(session.sources, not session.private))
             panels.append(TimePanel(session.document, scene, session.sources))

@@ -66,7 +66,7 @@ class Reloader:
 
     def start(self) -> None:
         """Follow the files from now on; saves since they were opened count too."""
-        self._reported = (*self._of_model, *self._of_config)
+        self._reported = self._problems()
         self._watcher = FileWatcher(
             self._watched,
             self._changed,
@@ -90,7 +90,9 @@ class Reloader:
     def _asset_files(self) -> set[Path]:
         others = (display.own_robot for display in self._displays())
         shown = (session.robot.model for session in self._sessions.all())
-        known = (self._sessions.robot, *shown, *others)
+        reference = self._sessions.reference
+        compared = None if reference is None else reference.robot
+        known = (self._sessions.robot, compared, *shown, *others)
         # Many sessions show the same one.
         robots = {id(robot): robot for robot in known if robot is not None}
         files = self._sessions.meshes.files
@@ -110,6 +112,10 @@ class Reloader:
         study = self._sessions.options.study
         return set() if study is None else {*study.files()}
 
+    def _files_of_reference(self) -> frozenset[Path]:
+        reference = self._sessions.reference
+        return frozenset() if reference is None else reference.files
+
     def _displays(self) -> Iterator[RobotDisplay]:
         for session in self._sessions.all():
             yield from robot_displays(session.scene.displays)
@@ -120,6 +126,7 @@ class Reloader:
         own = {file for display in self._displays() for file in display.files}
         files = self._model_files() | self._asset_files() | config | own
         files |= self._files_around() | self._files_of_student()
+        files |= self._files_of_reference()
         # A file that is missing now may appear anywhere in the package.
         waits = self._waiting_for_files
         return Watched(frozenset(files), self._model if waits else None)
@@ -153,6 +160,8 @@ class Reloader:
             self._reload_config(config)
         if self._sessions.options.study is not None:
             self._ask_again()
+        if changed & self._files_of_reference():
+            self._reload_reference()
         self._sessions.for_each(lambda session: session.files_saved(changed))
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
@@ -189,6 +198,13 @@ class Reloader:
             self._describe(robot)
         self._report_changed()
 
+    def _reload_reference(self) -> None:
+        if (reference := self._sessions.reference) is not None:
+            reference.read()
+            self._sessions.set_reload_problems("reference", reference.problems)
+            self._sessions.show_reference()
+            self._report_changed()
+
     def _describe(self, robot: Robot) -> None:
         """Give a live robot the model that was saved, where that is allowed."""
 
@@ -217,9 +233,14 @@ class Reloader:
         self._of_config = error.problems
         self._sessions.set_reload_problems("config", error.problems)
 
+    def _problems(self) -> tuple[Problem, ...]:
+        reference = self._sessions.reference
+        of_reference = () if reference is None else reference.problems
+        return (*self._of_model, *self._of_config, *of_reference)
+
     def _report_changed(self) -> None:
         """Report the problems if they are not those reported last."""
-        problems = (*self._of_model, *self._of_config)
+        problems = self._problems()
         if self._report is not None and problems != self._reported:
             self._report(problems)
         self._reported = problems

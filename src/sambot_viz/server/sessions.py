@@ -21,6 +21,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.server import reload_problems
 from sambot_viz.server.mesh_thread import MeshThread
 from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.reference import ReferenceModel
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.model_edits import ModelEdits
@@ -67,6 +68,7 @@ class Sessions:
         edits: writes fixes into the files of the model, where browsers may; only in
             the session of all clients.
         model_files: the text of the model that browsers see; None without a file.
+        reference: the model that all sessions can compare theirs with; None for none.
         on_files: called after other files may be shown than before, in any thread.
     """
 
@@ -88,6 +90,7 @@ class Sessions:
         self.on_files: Callable[[], object] = lambda: None
         self.edits: ModelEdits | None = None
         self.model_files: ModelFiles | None = None
+        self.reference: ReferenceModel | None = None
         self.meshes = MeshCache()
         self.meshes.on_read = self._tell_files
         self._mesh_thread = MeshThread(self.meshes, self._drawing_failed)
@@ -258,6 +261,19 @@ class Sessions:
                 self.opened = robot
                 self.robot = self.assemble(robot)
 
+    def show_reference(self) -> None:
+        """Compare all sessions with the reference, after another one was read."""
+        self.on_files()
+        try:
+            self.for_each(self._give_reference)
+        finally:
+            self._forget_unused_files()
+
+    def _give_reference(self, session: Session) -> None:
+        if self.reference is not None:
+            name, robot = self.reference.name, self.reference.robot
+            session.comparison.take_reference(name, robot)
+
     def show_again(self) -> None:
         """Show the opened robot, after `assemble` makes something else of it."""
         if self.opened is not None:
@@ -304,6 +320,8 @@ class Sessions:
         if self._models is not None and not self._models.wait(timeout):
             raise ServerError(f"a model was not read within {timeout:g} s")
         for session in self.all():
+            if not session.comparison.wait(timeout):
+                raise ServerError(f"models were not compared within {timeout:g} s")
             if not session.scene.context.assets.wait(timeout):
                 raise ServerError(f"the meshes were not read within {timeout:g} s")
 
@@ -343,6 +361,7 @@ class Sessions:
         if copy is not None:
             session.prepare(copy)
         session.document.show()
+        self._give_reference(session)
         own = copy is not None and copy.own_model
         robot = copy.robot if copy is not None and own else self.robot
         if robot is not None:
@@ -369,6 +388,7 @@ class Sessions:
         for action in followers:
             action(session)
         self.on_files()
+        self._give_reference(session)
         if robot is not None and robot is not session.robot.model:
             _show(session, robot)
         for of, found in problems.items():

@@ -20,6 +20,7 @@ from sambot_viz.server.config_store import ConfigStore, Sources
 from sambot_viz.server.listener import Listener
 from sambot_viz.server.live_model import FRAMES_WITHIN, LiveModel
 from sambot_viz.server.model_thread import ModelThread
+from sambot_viz.server.reference import ReferenceModel
 from sambot_viz.server.reload import Reloader
 from sambot_viz.server.server import Server
 from sambot_viz.session.document.document import ShownDocument
@@ -104,6 +105,9 @@ class ShownInputs:
             self.server.sessions.model_files = ModelFiles(
                 model, lambda texts, trusted: inputs.load(model, trusted, texts)
             )
+        if inputs.reference is not None:
+            reference = ReferenceModel(inputs.reference, inputs.load)
+            self.server.sessions.reference = reference
         if options.edit and inputs.model is not None:
             self.server.sessions.edits = ModelEdits(inputs.model, options.watch)
 
@@ -121,6 +125,7 @@ class ShownInputs:
             if refusal is None:
                 self._show(inputs.robot())
             clients.show_panels()
+            self._show_reference()
             # Beside a live robot a model of its own is followed, else what that says.
             is_own = inputs.live is None or inputs.model is not None
             if inputs.options.watch and is_own:
@@ -161,6 +166,21 @@ class ShownInputs:
                     self._fit_fixed_frame(session.document.config, robot, moved_by)
                     session.scene.apply_enabled()
         sessions.show_robot(robot)
+
+    def _show_reference(self) -> None:
+        """Read the reference, and let all sessions compare theirs with it.
+
+        Raises:
+            RobotError: it cannot be shown, and what is opened may not be broken.
+        """
+        sessions = self.server.sessions
+        if (reference := sessions.reference) is None:
+            return
+        refusal = reference.read()
+        if refusal is not None and not self._inputs.may_be_broken:
+            raise refusal
+        sessions.set_reload_problems("reference", reference.problems)
+        sessions.show_reference()
 
     def _first_config(self, moved_by: SourceRobot, robot: Robot | None) -> RvizConfig:
         """Return the config that comes with the program, for other sources."""

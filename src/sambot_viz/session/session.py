@@ -32,6 +32,7 @@ from sambot_viz.rviz import RvizConfig
 from sambot_viz.session.clients.client import Client
 from sambot_viz.session.clients.clients import Clients
 from sambot_viz.session.clients.follow_view import FollowView
+from sambot_viz.session.comparison import Comparison, ComparisonChoice
 from sambot_viz.session.data.robot_data import RobotData
 from sambot_viz.session.data.session_sources import SessionSources
 from sambot_viz.session.document.display_edits import DisplayEdits
@@ -87,6 +88,7 @@ class Session:
         sent: the last messages that went to it; sending is told with each.
         driven: who drives that robot.
         graph: the nodes and topics of the package and of the robot.
+        comparison: what the robot is compared with, and what differs.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -148,6 +150,10 @@ class Session:
         worker.in_control = self.roles.may_edit
         self.checks = Checks(
             robot, document, scene, self.problems, change, options.workspace
+        )
+        first = "none" if options.reference is None else "reference"
+        self.comparison = Comparison(
+            robot, scene, change, self.problems.report_error, ComparisonChoice(first)
         )
         self.graph = SessionGraph(
             robot,
@@ -256,8 +262,10 @@ class Session:
             own: whether it is of this session; from then on the server's is ignored.
         """
         with self.change():
-            if self.own_model and not own:
-                return
+            if not own:
+                self.comparison.take_saved(robot)
+                if self.own_model:
+                    return
             start = self.options.start_pose
             if self.options.waits_for_robot or self._has_others:
                 # The server says what is wrong once it has come.
@@ -362,6 +370,7 @@ class Session:
                 time_ns=0 if player is None else player.time_ns,
                 follows=bool(self.robot.followed.value),
                 texts=self.checks.texts,
+                comparison=self.comparison.choice,
             )
 
     def prepare(self, copy: SessionCopy) -> None:
@@ -379,6 +388,7 @@ class Session:
 
     def take(self, copy: SessionCopy) -> None:
         """Put joints and frames where they are in a copy."""
+        self.comparison.choose(copy.comparison)
         for child, frame in copy.frames.items():
             self.frames.add(frame.parent, child, frame.transform, static=frame.static)
         if self.data is not None:
@@ -397,6 +407,7 @@ class Session:
         if not self._open.acquire(blocking=False):
             return
         self.scene.close()
+        self.comparison.close()
         self.motion.close()
         self.joints_out.close()
         self._trail.close()

@@ -12,6 +12,7 @@ from sambot_viz.joints.presets import Presets
 from sambot_viz.meshes.cache import MeshCache
 from sambot_viz.robot.model import Robot
 from sambot_viz.rviz import RvizConfig
+from sambot_viz.session.comparison import ComparisonChoice
 from sambot_viz.session.robot.motion_recorder import MotionSample
 from sambot_viz.session.robot.user_frames import UserFrame
 from sambot_viz.topics.source_robot import Lease, SourceRobot
@@ -40,6 +41,7 @@ class SessionCopy:
         time_ns: the log time that is shown of it [ns].
         follows: whether its messages move the joints.
         texts: texts of the model's files that are not saved; see `Checks`.
+        comparison: what the robot is compared with.
     """
 
     config: RvizConfig
@@ -60,6 +62,7 @@ class SessionCopy:
     time_ns: int = 0
     follows: bool = True
     texts: Mapping[str, str] = field(default_factory=dict[str, str])
+    comparison: ComparisonChoice = field(default_factory=ComparisonChoice)
 
     @property
     def recorded(self) -> SourceRobot | None:

@@ -28,8 +28,9 @@ from sambot_viz.session.worker import log_error
 from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.unsaved import unsaved
 
-Reloaded = Literal["model", "config", "watch", "fault", "description"]
-"""What a save failed to change (model, config), or why saves fail at all."""
+Reloaded = Literal["model", "config", "watch", "fault", "description", "reference"]
+"""What a save failed to change (model, config, reference), or why saves fail at all."""
+_OTHERS: Sequence[Reloaded] = ("fault", "watch", "reference")
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +175,7 @@ class Problems:
         shown = self._document.config
         of_config = (*shown.problems, *tools_not_here(shown))
         config = _also(saved.get("config", ()), of_config)
-        others = (*saved.get("fault", ()), *saved.get("watch", ()))
+        others = [p for of in _OTHERS for p in saved.get(of, ())]
         played = [*self._sources.problems.value]
         played += problems_of_topics(self._scene.displays)
         return in_order((*_also(model, played), *config, *others))

@@ -9,6 +9,7 @@ import { GraphPanel } from "../panels/graph.js";
 import { ImagesPanel } from "../panels/images.js";
 import { LessonPanel } from "../panels/lesson.js";
 import { ModelPanel } from "../panels/model.js";
+import { ComparePanel } from "../panels/compare.js";
 import { LiveDrivePanel } from "../panels/live_drive.js";
 import { JointsPanel } from "../panels/joints.js";
 import { ProblemsPanel } from "../panels/problems.js";
@@ -32,6 +33,7 @@ export const tab = new Cell("", "tab");
 export const TABS = {
   joints: { title: "Joints", content: JointsPanel },
   model: { title: "Model", content: ModelPanel },
+  compare: { title: "Compare", content: ComparePanel },
   frames: { title: "Frames", content: FramesPanel },
   graph: { title: "Graph", content: GraphPanel },
   images: { title: "Images", content: ImagesPanel },
