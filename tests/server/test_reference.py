@@ -36,7 +36,7 @@ class Page:
 
     @property
     def table(self) -> list[list[str]]:
-        found = self.client.row("compare/found")["value"]
+        found = self.value("compare/found") or []
         columns = ("whose", "what", "mine", "theirs", "apart")
         return [[one[name] for name in columns] for one in found]
 
@@ -218,6 +218,31 @@ def test_each_private_session_has_its_own_choice(
     other.client.edit("compare/with", "Nothing")
     other.reads([])
     assert page.table == [ORIGIN]
+
+
+def test_a_copy_begins_with_the_choice_of_the_others(
+    show: Callable[..., Page], protocol: Callable[..., ProtocolClient]
+) -> None:
+    page = show()
+    page.reads([ORIGIN])
+    page.client.edit("compare/ghost", False)
+    page.client.wait_until(lambda: page.value("compare/ghost") is False)
+    other = Page(page.viz, protocol(page.viz.viser.get_port(), path="/copy"))
+    other.client.wait_until(lambda: other.value("compare/ghost") is False)
+    other.reads([ORIGIN])
+    other.client.edit("compare/with", "Nothing")
+    other.reads([])
+    assert page.table == [ORIGIN]
+
+
+def test_a_model_that_is_broken_from_the_start_is_compared_once_it_is_fixed(
+    show: Callable[..., Page], files: tuple[Path, Path]
+) -> None:
+    files[0].write_text("<robot/>")
+    page = show()
+    page.note("There is no robot yet.")
+    files[0].write_text(MINE)
+    page.reads([ORIGIN])
 
 
 def test_a_program_gives_a_file_or_a_robot(files: tuple[Path, Path]) -> None:

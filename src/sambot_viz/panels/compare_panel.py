@@ -14,7 +14,9 @@ from sambot_viz.robot.difference_words import in_words
 from sambot_viz.session.comparison import Compared, Comparison
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.scene.scene import Scene
+from sambot_viz.text import text
 
+_LONGEST_NAME = 60
 _NONE, _SAVED = "Nothing", "The saved text"
 _WITH = (
     "The text of the model that was saved last, or the model of --reference. What "
@@ -99,6 +101,8 @@ class ComparePanel(Panel):
             return "Choose a model to see what differs from it.", None
         if self._comparison.other is None:
             return "The other model cannot be read: see Problems.", "warn"
+        if self._robot.model is None:
+            return "There is no robot yet.", None
         if found is None:
             return "Comparing…", None
         if not found:
@@ -134,7 +138,8 @@ class ComparePanel(Panel):
         if self._has_text:
             names["saved"] = _SAVED
         if self._comparison.reference:
-            names["reference"] = f"Reference {self._comparison.reference}"
+            name = text(self._comparison.reference, _LONGEST_NAME)
+            names["reference"] = f"Reference {name}"
         return names
 
     def _choose(self, name: str) -> None:

@@ -43,5 +43,5 @@ def _shown(value: Value, unit: Unit, digits: int = 6) -> str:
         numbers, said = tuple(map(math.degrees, numbers)), "°"
     elif unit == "m":
         numbers, said = tuple(1000.0 * number for number in numbers), "mm"
-    text = " ".join(f"{number:.{digits}g}" for number in numbers)
+    text = " ".join(f"{number + 0.0:.{digits}g}" for number in numbers)
     return text + said if said == "°" else f"{text} {said}".rstrip()
