@@ -263,7 +263,7 @@ function Menu({ menu, choose, leave }) {
           onClick=${() => {
             if (!entry.off) choose(entry);
           }}
-          onPointerMove=${(/** @type {Press} */ e) => e.currentTarget.focus()}>
+          onPointerMove=${(/** @type {Press} */ e) => e.currentTarget.focus({ preventScroll: true })}>
         <span class="tick">${entry.checked ? html`<${Icon} name="ok" />` : ""}</span>
         <span class="entry">${entry.name}</span>
         ${entry.keys && html`<kbd>${entry.keys}</kbd>`}</div>`,

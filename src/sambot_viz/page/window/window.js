@@ -211,6 +211,9 @@ function Sheet() {
   </aside>`;
 }
 
+/** More tabs than these have short names, so that they fit into a line. */
+const FEW = 6;
+
 /** Give tabs that do not fit into a line two lines, where all can be read. @param {HTMLElement} tabs */
 function wrapTabs(tabs) {
   tabs.classList.remove("two");
@@ -249,7 +252,7 @@ function Tabs({ names, of, current }) {
       aria-controls=${name === current ? "panel-right" : undefined}
         tabindex=${name === current ? 0 : -1}
       aria-label=${of[name].title} title=${of[name].title} onClick=${() => tab.set(name)}>
-        ${(of !== TABS && of[name].short) || of[name].title}</button>`,
+        ${((of !== TABS || names.length > FEW) && of[name].short) || of[name].title}</button>`,
     )}
   </div>`;
 }
