@@ -117,8 +117,8 @@ class Comparison:
 
     @property
     def _wanted(self) -> tuple[Robot | None, Robot | None]:
-        other = self.other
-        return (None, None) if other is None else (self._robot.model, other)
+        mine, other = self._robot.model, self.other
+        return (None, None) if mine is None or other is None else (mine, other)
 
     def _update(self) -> None:
         """Compare again, unless neither model has changed; returns at once."""
