@@ -113,6 +113,8 @@ def test_a_moved_wheel_is_one_row_and_the_only_ghost(
     page = show()
     page.reads([ORIGIN])
     assert page.value("compare/with") == "Reference theirs.urdf"
+    (row,) = page.value("compare/found")
+    assert row["places"] == "Mine: mine.urdf:3, Theirs: theirs.urdf:3"
     (ghost,) = page.ghosts()
     assert page.look(ghost) == {"color": [255, 64, 200], "opacity": 0.5}
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from sambot_viz import limits
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.panels.panel import Panel
+from sambot_viz.panels.problems.problems_panel import place_of_line
 from sambot_viz.panels.rows.row import Data, Json, Level, Row
 from sambot_viz.robot.difference import Difference
 from sambot_viz.robot.difference_words import in_words
@@ -115,8 +116,12 @@ class ComparePanel(Panel):
     def _difference(self, found: Difference) -> Json:
         link = self._link_of(found)
         own = self._robot.model is not None and link in self._robot.model.links
-        place = {"link": link if own else "", "node": self._node(link)}
-        return {**in_words(found)._asdict(), **place}
+        return {
+            **in_words(found)._asdict(),
+            "places": _places(found),
+            "link": link if own else "",
+            "node": self._node(link),
+        }
 
     def _link_of(self, found: Difference) -> str:
         """Return the link that is meant: of a joint the one that it holds."""
@@ -153,3 +158,10 @@ class ComparePanel(Panel):
             self._comparison.choose(replace(choice, **{field: value}))
 
         return take
+
+
+def _places(found: Difference) -> str:
+    """Say where the two values are written."""
+    both = zip(("Mine", "Theirs"), found.places, strict=True)
+    said = (f"{whose}: {place_of_line(p.file, p.line)}" for whose, p in both if p)
+    return ", ".join(said)

@@ -9,7 +9,7 @@ import { act, rows } from "../wire/channel.js";
 
 /**
  * @typedef {{whose: string, what: string, mine: string, theirs: string, apart: string,
- *   link: string, node: string}} Difference link: of the robot, "" where it lacks it; node: of the
+ *   places: string, link: string, node: string}} Difference places: of both values; link: of the robot, "" where it lacks it; node: of the
  *   link in the view
  */
 
@@ -60,7 +60,7 @@ function Table({ found }) {
           one,
           at,
         ) => html`<tr key=${`${one.whose} ${one.what}`} tabindex=${at === Math.max(0, chosen) ? 0 : -1}
-          aria-selected=${String(at === chosen)} onFocus=${() => choose(at)} onClick=${() => choose(at)}
+          title=${one.places} aria-selected=${String(at === chosen)} onFocus=${() => choose(at)} onClick=${() => choose(at)}
           onDblClick=${() => write(one)}
           onPointerEnter=${() => light(one)} onPointerLeave=${() => light(found[chosen])}
           onKeyDown=${(/** @type {KeyboardEvent} */ event) => key(event, at)}>
