@@ -15,7 +15,7 @@ from sambot_viz.lessons.evaluation import StepResult
 from sambot_viz.lessons.lesson import Lesson, LessonStep
 from sambot_viz.lessons.read_lesson import open_lesson
 from sambot_viz.lessons.student_files import HandedIn, handed_in
-from sambot_viz.robot.child_process import ChildTimeoutError, ask_child
+from sambot_viz.robot.child_process import Child, ChildTimeoutError
 
 _CHILD = Path(__file__).parent / "child" / "main.py"
 _PACKAGE = Path(__file__).parents[2]
@@ -105,9 +105,8 @@ def _in_child(
         "path": str(given.model if given.is_file else given.folder),
     }
     try:
-        output, status = ask_child(
-            _CHILD, json.dumps(order).encode(), seconds, OPENBLAS_NUM_THREADS="1"
-        )
+        child = Child(_CHILD, OPENBLAS_NUM_THREADS="1")
+        output, status = child.ask(json.dumps(order).encode(), seconds)
     except ChildTimeoutError:
         return _all_failed(lesson, steps, f"grading took longer than {seconds} s")
     try:

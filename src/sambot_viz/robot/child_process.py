@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 
@@ -14,54 +15,73 @@ class ChildTimeoutError(Exception):
     """The child did not answer in time; it was ended."""
 
 
-def ask_child(
-    script: Path, order: bytes, seconds: float, **environment: str
-) -> tuple[bytes, int | None]:
-    """Run a script, and return what it wrote to standard output.
+class Child:
+    """A script that has started, and waits for its order.
 
-    It runs without site-packages, in a session of its own.
+    It runs without site-packages, in a session of its own, and reads the order from
+    standard input: 16 characters of length, then the order. That stays open until the
+    answer is there.
 
     Args:
-        script: it reads its order from standard input: 16 characters of length, then
-            the order. That stays open until the answer is there.
-        order: what it has to do.
-        seconds: it is ended after this time [s], with all that it has started.
+        script: what it runs.
+        arguments: of its command line.
         environment: variables of its environment, beside those that Windows needs.
-
-    Returns:
-        Its output, and the status with which it has ended.
-
-    Raises:
-        ChildTimeoutError: it took longer.
     """
-    needed = {name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ}
-    # The child reads EOF from this pipe when this process has died, and exits too.
-    # Therefore the pipe stays open until the answer is there; `communicate` would
-    # close it earlier.
-    read_end, lifeline = os.pipe()
-    try:
-        process = subprocess.Popen(
-            [sys.executable, "-I", "-S", "-X", "utf8", str(script)],
-            stdin=read_end,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env={**needed, **environment},
-            start_new_session=True,
-        )
-    except BaseException:
-        os.close(lifeline)
-        raise
-    finally:
-        os.close(read_end)
-    try:
-        _send(lifeline, b"%16d" % len(order) + order)
-        output, _ = process.communicate(timeout=seconds)
-    except subprocess.TimeoutExpired:
-        raise ChildTimeoutError(f"it took longer than {seconds:g} s") from None
-    finally:
-        os.close(lifeline)
-        _end(process)
-    return output, process.returncode
+
+    def __init__(
+        self, script: Path, arguments: Sequence[str] = (), **environment: str
+    ) -> None:
+        needed = {n: os.environ[n] for n in ("SYSTEMROOT",) if n in os.environ}
+        # The child reads EOF from this pipe when this process has died, and exits too.
+        # Therefore the pipe stays open until the answer is there; `communicate` would
+        # close it earlier.
+        read_end, self._lifeline = os.pipe()
+        try:
+            self._process = subprocess.Popen(
+                [sys.executable, "-I", "-S", "-X", "utf8", str(script), *arguments],
+                stdin=read_end,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                env={**needed, **environment},
+                start_new_session=True,
+            )
+        except BaseException:
+            os.close(self._lifeline)
+            raise
+        finally:
+            os.close(read_end)
+
+    @property
+    def waits(self) -> bool:
+        """Whether it is still there for an order."""
+        return self._process.poll() is None
+
+    def ask(self, order: bytes, seconds: float) -> tuple[bytes, int | None]:
+        """Give it its only order, and return what it wrote to standard output.
+
+        Args:
+            order: what it has to do.
+            seconds: it is ended after this time [s], with all that it has started.
+
+        Returns:
+            Its output, and the status with which it has ended.
+
+        Raises:
+            ChildTimeoutError: it took longer.
+        """
+        try:
+            _send(self._lifeline, b"%16d" % len(order) + order)
+            output, _ = self._process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            raise ChildTimeoutError(f"it took longer than {seconds:g} s") from None
+        finally:
+            self.end()
+        return output, self._process.returncode
+
+    def end(self) -> None:
+        """End it without an order."""
+        os.close(self._lifeline)
+        _end(self._process)
 
 
 def _send(pipe: int, data: bytes) -> None:

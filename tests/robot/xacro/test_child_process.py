@@ -13,7 +13,7 @@ import pytest
 from patience import until
 
 from sambot_viz.robot.xacro.child_result import ExpansionError
-from sambot_viz.robot.xacro.expansion import Limits, expand_model
+from sambot_viz.robot.xacro.expansion import Limits, SpareChild, expand_model
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ENDLESS = f"""{HEAD}
@@ -104,6 +104,25 @@ def test_two_loads_at_once_do_not_wait_for_each_others_children(
         assert not endless.done()
         assert endless.result() == "Timeout"
     assert all('name="2"' in text for text in texts)
+    assert all(child.returncode is not None for child in started)
+
+
+def test_a_child_that_was_started_ahead_expands_the_next_model(
+    started: list[subprocess.Popen[bytes]],
+) -> None:
+    good, spare = HEAD + "<link name='${1 + 1}'/></robot>", SpareChild()
+    for count in (2, 3):
+        with spare.used():
+            assert 'name="2"' in expand(good)
+        assert len(started) == count
+    # One that has ended meanwhile is no loss.
+    started[-1].kill()
+    started[-1].wait()
+    with spare.used():
+        assert 'name="2"' in expand(good)
+    # In other threads, and behind the block, it is left alone.
+    expand(good)
+    spare.end()
     assert all(child.returncode is not None for child in started)
 
 

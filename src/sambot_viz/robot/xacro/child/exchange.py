@@ -35,7 +35,6 @@ class Job(TypedDict):
     megabytes: int
     seconds: int
     output_limit: int
-    import_path: list[str]
     edited: dict[str, str]
 
 

@@ -1,8 +1,9 @@
 """The program of the child process that runs xacro.
 
-`xacro/expand.py` starts it as a script: a job as JSON on standard input (its length
-first), the answer as JSON on standard output. Only what this needs is imported, never
-the package's own `__init__` files, so that it starts fast.
+`xacro/expansion.py` starts it as a script, with the folders of what it imports: a job
+as JSON on standard input (its length first), the answer as JSON on standard output.
+Only what this needs is imported, never the package's own `__init__` files, so that it
+starts fast. It may be started ahead of its job, and waits for it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from sambot_viz.robot.xacro.child.exchange import Job
+
+WAIT = 30
+"""It ends when no job comes for this time [s]."""
 
 
 def limit_resources(megabytes: int, seconds: int) -> None:
@@ -94,22 +98,30 @@ def _wait_for_end() -> None:
     os._exit(1)
 
 
+def end_without_job(seconds: int) -> None:
+    """End this process unless this is called again in time; 0 waits for good."""
+    if hasattr(signal, "alarm"):
+        signal.alarm(seconds)
+
+
 def main() -> None:
     """Read the job, expand, write the answer."""
-    size = int(sys.stdin.buffer.read(16))
-    job: Job = json.loads(sys.stdin.buffer.read(size))
-    end_with_parent()
-    channel = keep_result_channel()
-    limit_resources(job["megabytes"], job["seconds"])
-    os.environ.clear()
-    os.environ.update(job["environment"])
-    sys.path.extend(job["import_path"])
+    sys.path.extend(sys.argv[1:])
     root = os.path.abspath(__file__)
     for _ in range(4):
         root = os.path.dirname(root)
     make_packages(root, "sambot_viz", "sambot_viz.robot")
     from sambot_viz.robot.xacro.child.run import run
 
+    end_without_job(WAIT)
+    size = int(sys.stdin.buffer.read(16))
+    job: Job = json.loads(sys.stdin.buffer.read(size))
+    end_without_job(0)
+    end_with_parent()
+    channel = keep_result_channel()
+    limit_resources(job["megabytes"], job["seconds"])
+    os.environ.clear()
+    os.environ.update(job["environment"])
     answer = run(job)
     with os.fdopen(channel, "wb") as stream:
         stream.write(answer)

@@ -42,6 +42,11 @@ _XACRO_WORDS = frozenset(
 )
 
 
+import_lazily("yaml")
+# It is read while the child may still wait for its job.
+_XACRO: Any = importlib.import_module("xacro")
+
+
 def run(job: Job) -> bytes:
     """Expand as the job says and give the answer as JSON.
 
@@ -74,8 +79,7 @@ class Expansion:
 
     def __init__(self, job: Job) -> None:
         self._job = job
-        import_lazily("yaml")
-        self._xacro: Any = importlib.import_module("xacro")
+        self._xacro: Any = _XACRO
         self._places = PlaceKeeper()
         self._node: Any = None
         self._failed_at: tuple[Any, list[Call], list[str]] | None = None
