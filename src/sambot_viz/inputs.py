@@ -328,6 +328,7 @@ class Inputs:
         model: PathLike | OpenedModel,
         trusted: bool = True,
         edited: Mapping[str, str] | None = None,
+        arguments: Mapping[str, str] | None = None,
     ) -> Robot:
         """Load a model with the xacro arguments and packages of the options.
 
@@ -335,6 +336,7 @@ class Inputs:
             model: the file.
             trusted: False for a file that a browser named, whose code must not run.
             edited: as for `load_robot`.
+            arguments: in place of those xacro arguments that have the same name.
 
         Raises:
             RobotError: the model cannot be shown.
@@ -346,7 +348,7 @@ class Inputs:
             packages = (self._listened.packages, *packages)
         return load_robot(
             model,
-            xacro_args=self._options.xacro_args,
+            xacro_args={**self._options.xacro_args, **(arguments or {})},
             package_path=packages,
             trusted=trusted and self._options.trusted,
             edited=edited,

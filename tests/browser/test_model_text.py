@@ -91,3 +91,51 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
     page.keyboard.type("<jo")
     offered = "document.querySelector('.cm-tooltip-autocomplete')"
     viewer.wait_for(f"{offered}?.innerText.includes('joint')")
+
+
+WITH_NUMBERS = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+<xacro:property name="tilt" value="0"/>
+<xacro:property name="reach" value="0.20"/>
+<link name="hull"/>
+<link name="arm"/>
+<joint name="a" type="fixed"><parent link="hull"/><child link="arm"/>
+<origin xyz="${reach} 0 0" rpy="0 ${tilt} 0"/></joint>
+</robot>
+"""
+
+
+def test_a_number_is_moved_by_keys_and_written_so_that_the_editor_undoes_it(
+    tmp_path: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    file = tmp_path / "r.urdf.xacro"
+    file.write_text(WITH_NUMBERS)
+    options = Options(file, edit=True, watch=True, look="rviz")
+    with Visualizer.of_inputs(Inputs(options)) as viz:
+        viewer = open_viewer(viz.url)
+        user, page = viewer.user, viewer.page
+
+        def x() -> float:
+            robot = session_of(viz).robot.model
+            assert robot is not None
+            return round(robot.joints["a"].origin.xyz[0], 6)
+
+        user.click("tab", "Model")
+        user.find("slider", "reach")
+        viewer.wait_for("document.querySelector('.model .cm-line')")
+        page.evaluate(
+            "document.querySelector('[type=range][aria-label=reach]').focus()"
+        )
+        user.keys("ArrowRight", "ArrowRight")
+        user.until(lambda: x() == 0.202)
+        text = "document.querySelector('.model .cm-content').innerText"
+        assert 'value="0.20"' in page.evaluate(text)
+        user.click("button", "Write into the file")
+        viewer.wait_for(f"{text}.includes('value=\"0.202\"')")
+        user.reads("Not saved")
+        page.evaluate("document.querySelector('.model .cm-content').focus()")
+        user.keys("Control+z")
+        viewer.wait_for(f"{text}.includes('value=\"0.20\"')")
+        user.until(lambda: x() == 0.2)
+        user.keys("Control+y", "Control+s")
+        user.reads("Saved r.urdf.xacro")
+        assert 'name="reach" value="0.202"' in file.read_text()

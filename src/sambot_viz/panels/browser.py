@@ -12,6 +12,7 @@ from sambot_viz.panels.frames.frames_panel import FramesPanel
 from sambot_viz.panels.graph.graph_panel import GraphPanel
 from sambot_viz.panels.joints.poses import GhostPanel
 from sambot_viz.panels.model_panel import ModelPanel
+from sambot_viz.panels.numbers_panel import NumbersPanel
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, InvitePanel, OwnRolePanel
 from sambot_viz.panels.permalink.permalink import PermalinkPanel
@@ -78,6 +79,7 @@ class BrowserPanels:
         if text is not None:
             folders = files is not None and not session.roles.presented
             panels.append(ModelPanel(text, session.problems, folders, self._remake))
+            panels.append(NumbersPanel(text, session.history, self._remake))
         if invite is not None:
             roles, number = session.roles, client.client_id
             panels.append(InvitePanel(roles, number, invite, self._remake))

@@ -194,8 +194,50 @@ class ModelPanel(Panel):
         if found is None:
             raise UsageError(f"the files of the model do not say where '{link}' is")
         self._open, extent = found
+        self._want({"extent": [*extent]})
+
+    @command("model/number", TEXT, name="Go to its line", client_local=True)
+    def _find_number(self, row_id: str) -> None:
+        """Open the file that has a number, and tell the page where it is."""
+        listed = self._text.numbers.listed()
+        found = next((n for n in listed if row_id == f"numbers/{n.id}"), None)
+        if found is None:
+            raise UsageError("this number is no longer there")
+        self._open, text = found.file, self._text.buffer(found.file).text
+        self._want({"extent": [to_units(text, at) for at in found.named.extent]})
+
+    @command("model/write", name="Write into the file")
+    def _write(self) -> None:
+        """Let the editor of the page write the numbers that were moved.
+
+        It is the page that does, so that they can be undone there like what is typed;
+        of several files it asks again for the next one.
+        """
+        found = [n for n in self._text.numbers.listed() if n.can_write]
+        if not found:
+            raise UsageError("no number was moved that a file has")
+        self._open = found[0].file
+        buffer = self._text.buffer(self._open)
+        self._want(
+            {
+                "version": buffer.version,
+                "changes": [
+                    {
+                        "from": to_units(buffer.text, n.named.extent.start),
+                        "to": to_units(buffer.text, n.named.extent.end),
+                        "insert": n.written,
+                    }
+                    for n in found
+                    if n.file == self._open
+                ],
+                "more": any(n.file != self._open for n in found),
+            }
+        )
+
+    def _want(self, wanted: dict[str, Json]) -> None:
+        """Tell the page to show a place of the file that is open, or to write there."""
         self._count += 1
-        self._wanted = {"number": self._count, "file": self._open, "extent": [*extent]}
+        self._wanted = {"number": self._count, "file": self._open, **wanted}
         self._remake(self)
 
     @command(

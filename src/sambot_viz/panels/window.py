@@ -74,7 +74,7 @@ class Window:
         self._invite = invite
         self._recordings = recordings
         self._edits = edits
-        self._text = text
+        self._text, self._closed = text, False
         self._lesson = lesson
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
@@ -169,7 +169,10 @@ class Window:
         self._shared.remake(panel)
 
     def close(self) -> None:
-        """Follow the session no longer."""
+        """Follow the session no longer; a second call does nothing."""
+        if self._closed:
+            return
+        self._closed = True
         self._session.clients.listeners.remove(self._take_client)
         for panels in self._browsers.values():
             panels.close()

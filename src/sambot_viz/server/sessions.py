@@ -150,6 +150,9 @@ class Sessions:
             places = list(self._places.values())
         for place in places:
             if place.session is not None:
+                with place.session.lock:
+                    if place.window is not None:
+                        place.window.close()
                 place.session.close()
             place.worker.close()
         self._mesh_thread.close()

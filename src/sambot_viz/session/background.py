@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
+from typing import NamedTuple
 
 Work = Callable[[], object]
+
+
+class _WaitingWork(NamedTuple):
+    due: float
+    work: Work
 
 
 class Background:
@@ -21,13 +28,20 @@ class Background:
     def __init__(self, name: str) -> None:
         self._name = name
         self._changed = threading.Condition()
-        self._waiting: dict[int, Work] = {}
+        self._waiting: dict[int, _WaitingWork] = {}
         self._is_running = False
 
-    def do(self, owner: object, work: Work) -> None:
-        """Do something soon; returns at once."""
+    def do(self, owner: object, work: Work, *, after: float = 0.0) -> None:
+        """Do something soon; returns at once.
+
+        Args:
+            owner: whose work it is, in place of what waits for it.
+            work: what is done.
+            after: not before this time has passed [s].
+        """
         with self._changed:
-            self._waiting[id(owner)] = work
+            self._waiting[id(owner)] = _WaitingWork(time.monotonic() + after, work)
+            self._changed.notify_all()
             if not self._is_running:
                 self._is_running = True
                 threading.Thread(target=self._run, name=self._name, daemon=True).start()
@@ -49,11 +63,17 @@ class Background:
 
     def _next(self) -> Work | None:
         with self._changed:
-            owner = next(iter(self._waiting), None)
-            if owner is None:
-                self._stopped()
-                return None
-            return self._waiting.pop(owner)
+            while self._waiting:
+                owner = min(self._waiting, key=self._due)
+                left = self._due(owner) - time.monotonic()
+                if left <= 0:
+                    return self._waiting.pop(owner).work
+                self._changed.wait(left)
+            self._stopped()
+            return None
+
+    def _due(self, owner: int) -> float:
+        return self._waiting[owner].due
 
     def _stopped(self) -> None:
         self._is_running = False

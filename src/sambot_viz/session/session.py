@@ -371,6 +371,7 @@ class Session:
                 follows=bool(self.robot.followed.value),
                 texts=self.checks.texts,
                 comparison=self.comparison.choice,
+                moved=self.checks.moved,
             )
 
     def prepare(self, copy: SessionCopy) -> None:
@@ -380,7 +381,7 @@ class Session:
         a client has chosen.
         """
         context = self.scene.context
-        self.checks.texts = copy.texts
+        self.checks.texts, self.checks.moved = copy.texts, copy.moved
         context.config_file = copy.config_file
         context.trusted_files = copy.trusted_files
         context.link_colors.update(copy.link_colors)

@@ -42,6 +42,7 @@ class SessionCopy:
         follows: whether its messages move the joints.
         texts: texts of the model's files that are not saved; see `Checks`.
         comparison: what the robot is compared with.
+        moved: numbers of the model that are not written there.
     """
 
     config: RvizConfig
@@ -63,6 +64,7 @@ class SessionCopy:
     follows: bool = True
     texts: Mapping[str, str] = field(default_factory=dict[str, str])
     comparison: ComparisonChoice = field(default_factory=ComparisonChoice)
+    moved: Mapping[str, float] = field(default_factory=dict[str, float])
 
     @property
     def recorded(self) -> SourceRobot | None:

@@ -239,6 +239,7 @@ class Checks:
         files: the files around the model that the rules have looked for.
         texts: whole path of a file → its text in the editor, where that is not saved;
             change it with the session locked.
+        moved: numbers of the model that are another one there; see `ModelNumbers`.
     """
 
     def __init__(
@@ -260,6 +261,7 @@ class Checks:
         self._of_files: tuple[Robot | None, int, tuple[Problem, ...]] = (None, 0, ())
         self._saves = 0
         self.texts: Mapping[str, str] = {}
+        self.moved: Mapping[str, float] = {}
         self.files: Signal[frozenset[Path]] = Signal(change, frozenset())
         self._checked: _State | None = None
         self._asked: tuple[object, bool] = (None, False)

@@ -46,13 +46,15 @@ def viz(tmp_path: Path) -> Iterator[Visualizer]:
 
 
 @pytest.fixture
-def model_text(viz: Visualizer, tmp_path: Path) -> ModelText:
+def model_text(viz: Visualizer, tmp_path: Path) -> Iterator[ModelText]:
     model, session = tmp_path / "robot.urdf", session_of(viz)
 
-    def load(texts: Mapping[str, str], trusted: bool) -> Robot:
-        return load_robot(model, trusted=trusted, edited=texts)
+    def load(
+        trusted: bool, texts: Mapping[str, str], arguments: Mapping[str, str]
+    ) -> Robot:
+        return load_robot(model, trusted=trusted, edited=texts, xacro_args=arguments)
 
-    return ModelText(
+    text = ModelText(
         ModelFiles(model, load),
         session.robot,
         session.checks,
@@ -61,6 +63,8 @@ def model_text(viz: Visualizer, tmp_path: Path) -> ModelText:
         session.show_edited,
         session.change,
     )
+    yield text
+    text.close()
 
 
 def shown(viz: Visualizer, model_text: ModelText, text: str) -> Robot:

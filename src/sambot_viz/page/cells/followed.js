@@ -22,9 +22,10 @@ export const followedText = (follow) =>
 export const useFollowed = () => followedText(useRow("joints/follow"));
 
 /** What is round a slider: while messages move it, a hand at it is told so.
- * @param {{look: string, off?: boolean, children?: any}} props */
-export function Slide({ look, off, children }) {
-  const why = useFollowed();
+ * @param {{look: string, off?: boolean, joint?: boolean, children?: any}} props */
+export function Slide({ look, off, joint, children }) {
+  const moves = useFollowed();
+  const why = joint ? moves : "";
   /** @type {Ref} */
   const element = useRef(null);
   const [tried, setTried] = useState(false);

@@ -148,14 +148,15 @@ function NumberField({ row, tab, held, room }) {
   </span>`;
 }
 
-/** A slider with its number: the row of a joint. @param {{row: Row, tab: number}} props */
+/** A slider with its number: the row of a joint, or of a number with other ends than limits. @param {{row: Row, tab: number}} props */
 export function SliderCell({ row, tab }) {
   degrees.use();
   const held = useHeld(row);
   const over =
     !row.wheel &&
     (held.value < (row.min ?? -Infinity) - 1e-9 || held.value > (row.max ?? Infinity) + 1e-9);
-  return html`<${Slide} look=${`slide${over ? " over" : ""}`} off=${row.off}>
+  return html`<${Slide} look=${`slide${over ? " over" : ""}`} off=${row.off}
+    joint=${row.low === undefined}>
     ${
       row.follows
         ? html`<span class="formula" title=${formula(row)}>${formula(row)}
@@ -230,8 +231,8 @@ function useFinger(value, slide, release) {
 /** @param {{row: Row, tab: number, held: Held}} props */
 function Handle({ row, tab, held }) {
   const { factor, step, unit } = shownUnit(row);
-  const low = row.min ?? 0;
-  const high = row.max ?? 1;
+  const low = row.low ?? row.min ?? 0;
+  const high = row.high ?? row.max ?? 1;
   const value = held.value;
   // The ends are exact, whatever the step.
   /** @param {number} raw */

@@ -139,11 +139,13 @@ export class Editor {
     this.goTo();
   };
 
-  /** Select what a click in the view has asked for, as soon as its file is shown. */
+  /** Select what a click in the view has asked for, or write the numbers that were moved, as soon as
+   * their file is shown. */
   goTo = () => {
-    const { number = 0, file, extent } = rows.data("model/wanted") ?? {};
+    const { number = 0, file, extent, ...written } = rows.data("model/wanted") ?? {};
     if (number === went || file !== this.file) return;
     went = number;
+    if (!extent) return this.put(written);
     const [anchor, head] = extent.map((/** @type {number} */ at) =>
       Math.min(at, this.view.state.doc.length),
     );
@@ -249,6 +251,24 @@ export class Editor {
       renderMessage: () => said([message, hint]),
       actions: may ? [{ name: "Apply", apply }] : [],
     };
+  }
+
+  /** Write the numbers that were moved; what was typed is sent before. */
+  write() {
+    this.send();
+    act("model/write");
+  }
+
+  /** @param {{version: number, changes: {from: number, to: number, insert: string}[],
+   *   more: boolean}} written more: another file has some, too */
+  put({ version, changes, more }) {
+    const sync = this.open?.sync;
+    if (!sync || sync.isAhead || sync.version !== version)
+      return tell("The text has changed meanwhile; write the numbers again", "info");
+    const shown = this.cm.EditorView.scrollIntoView(changes[0].from, { y: "center" });
+    this.view.dispatch({ changes, effects: shown, userEvent: "input.number" });
+    this.send();
+    if (more) act("model/write");
   }
 
   save() {

@@ -86,8 +86,8 @@ export function JointsPanel() {
   </div>`;
 }
 
-/** How wide the longest name of a joint is [px]. @param {string[]} ids */
-function longestName(ids) {
+/** How wide the longest name of a slider is [px]. @param {string[]} ids */
+export function longestName(ids) {
   const brush = document.createElement("canvas").getContext("2d");
   if (!brush) return 130;
   brush.font = getComputedStyle(document.getElementById("sambot") || document.body).font;

@@ -5,6 +5,7 @@ import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { Editor } from "../editor/editor.js";
 import { loadCodeMirror } from "../editor/look.js";
+import { ModelNumbers } from "./model_numbers.js";
 import { useCommand, useData } from "../state.js";
 
 /** @typedef {{name: string, changed: boolean, errors: number, warnings: number}} File */
@@ -39,6 +40,7 @@ export function ModelPanel() {
   const content = useData("model/text");
   const why = content?.why && `This file cannot be shown: ${content.why}.`;
   return html`<div class="model">
+    <${ModelNumbers} write=${editor ? () => editor.write() : undefined} />
     <${Files} editor=${editor} open=${content?.file} />
     ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
     <${Conflict} content=${content} />

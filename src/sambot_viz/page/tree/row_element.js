@@ -73,7 +73,9 @@ export function dress(element, row, facts) {
     given.set(element, now);
   }
   const locked = row.off && rows.watching ? VIEW_ONLY : undefined;
-  const help = hover && !isWide(row) && row.kind !== "slider" ? row.help : undefined;
+  // The panel Joints has a place for the help of a joint.
+  const joint = row.kind === "slider" && row.low === undefined;
+  const help = hover && !isWide(row) && !joint ? row.help : undefined;
   set(element, "tabindex", current ? "0" : "-1");
   set(element, "title", locked || help);
   set(element, "aria-level", String(depth + 1));

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -19,12 +19,15 @@ class ModelFiles:
 
     Attributes:
         model: the whole path of its file.
-        load: loads it with other texts of its files, by their whole paths; the second
-            argument is False where they come from a user who may not write them.
+        load: loads it with other texts of its files, by their whole paths; the first
+            argument is False where they come from a user who may not write them, the
+            last one has values of ``xacro:arg`` in place of `arguments`.
+        arguments: those of the command line.
     """
 
     model: Path
-    load: Callable[[Mapping[str, str], bool], Robot]
+    load: Callable[[bool, Mapping[str, str], Mapping[str, str]], Robot]
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def named(self, paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:
         """Yield the name of each file that is in the package, and its whole path.

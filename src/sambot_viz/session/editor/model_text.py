@@ -11,22 +11,26 @@ from pathlib import Path
 
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
-from sambot_viz.errors import Edit, RobotError, UsageError
+from sambot_viz.errors import Edit, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
-from sambot_viz.session.background import Background
+from sambot_viz.robot.xacro.diagnose.source_files import read_source
 from sambot_viz.session.editor.buffer import Buffer
 from sambot_viz.session.editor.file_text import to_units
 from sambot_viz.session.editor.model_files import ModelFiles
+from sambot_viz.session.editor.model_numbers import (
+    ModelNumbers,
+    ModelSources,
+    arguments_of,
+    laid_over,
+)
+from sambot_viz.session.editor.text_loader import ModelState, TextLoader, Texts
 from sambot_viz.session.editor.words import OfferedElement, offered
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Checks, Problems
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.unsaved import unsaved
-
-Texts = Mapping[str, str]
-"""Whole path of a file → its text."""
 
 
 class ModelText:
@@ -45,7 +49,7 @@ class ModelText:
 
     Attributes:
         changed: told after a change of the files, or of one of their texts.
-        checked: name of a file → the version of its text that the problems are of.
+        numbers: the properties and arguments of the model.
     """
 
     def __init__(
@@ -60,37 +64,52 @@ class ModelText:
         edits: ModelEdits | None = None,
     ) -> None:
         self._robot, self._checks, self._problems = robot, checks, problems
-        self._change, self._show = change, show
-        self._files = files
-        self._edits = edits
+        self._files, self._edits = files, edits
         self._paths: dict[str, Path] = {}
         self._buffers: dict[str, Buffer] = {}
-        self._suspects: tuple[Path, ...] = ()
-        self._background = Background("sambot-viz-text")
-        self._closed = False
         self._words: tuple[Robot | None, tuple[OfferedElement, ...]] | None = None
         self.changed = Signal(change, None)
-        self.checked: dict[str, int] = {}
-        # A copy of a session begins with the texts that are not saved there.
-        self._loaded: Texts = self._of_model(checks.texts)
-        self._shown = self._loaded
+        # A copy of a session begins with what is not saved there.
+        self.numbers = ModelNumbers(
+            files.arguments, self._sources, change, checks.moved
+        )
         for path, text in checks.texts.items():
             for name, whole in files.named([Path(path)]):
                 self._paths[name] = whole
                 self.buffer(name).take(text)
+        self._loader = TextLoader(
+            files,
+            robot,
+            checks,
+            problems,
+            show,
+            change,
+            self._wanted,
+            self.can_save,
+            self.changed,
+        )
         facts = (robot.changed, checks.files, problems.saves)
-        self._ends = connect(facts, self._find), connect([saved], self._look)
+        self._ends = (
+            connect(facts, self._find),
+            connect([saved], self._look),
+            connect([self.numbers.moved], self._move),
+        )
         self._find()
 
     def close(self) -> None:
         """Follow the session no longer."""
-        self._closed = True
+        self._loader.close()
         for end in self._ends:
             end()
 
     def wait(self, timeout: float) -> bool:
         """Wait until each text is shown, or its problems; False for longer [s]."""
-        return self._background.wait(timeout)
+        return self._loader.wait(timeout)
+
+    @property
+    def checked(self) -> Mapping[str, int]:
+        """Name of a file → the version of its text that the problems are of."""
+        return self._loader.checked
 
     @property
     def can_save(self) -> bool:
@@ -243,13 +262,47 @@ class ModelText:
 
     def _tell(self, *, loads: bool = True) -> None:
         self.changed.touch()
+        self.numbers.forget()
         if loads:
-            self._background.do(self, self._update)
+            self._loader.begin()
+
+    def _move(self) -> None:
+        """Show the numbers where they are now; the checks follow when they rest."""
+        self._checks.moved = self.numbers.moved.value
+        self._loader.begin(rests=False)
+
+    def _sources(self) -> ModelSources:
+        robot = self._robot.model
+        of_robot = () if robot is None else robot.files
+        found = (self._files.model, *(path.absolute() for path in of_robot))
+        names = {str(path): name for name, path in self._paths.items()}
+        texts: dict[str, str] = {}
+        for file in dict.fromkeys(map(str, found)):
+            if file in names:
+                text = self.buffer(names[file]).text
+            else:
+                source = read_source(file)
+                text = "" if source is None else source.text
+            if "xacro:" in text:
+                texts[file] = text
+        return ModelSources(texts, names)
+
+    def _wanted(self) -> ModelState:
+        """Return what is to be shown now."""
+        typed, versions = self.texts, {n: b.version for n, b in self._buffers.items()}
+        texts = dict(typed)
+        numbers = self.numbers.listed() if self.numbers.moved.value else []
+        for name in {n.file for n in numbers if n.moved is not None}:
+            buffer = self.buffer(name)
+            text = laid_over(buffer.text, (n for n in numbers if n.file == name))
+            if text != buffer.text:
+                texts[str(buffer.path)] = text
+        return ModelState(texts, arguments_of(numbers), frozenset(typed), versions)
 
     def _find(self) -> None:
         """Look for the files of the model, after there may be others."""
         robot = self._robot.model
-        found: list[Path] = [self._files.model, *self._suspects]
+        found: list[Path] = [self._files.model, *self._loader.suspects]
         found += () if robot is None else robot.files
         found += sorted(self._checks.files.value)
         for problem in self._problems.of_newest:
@@ -268,48 +321,3 @@ class ModelText:
         looked = [buffer.look() for buffer in self._buffers.values()]
         if any(looked):
             self._tell()
-
-    def _of_model(self, texts: Texts) -> Texts:
-        """Return those of the files that the robot is loaded from."""
-        robot = self._robot.model
-        files = (() if robot is None else robot.files, self._suspects)
-        known = {self._files.model, *(p.absolute() for each in files for p in each)}
-        return {file: text for file, text in texts.items() if Path(file) in known}
-
-    def _update(self) -> None:
-        """Show and check the texts as they are now; in a thread."""
-        with self._change.lock:
-            texts = self.texts
-            versions = {name: b.version for name, b in self._buffers.items()}
-            of_model = self._of_model(texts)
-            if self._closed:
-                return
-        try:
-            if of_model != self._loaded:
-                self._load(of_model)
-            with self._change.lock:
-                around = {f: t for f, t in texts.items() if f not in of_model}
-                self._checks.texts = {**around, **self._shown}
-            self._checks.run_again()
-        except Exception as error:
-            self._problems.report_error(error)
-        with self._change(self.changed):
-            self.checked = versions
-
-    def _load(self, texts: Texts) -> None:
-        trusted = self.can_save or not texts
-        try:
-            with unsaved(texts):
-                robot = self._files.load(texts, trusted)
-        except RobotError as error:
-            with self._change():
-                self._loaded, self._suspects = texts, error.files
-                self._problems.set_text(error.problems if texts else None)
-            return
-        with self._change():
-            if self._closed:
-                return
-            self._loaded = self._shown = texts
-            self._checks.texts, self._suspects = texts, ()
-            self._problems.set_text(() if texts else None)
-            self._show(robot, bool(texts))
