@@ -139,3 +139,10 @@ def test_a_number_is_moved_by_keys_and_written_so_that_the_editor_undoes_it(
         user.keys("Control+y", "Control+s")
         user.reads("Saved r.urdf.xacro")
         assert 'name="reach" value="0.202"' in file.read_text()
+        # Without xacro, as ROS gets it.
+        user.click("tab", "Expanded")
+        viewer.wait_for("document.querySelectorAll('.model .cm-content').length == 2")
+        viewer.wait_for(
+            "[...document.querySelectorAll('.model .cm-content')]"
+            ".some((one) => one.innerText.includes('xyz=\"0.202 0 0\"'))"
+        )

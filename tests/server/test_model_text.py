@@ -250,6 +250,46 @@ def test_a_click_on_a_link_finds_its_lines_in_the_file_that_has_it(
     editor.client.wait_until(lambda: "no_link" in editor.notice)
 
 
+def test_a_link_of_a_macro_leads_to_the_macro_and_to_its_call(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    macro = """<xacro:macro name="leg" params="n"><link name="leg_${n}"/>
+    <joint name="j${n}" type="fixed"><parent link="hull"/>
+    <child link="leg_${n}"/></joint></xacro:macro></robot>"""
+    (package / "urdf/leg.xacro").write_text(f"{HEAD}\n{macro}")
+    call = '<xacro:leg n="2"/>'
+    text = GOOD.replace("</robot>", f'<xacro:leg n="1"/>\n  {call}\n</robot>')
+    (package / MODEL).write_text(text, encoding="utf-8")
+    editor = edit()
+    editor.client.act("model/find", "leg_2")
+    editor.client.wait_until(lambda: editor.value("text")["file"] == "urdf/leg.xacro")
+    line = text[: text.index(call)].count("\n") + 1
+    assert editor.value("wanted")["call"] == f"{MODEL} line {line}"
+    start, end = editor.value("wanted")["extent"]
+    assert editor.text[start:end] == '<link name="leg_${n}"/>'
+    editor.client.act("model/call", "leg_2")
+    editor.client.wait_until(lambda: editor.value("text")["file"] == MODEL)
+    units = editor.text.encode("utf-16-le")
+    start, end = (2 * at for at in editor.value("wanted")["extent"])
+    assert units[start:end].decode("utf-16-le") == call
+
+
+def test_the_expanded_text_follows_what_is_typed(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor = edit(presenter="teach-the-class", path="/?token=teach-the-class")
+    editor.client.act("model/expand", True)
+    editor.client.wait_until(lambda: editor.value("expanded") is not None)
+    assert '<link name="leg"/>' in editor.value("expanded")
+    # A presenter shows it to others: no folder of the server is in it.
+    assert str(package.parent) not in editor.value("expanded")
+    editor.replace('name="arm"/>', 'name="${1+1}"/>')
+    editor.replace('child link="arm"', 'child link="2"')
+    editor.client.wait_until(lambda: '<link name="2"/>' in editor.value("expanded"))
+    editor.client.act("model/expand", False)
+    editor.client.wait_until(lambda: editor.value("expanded") is None)
+
+
 def test_a_text_for_an_older_version_is_not_taken(edit: Callable[..., Editor]) -> None:
     editor = edit()
     editor.replace('name="j"', 'name="jj"')

@@ -47,7 +47,7 @@ class ModelPanel(Panel):
         self._problems = problems
         self._folders = folders
         self._remake = remake
-        self._shown = False
+        self._shown = self._expands = False
         self._open = ""
         self._wanted: Json = None
         self._count = 0
@@ -71,10 +71,13 @@ class ModelPanel(Panel):
             Data("model/text", text),
             Data("model/found", found),
             Data("model/words", None if buffer is None else self._words(buffer)),
+            Data("model/expanded", self._expanded() if self._expands else None),
         ]
 
     def offers(self, command_id: str) -> bool:
         """Tell whether files may be written."""
+        if command_id == "model/expand":
+            return bool(self._text.expanded)
         return command_id != "model/save" or self._text.can_save
 
     def _buffer(self) -> Buffer | None:
@@ -119,6 +122,13 @@ class ModelPanel(Panel):
         source = SourceFile(buffer.text, "utf-8")
         made = [self._problem(p, source) for p in self._problems_of(buffer.name)]
         return {"file": buffer.name, "version": buffer.version, "problems": made}
+
+    def _expanded(self) -> Json:
+        """Return the model as ROS gets it, without xacro."""
+        text = self._text.expanded
+        is_long = len(text) > limits.EDITED_TEXT.value
+        shown = text if self._folders else without_folders(text)
+        return FileContent("" if is_long else shown)
 
     def _words(self, buffer: Buffer) -> Json:
         """Return the elements that the editor offers, as CodeMirror reads them."""
@@ -181,6 +191,12 @@ class ModelPanel(Panel):
         self._shown = shown
         self._remake(self)
 
+    @command("model/expand", FLAG, client_local=True)
+    def _expand(self, shown: bool) -> None:
+        """Send the model without xacro too, or no longer."""
+        self._expands = shown
+        self._remake(self)
+
     @command("model/open", TEXT, name="Open", client_local=True)
     def _open_file(self, name: str) -> None:
         self._text.buffer(name)
@@ -189,12 +205,28 @@ class ModelPanel(Panel):
 
     @command("model/find", TEXT, name="Find the link", client_local=True)
     def _find(self, link: str) -> None:
-        """Open the file that has a link, and tell the page where it is."""
-        found = self._text.place_of(link)
-        if found is None:
+        """Open the file that has a link, and tell the page where it is.
+
+        A link that a macro makes is written in the macro; it may be called elsewhere.
+        """
+        made = self._text.link(link)
+        found = None if made is None else self._text.element_at(made.place)
+        if made is None or found is None:
             raise UsageError(f"the files of the model do not say where '{link}' is")
-        self._open, extent = found
-        self._want({"extent": [*extent]})
+        call = self._text.element_at(made.call)
+        words = "" if call is None else f"{call.file} line {call.line}"
+        self._open = found.file
+        self._want({"extent": [*found.extent], "link": link, "call": words})
+
+    @command("model/call", TEXT, name="Go to the call", client_local=True)
+    def _find_call(self, link: str) -> None:
+        """Open the file that calls the macro that makes a link."""
+        made = self._text.link(link)
+        found = None if made is None else self._text.element_at(made.call)
+        if found is None:
+            raise UsageError(f"no file of the model calls a macro for '{link}'")
+        self._open = found.file
+        self._want({"extent": [*found.extent]})
 
     @command("model/number", TEXT, name="Go to its line", client_local=True)
     def _find_number(self, row_id: str) -> None:

@@ -177,13 +177,19 @@ class Inertial:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A link: its shapes in document order, and its inertia if it has one."""
+    """A link: its shapes in document order, and its inertia if it has one.
+
+    Attributes:
+        place: where it is written.
+        call: where the outermost macro is called that makes it.
+    """
 
     name: str
     visuals: tuple[Shape, ...] = ()
     collisions: tuple[Shape, ...] = ()
     inertial: Inertial | None = None
     place: Place | None = field(default=None, compare=False)
+    call: Place | None = field(default=None, compare=False)
 
 
 JointType = Literal[

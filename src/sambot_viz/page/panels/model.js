@@ -4,6 +4,7 @@
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { act } from "../wire/channel.js";
 import { Editor } from "../editor/editor.js";
+import { Expanded } from "../editor/expanded.js";
 import { loadCodeMirror } from "../editor/look.js";
 import { ModelNumbers } from "./model_numbers.js";
 import { useCommand, useData } from "../state.js";
@@ -38,25 +39,38 @@ export function ModelPanel() {
     };
   }, []);
   const content = useData("model/text");
+  const [expanded, expand] = useState(false);
+  // A click in the view asks for a place in a file.
+  const wanted = useData("model/wanted")?.number;
+  useEffect(() => expand(false), [wanted]);
   const why = content?.why && `This file cannot be shown: ${content.why}.`;
   return html`<div class="model">
     <${ModelNumbers} write=${editor ? () => editor.write() : undefined} />
-    <${Files} editor=${editor} open=${content?.file} />
+    <${Files} editor=${editor} open=${content?.file} expanded=${expanded} expand=${expand} />
     ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
     <${Conflict} content=${content} />
-    <div class=${why ? "text away" : "text"} ref=${host}></div>
+    <${Called} file=${content?.file} />
+    <div class=${`text${why ? " away" : ""}${expanded ? " off" : ""}`} ref=${host}></div>
+    ${expanded && html`<${Expanded} />`}
     <${Buttons} editor=${editor} content=${content} />
   </div>`;
 }
 
-/** @param {{editor: Editor | null, open: string}} props */
-function Files({ editor, open }) {
+/** @param {{editor: Editor | null, open: string, expanded: boolean,
+ *   expand: (on: boolean) => void}} props expanded: the model without xacro is shown */
+function Files({ editor, open, expanded, expand }) {
   /** @type {File[]} */
   const files = useData("model/files") || [];
+  const has = useCommand("model/expand");
+  /** @param {string} name */
+  const show = (name) => {
+    expand(false);
+    editor?.show(name);
+  };
   return html`<div class="files" role="tablist" aria-label="Files of the model">
     ${files.map(
       ({ name, changed, errors, warnings }) => html`<button role="tab" key=${name}
-        aria-selected=${String(name === open)} title=${name} onClick=${() => editor?.show(name)}>
+        aria-selected=${String(name === open && !expanded)} title=${name} onClick=${() => show(name)}>
         ${name.split("/").pop()}
         ${changed && html`<span class="changed" title="Not saved" aria-label="not saved">●</span>`}
         ${
@@ -64,6 +78,23 @@ function Files({ editor, open }) {
           html`<span class=${errors ? "l-error" : "l-warn"}>${errors || warnings}</span>`
         }</button>`,
     )}
+    ${
+      has &&
+      html`<button role="tab" class="expanded" aria-selected=${String(expanded)}
+        title="The model without xacro, as ROS gets it; it follows what is typed"
+        onClick=${() => expand(true)}>Expanded</button>`
+    }
+  </div>`;
+}
+
+/** Where the macro is called that makes the link that was clicked on.
+ * @param {{file: string}} props */
+function Called({ file }) {
+  const { link, call, file: of } = useData("model/wanted") || {};
+  if (!call || of !== file) return null;
+  return html`<div class="note beside-buttons" role="status">
+    <span>A macro makes ${link}; it is called in ${call}.</span>
+    <button onClick=${() => act("model/call", [link])}>Go to the call</button>
   </div>`;
 }
 

@@ -55,7 +55,8 @@ class SdfLinkReader:
             )
             for tag in ("visual", "collision")
         )
-        return Link(link.name, visuals, collisions, inertial, link.element.place)
+        places = link.element.place, link.element.call
+        return Link(link.name, visuals, collisions, inertial, *places)
 
     def _shape(
         self, element: Element, link: Frame, T_holder_model: Matrix

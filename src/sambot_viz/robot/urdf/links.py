@@ -59,7 +59,8 @@ class LinkReader:
         visuals, complete = self._shapes(element, name, "visual", complete)
         current = next((v.material for v in reversed(visuals) if v.material), None)
         collisions, _ = self._shapes(element, name, "collision", complete, current)
-        return Link(name, tuple(visuals), tuple(collisions), inertial, element.place)
+        shapes = tuple(visuals), tuple(collisions)
+        return Link(name, *shapes, inertial, element.place, element.call)
 
     def _inertial(self, link: Element, name: str) -> tuple[Inertial | None, bool]:
         element = link.find("inertial")

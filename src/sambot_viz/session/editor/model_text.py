@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
-from sambot_viz.errors import Edit, UsageError
+from sambot_viz.errors import Edit, Place, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.parts import Link
 from sambot_viz.robot.xacro.diagnose.source_files import read_source
 from sambot_viz.session.editor.buffer import Buffer
 from sambot_viz.session.editor.file_text import to_units
@@ -31,6 +33,14 @@ from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Checks, Problems
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.unsaved import unsaved
+
+
+class TextPlace(NamedTuple):
+    """Where something is in a file: its name, a line, and where [UTF-16 units]."""
+
+    file: str
+    line: int
+    extent: Extent
 
 
 class ModelText:
@@ -144,6 +154,13 @@ class ModelText:
         found = (n for n, _ in self._files.named([Path(file)]) if n in self._paths)
         return next(found, "")
 
+    @property
+    def expanded(self) -> str:
+        """The text that xacro has made of the last one that loads; "" without xacro."""
+        robot = self._robot.model
+        source = None if robot is None else self._sources().texts
+        return robot.description if robot is not None and source else ""
+
     def opened(self, name: str) -> Buffer | None:
         """Return a file that was opened; None for others."""
         return self._buffers.get(name)
@@ -161,22 +178,26 @@ class ModelText:
             self._buffers[name] = Buffer.opened(path, name)
         return self._buffers[name]
 
-    def place_of(self, link: str) -> tuple[str, Extent] | None:
-        """Return the file that has a link of the robot, and where its element is there.
-
-        A link that a macro makes is written in the macro. None for what is not known.
-        """
+    def link(self, name: str) -> Link | None:
+        """Return a link of the robot."""
         robot = self._robot.model
-        found = None if robot is None else robot.links.get(link)
-        place = None if found is None else found.place
+        return None if robot is None else robot.links.get(name)
+
+    def element_at(self, place: Place | None) -> TextPlace | None:
+        """Return where an element is in a file of the model; None for other places."""
         name = "" if place is None else self.name_of(place.file)
         if place is None or not name:
             return None
         source = SourceFile(self.buffer(name).text, "utf-8")
         start = min(source.offset(place), len(source.text))
+        if place.column is None:
+            # Of a macro call only the line is known.
+            line = source.text[start:].partition("\n")[0]
+            start += len(line) - len(line.lstrip())
         tag = source.tag(start)
         end = start if tag is None else source.end_of(tag) or tag.end
-        return name, Extent(to_units(source.text, start), to_units(source.text, end))
+        units = (to_units(source.text, at) for at in (start, end))
+        return TextPlace(name, place.line, Extent(*units))
 
     def words(self) -> tuple[OfferedElement, ...]:
         """Return what an editor offers in the model; worked out once for each robot."""
