@@ -50,6 +50,8 @@ NO_LIMITS = {
         topics/ends.py MOST_ENDS _WIDEST
     """,
     "time: how long something is waited for, lasts or is kept": """
+        classroom/seat.py LONGEST
+        classroom/seat_process.py _LONGEST_START _LONGEST_END
         commands/command_line.py LONGEST_LISTEN
         displays/data/message_filter.py LONGEST_WAIT_NS
         export/page_file.py LONGEST_PAST
@@ -77,6 +79,8 @@ NO_LIMITS = {
         sources/zenoh/session.py LONGEST_OPENING _LONGEST_TELLING
     """,
     "work: what is kept to be quick, or for how long a quick way is taken": """
+        classroom/classroom.py MOST_PROCESSES
+        classroom/seat_process.py _LONGEST_LINE
         displays/robot_model/link_overlays.py MOST_ELEMENTS
         displays/scene/lines.py MOST_PIECES
         frames/frame_tree.py _SEEN_LIMIT

@@ -172,10 +172,16 @@ ROOMS: Mapping[str, Row] = {
         "topics views",
         "numpy viser",
     ),
+    # A program of one port, and those of the students behind it.
+    "classroom": Row(
+        "inputs lessons options page robot server session visualizer",
+        "websockets",
+        "asyncio http threading",
+    ),
     "commands": Row(
-        "_version bundled checks export fixes flags frames graph inputs joints "
-        "lessons listened moved_by options problems publishing robot rviz server "
-        "session sources topics visualizer",
+        "_version bundled checks classroom export fixes flags frames graph inputs "
+        "joints lessons listened moved_by options problems publishing robot rviz "
+        "server session sources topics visualizer",
         "PIL",
         "signal threading webbrowser",
     ),

@@ -29,6 +29,7 @@ OK, ERRORS, USAGE, INTERNAL, INTERRUPTED = 0, 1, 2, 3, 130
 
 COMMANDS = (
     "check",
+    "class",
     "completion",
     "config",
     "diff",

@@ -433,6 +433,11 @@ class Options:
         None,
         "a student's way through a lesson, which the page shows beside the robot",
     )
+    in_class: bool = option(
+        False,
+        "whether it is the page of a student in a class: those who look at it can only "
+        "look, and nobody is invited",
+    )
     on_reload: Callable[[Sequence[Problem]], None] | None = option(
         None,
         "called with the problems of the model and the config whenever a reload "
@@ -540,6 +545,11 @@ class Options:
                 "--edit changes files, and --untrusted is for models that must not "
                 "touch any; leave one of them out"
             )
+
+    def learning(self, study: Study) -> Options:
+        """Return the same options for a student who writes the files of a study."""
+        model = study.model_of(study.step)
+        return self.having(model=model, study=study, watch=True, edit=True)
 
     def having(self, **values: object) -> Options:
         """Return the same options with other values; no file is read again."""

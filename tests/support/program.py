@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from queue import SimpleQueue
@@ -21,7 +21,6 @@ from patience import patience
 
 from sambot_viz.cli import main
 from sambot_viz.commands import show
-from sambot_viz.inputs import Inputs
 
 
 @contextmanager
@@ -102,10 +101,12 @@ class Serving:
             out.close()
             err.close()
 
-    def _stop_with(self, stop: threading.Event, inputs: Inputs) -> SimpleQueue[int]:
+    def _stop_with(
+        self, stop: threading.Event, give_up: Callable[[], object] = lambda: None
+    ) -> SimpleQueue[int]:
         """Take the place of what ends the program at a signal."""
         # Only the first thread of a process may say what a signal does.
-        del inputs
+        del give_up
         self._stop, before = stop, self._stop
         if before.is_set():
             stop.set()
@@ -119,7 +120,7 @@ def serving(*words: str, cwd: Path) -> Iterator[Serving]:
     os.chdir(cwd)
     made = Serving(words)
     try:
-        with mock.patch.object(show, "_stop_on_signals", made._stop_with), made:
+        with mock.patch.object(show, "stop_on_signals", made._stop_with), made:
             yield made
     finally:
         os.chdir(here)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from argparse import Namespace
+from collections.abc import Sequence
 from pathlib import Path
 
 from sambot_viz.bundled import assets_folder
@@ -67,12 +68,7 @@ def parser() -> Parser:
         metavar="DIR",
         help="with check: what has to pass, in place of the solution that it names",
     )
-    made.add_argument(
-        "--track",
-        metavar="TRACK",
-        help="with a lesson: the way through it, such as urdf or sdf; by default that "
-        "of the files that are there, or the first one",
-    )
+    add_track(made)
     made.add_argument(
         "--dir",
         metavar="DIR",
@@ -84,39 +80,43 @@ def parser() -> Parser:
     return made
 
 
+def add_track(made: Parser) -> None:
+    """Add ``--track``."""
+    made.add_argument(
+        "--track",
+        metavar="TRACK",
+        help="the way through the lesson, such as urdf or sdf; by default that of the "
+        "files that are there, or the first one",
+    )
+
+
 def _learn(given: Namespace, options: Options) -> int:
     """Show a lesson, and the model of a student, until Ctrl-C."""
-    lesson = _lesson_of(given.action)
+    lesson = lesson_of(given.action, ACTIONS)
     if given.path is not None:
         raise UsageError(f"name your folder with --dir: --dir {given.path}")
     folder = Path(given.dir or lesson.name)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        study = Study(lesson, folder, given.track)
-        study.begin()
-        model = study.model_of(study.step)
-        if not model.exists():
-            model.parent.mkdir(parents=True, exist_ok=True)
-            model.touch()
-    except OSError as error:
-        raise UsageError(f"cannot write into '{folder}': {error.strerror}") from error
-    write_err(f"sambot-viz: your files are in {folder}; you begin with {model}")
+    options = options.learning(Study.begun(lesson, folder, given.track))
+    write_err(f"sambot-viz: your files are in {folder}; you begin with {options.model}")
     # The import is late: the other actions need no page.
     from sambot_viz.commands.show import serve
 
-    options = options.having(model=model, study=study, watch=True, edit=True)
     serve(options, given.open)
     return 0
 
 
-def _lesson_of(word: str) -> Lesson:
+def lesson_of(word: str, actions: Sequence[str]) -> Lesson:
     """Return a lesson; a word that is nearly an action says so.
+
+    Args:
+        word: its name, its file or its folder.
+        actions: what may stand in its place.
 
     Raises:
         UsageError: there is no such lesson.
         LessonError: it cannot be read.
     """
-    near = nearest(word, ACTIONS, likeness=0.7)
+    near = nearest(word, actions, likeness=0.7)
     if near is not None and not Path(word).exists():
         raise UsageError(f"sambot-viz lesson cannot '{word}'; did you mean '{near}'?")
     return open_lesson(word)

@@ -8,7 +8,7 @@ import os.path
 import signal
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
@@ -132,32 +132,14 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
     options = inputs.options
     # The port is opened first; the rest of the program is imported, and the robot
     # loaded, while a browser loads the page.
-    from sambot_viz.server.listener import listen, public_url, reachable_at
-    from sambot_viz.server.protection.access import only_this_machine
+    from sambot_viz.server.listener import listen
 
     stop = threading.Event()
-    signals = _stop_on_signals(stop, inputs)
+    signals = stop_on_signals(stop, inputs.give_up)
     listener = listen(options)
     try:
         _refuse_early(inputs)
-        presented, link = options.presenter is not None, listener.url
-        if presented:
-            # The wrong link in a chat would give the class thirty presenters.
-            _announce(link(), False, "viewers:   ")
-            _announce(link(presenter=True), open_it, "presenter: ")
-        else:
-            _announce(link(), open_it)
-        # What others can open: behind a proxy not the address that is listened on.
-        public = public_url(options)
-        if public is not None:
-            _invite(public, public_url(options, presenter=True) if presented else None)
-        if not only_this_machine(options.host):
-            here = reachable_at(options.host)
-            if public is None:
-                _invite(link(here), link(here, presenter=True) if presented else None)
-            if options.token is None:
-                port = listener.viser.get_port()
-                write_err(*(line.format(port) for line in _OPEN_TO_ALL))
+        announce(options, listener.viser.get_port(), open_it)
         inputs.begin()
         from sambot_viz.commands.first_notes import write_notes
         from sambot_viz.visualizer import Visualizer
@@ -284,6 +266,53 @@ class _Reports:
         write_problems(new, model=self.model)
 
 
+def announce(
+    options: Options,
+    port: int,
+    open_it: bool,
+    below: str = "",
+    whose: tuple[str, str] = ("viewers:   ", "presenter: "),
+) -> None:
+    """Write the addresses that can be opened, and who else can open them.
+
+    Args:
+        options: where the program listens, and its secrets.
+        port: on which it listens.
+        open_it: whether the presenter's, or that for everyone, is opened in this
+            machine's browser.
+        below: where the presenter's page is below that for everyone.
+        whose: whom each is for, where there is a presenter.
+    """
+    from sambot_viz.server.listener import page_url, public_url, reachable_at
+    from sambot_viz.server.protection.access import only_this_machine
+
+    def links(host: str) -> tuple[str, str | None]:
+        own = page_url(options, host, port)
+        if options.presenter is None:
+            return own, None
+        return own, page_url(options, host, port, below, presenter=True)
+
+    link, presenter_link = links("")
+    if presenter_link is None:
+        _announce(link, open_it)
+    else:
+        # The wrong link in a chat would give the class thirty presenters.
+        _announce(link, False, whose[0])
+        _announce(presenter_link, open_it, whose[1])
+    # What others can open: behind a proxy not the address that is listened on.
+    public = public_url(options)
+    if public is not None:
+        presented = presenter_link is not None
+        _invite(
+            public, public_url(options, below, presenter=True) if presented else None
+        )
+    if not only_this_machine(options.host):
+        if public is None:
+            _invite(*links(reachable_at(options.host)))
+        if options.token is None:
+            write_err(*(line.format(port) for line in _OPEN_TO_ALL))
+
+
 def _announce(url: str, open_it: bool, whose: str = "") -> None:
     write_out(f"{whose}{url}")
     if open_it:
@@ -301,12 +330,14 @@ def _invite(url: str, presenter_url: str | None) -> None:
     write_code(url)
 
 
-def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> SimpleQueue[int]:
+def stop_on_signals(
+    stop: threading.Event, give_up: Callable[[], object] = lambda: None
+) -> SimpleQueue[int]:
     """End the program quietly on Ctrl-C and a service manager's stop.
 
     Args:
         stop: is set then.
-        inputs: its robot may take long to load; the wait for it ends too.
+        give_up: called then: a robot may take long to load, and the wait for it ends.
 
     Returns:
         The signals that have come.
@@ -318,7 +349,7 @@ def _stop_on_signals(stop: threading.Event, inputs: Inputs) -> SimpleQueue[int]:
     def finish() -> None:
         signals.get()
         stop.set()
-        inputs.give_up()
+        give_up()
 
     threading.Thread(target=finish, name="sambot-viz-signals", daemon=True).start()
     if threading.current_thread() is threading.main_thread():

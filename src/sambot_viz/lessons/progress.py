@@ -37,13 +37,16 @@ class Progress:
         folder: the student's folder.
         lesson: the name of the lesson.
 
+    Attributes:
+        file: keeps it.
+
     A file that is damaged counts as none: the student begins again with no tries.
     """
 
     def __init__(self, folder: Path, lesson: str) -> None:
-        self._file = folder / PROGRESS_FILE
+        self.file = folder / PROGRESS_FILE
         self._lesson = lesson
-        self._steps = dict(_steps(_read(self._file).get(lesson)))
+        self._steps = dict(_steps(_read(self.file).get(lesson)))
 
     def of(self, step: str) -> StepProgress:
         """Return what became of a step."""
@@ -72,8 +75,8 @@ class Progress:
             name: {"tries": step.tries, "passed": step.passed}
             for name, step in self._steps.items()
         }
-        document = {**_read(self._file), self._lesson: rows}
-        write_atomically(self._file, f"{json_text(document)}\n".encode())
+        document = {**_read(self.file), self._lesson: rows}
+        write_atomically(self.file, f"{json_text(document)}\n".encode())
 
 
 def _read(file: Path) -> dict[str, Any]:

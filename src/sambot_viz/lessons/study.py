@@ -9,7 +9,7 @@ from pathlib import Path
 
 from sambot_viz import limits
 from sambot_viz.errors import Problem, RobotError, UsageError, did_you_mean
-from sambot_viz.files import is_below, read_limited
+from sambot_viz.files import is_below, read_limited, reason_of
 from sambot_viz.lessons.evaluation import (
     DemandResult,
     StepFault,
@@ -60,6 +60,35 @@ class Study:
         self.progress = Progress(folder, lesson.name)
         self._folder = folder
         self._trusted = trusted
+
+    @classmethod
+    def begun(
+        cls,
+        lesson: Lesson,
+        folder: Path,
+        track: str | None = None,
+        *,
+        trusted: bool = True,
+    ) -> Study:
+        """Begin in a folder, which is made, or go on there.
+
+        The files to begin with are there then, and the model of the step.
+
+        Raises:
+            UsageError: a file cannot be written, or the lesson has no such track.
+        """
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            study = cls(lesson, folder, track, trusted=trusted)
+            study.begin()
+            model = study.model_of(study.step)
+            if not model.exists():
+                model.parent.mkdir(parents=True, exist_ok=True)
+                model.touch()
+        except OSError as error:
+            why = reason_of(error)
+            raise UsageError(f"cannot write into '{folder}': {why}") from error
+        return study
 
     @property
     def step(self) -> LessonStep:

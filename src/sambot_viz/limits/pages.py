@@ -70,6 +70,36 @@ EDITED_TEXT = LimitRow(
     "characters",
     "it is not shown, or what would make it longer is not taken; the panel says so",
 )
+CLASS_REQUEST = LimitRow(
+    "the address and the headers of a request to a class",
+    32 * 1024,
+    "bytes",
+    "its connection is closed",
+)
+CLASS_FOLDER = LimitRow(
+    "the folder that is called after a student",
+    60,
+    "bytes",
+    "the rest of the name is left out of it; a number may follow",
+)
+CLASS_STUDENTS = LimitRow(
+    "students of a class",
+    60,
+    "",
+    "the next one is told that the class is full",
+)
+CLASS_CONNECTIONS = LimitRow(
+    "connections of one student of a class",
+    40,
+    "",
+    "the next one is refused; two belong to each page",
+)
+CLASS_MESSAGE = LimitRow(
+    "what a teacher writes to a class",
+    300,
+    "characters",
+    "it is refused; the board says so",
+)
 EDITED_PIECE = LimitRow(
     "what is typed or pasted there, in a message of a page",
     10_000,

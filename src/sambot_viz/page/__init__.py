@@ -52,6 +52,7 @@ _STYLES = (
     "panels/lesson.css",
 )
 _PLAYER_STYLES = (*_WINDOW_STYLES, "player/player.css")
+_CLASS_STYLES = ("window/window.css", "board/board.css")
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _ONLY_ITSELF = (
     "default-src 'none'; base-uri 'none'; form-action 'none'; "
@@ -132,6 +133,36 @@ def standing_alone(
             after,
         ]
     )
+
+
+def name_form(title: str) -> bytes:
+    """The page of a class that asks who opens it.
+
+    Args:
+        title: of the lesson.
+    """
+    return _of_class(title, "board/name.js")
+
+
+def board(title: str) -> bytes:
+    """The teacher's board of a class.
+
+    Args:
+        title: of the lesson.
+    """
+    return _of_class(title, "board/board.js")
+
+
+def _of_class(title: str, first: str) -> bytes:
+    modules = json.dumps({"imports": _modules(first)})
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        f'<link rel="icon" href="data:,"><title>{escape(title)}</title>'
+        f'<script type="importmap">{modules}</script>'
+        f'<script type="module">import "{_PREFIX}{first}";</script>'
+        f"<style>{_css(_CLASS_STYLES)}</style></head><body></body></html>"
+    ).encode()
 
 
 def _css(styles: Iterable[str]) -> str:

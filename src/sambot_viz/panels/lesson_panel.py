@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import mimetypes
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 
 from sambot_viz.lessons.evaluation import DemandResult
 from sambot_viz.lessons.markdown import TextBlock
@@ -51,6 +52,7 @@ class LessonPanel(Panel):
             ),
             Data("lesson/hints", [self._blocks(hint) for hint in hints]),
             Data("lesson/state", self._state()),
+            Data("lesson/teacher", asdict(self._lesson.teacher)),
         ]
 
     def _steps(self) -> dict[str, Json]:

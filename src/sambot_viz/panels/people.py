@@ -190,8 +190,9 @@ class OwnRolePanel(Panel):
         return {i: p.name for i, p in people if p.has_control and not p.presenter}
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether the browser has joined."""
-        return self._id in self._roles.people
+        """Tell whether the browser has joined, and may have what it asks for."""
+        asks = command_id in ("role/request", "role/give")
+        return self._id in self._roles.people and (self._roles.may_ask or not asks)
 
     @contextmanager
     def _acting(self) -> Generator[None]:

@@ -22,7 +22,7 @@ from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.people import Invite, PeoplePanel
 from sambot_viz.panels.problems.problems_panel import ProblemsPanel
 from sambot_viz.panels.row_sync import RowSync
-from sambot_viz.panels.rows.row import Answer, Row
+from sambot_viz.panels.rows.row import Answer, Level, Row
 from sambot_viz.panels.rows.row_store import ClientRows
 from sambot_viz.panels.saved_pictures import AskPage
 from sambot_viz.panels.sent import Sent, read
@@ -54,6 +54,10 @@ class Window:
         edits: writes fixes into files; None where no browser may.
         text: the text of the model; None where there is no file of it.
         lesson: what there is to learn; None where nothing is.
+
+    Attributes:
+        text: the same.
+        lesson: the same.
     """
 
     def __init__(
@@ -74,8 +78,8 @@ class Window:
         self._invite = invite
         self._recordings = recordings
         self._edits = edits
-        self._text, self._closed = text, False
-        self._lesson = lesson
+        self.text, self._closed = text, False
+        self.lesson = lesson
         self._browsers: dict[int, BrowserPanels] = {}
         # Others than those at the disk of the server see only the names of its files.
         self._folders = files is not None and not session.roles.presented
@@ -111,7 +115,7 @@ class Window:
                 remake,
                 self._folders,
                 self._edits,
-                self._text,
+                self.text,
             ),
             DisplayCommands(
                 session.display_edits,
@@ -121,10 +125,10 @@ class Window:
                 remake,
             ),
         ]
-        if self._lesson is not None:
-            panels.append(LessonPanel(self._lesson))
+        if self.lesson is not None:
+            panels.append(LessonPanel(self.lesson))
         panels.append(
-            ComparePanel(session.comparison, robot, scene, self._text is not None)
+            ComparePanel(session.comparison, robot, scene, self.text is not None)
         )
         if session.data is not None:
             panels.append(SourcePanel(session.sources, not session.private))
@@ -177,10 +181,10 @@ class Window:
         for panels in self._browsers.values():
             panels.close()
         self._shared.close()
-        if self._text is not None:
-            self._text.close()
-        if self._lesson is not None:
-            self._lesson.close()
+        if self.text is not None:
+            self.text.close()
+        if self.lesson is not None:
+            self.lesson.close()
 
     def _take_client(self, client: Client, joined: bool) -> None:
         if joined:
@@ -193,12 +197,17 @@ class Window:
                 self._recordings,
                 self._displays,
                 self._shared_row,
-                self._text,
+                self.text,
             )
         else:
             panels = self._browsers.pop(client.client_id, None)
             if panels is not None:
                 panels.close()
+
+    def say(self, sentence: str, level: Level) -> None:
+        """Show a sentence in all browsers."""
+        for browser in self._browsers.values():
+            browser.say(sentence, level)
 
     def _tell_error(self, client_id: int, sentence: str) -> None:
         browser = self._browsers.get(client_id)

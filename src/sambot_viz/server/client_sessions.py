@@ -90,6 +90,8 @@ class ClientSessions:
             if options.panels and place.window is None:
                 # Clients with a session of their own do not use the server's disk.
                 shared = place is self._sessions.shared_place
+                # Students use one server, whose disk and links are the teacher's.
+                at_home = shared and not options.in_class
                 sessions, recordings = self._sessions, self._recordings
                 edits, text = sessions.edits if shared else None, None
                 if sessions.model_files is not None:
@@ -106,9 +108,9 @@ class ClientSessions:
                 place.window = Window(
                     session,
                     options.gui,
-                    self._files if shared else None,
+                    self._files if at_home else None,
                     self._ask_page,
-                    partial(invite, options) if shared else None,
+                    partial(invite, options) if at_home else None,
                     None if recordings is None else recordings.of(sessions, session),
                     edits,
                     text,

@@ -203,6 +203,8 @@ def _context(
         logins = request.headers.get_all(options.trust_user_header)
     # Of two, one may be the client's own.
     login = logins[0].strip() if len(logins) == 1 else ""
+    # Letters of all scripts are UTF-8 in a header.
+    login = login.encode(errors="surrogateescape").decode(errors="replace")
     return ClientContext(presenter, copy, known, channel, login)
 
 

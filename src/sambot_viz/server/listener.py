@@ -97,15 +97,8 @@ class Listener:
             host: the name to reach it by, instead of the address it listens on.
             presenter: the presenter's link, instead of that for everyone.
         """
-        options = self._options
-        if options.unix_socket is not None:
-            return f"unix:{options.unix_socket}"
-        own = self.viser.get_host()
-        host = host or _ANYWHERE.get(own, own)
-        name = f"[{host}]" if ":" in host else host
-        path = "" if options.base_path == "/" else options.base_path
-        base = f"http://{name}:{self.viser.get_port()}{path}"
-        return with_secret(base, options, presenter=presenter)
+        port = self.viser.get_port()
+        return page_url(self._options, host, port, presenter=presenter)
 
     def __enter__(self) -> Listener:
         """Return this listener, which the end of the block closes."""
@@ -125,6 +118,27 @@ class Listener:
                 os.unlink(path)
 
 
+def page_url(
+    options: Options, host: str, port: int, below: str = "", *, presenter: bool = False
+) -> str:
+    """Return the address to open in a browser, or the socket in the file system.
+
+    Args:
+        options: where the program listens, and its secrets.
+        host: the name to reach it by; "" for the address it listens on.
+        port: on which it listens.
+        below: where the page is below the base path.
+        presenter: the presenter's link, instead of that for everyone.
+    """
+    if options.unix_socket is not None:
+        return f"unix:{options.unix_socket}"
+    host = host or _ANYWHERE.get(options.host, options.host)
+    name = f"[{host}]" if ":" in host else host
+    path = "" if options.base_path == "/" else options.base_path
+    base = f"http://{name}:{port}{path}{below}"
+    return with_secret(base, options, presenter=presenter)
+
+
 def with_secret(base: str, options: Options, *, presenter: bool = False) -> str:
     """Return the address of a page with its secret, under a name that says whose it is.
 
@@ -137,8 +151,12 @@ def with_secret(base: str, options: Options, *, presenter: bool = False) -> str:
     return f"{base.rstrip('/')}/?{'present' if presenter else name}={secret}"
 
 
-def public_url(options: Options, *, presenter: bool = False) -> str | None:
+def public_url(
+    options: Options, below: str = "", *, presenter: bool = False
+) -> str | None:
     """Return the link at the first allowed origin, where a proxy shows the page.
+
+    The arguments are those of `page_url`.
 
     Returns:
         None when no origin was allowed.
@@ -146,7 +164,7 @@ def public_url(options: Options, *, presenter: bool = False) -> str | None:
     if not options.allowed_origins:
         return None
     path = "" if options.base_path == "/" else options.base_path
-    base = f"{options.allowed_origins[0]}{path}"
+    base = f"{options.allowed_origins[0]}{path}{below}"
     return with_secret(base, options, presenter=presenter)
 
 
@@ -189,11 +207,11 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
         extras.require("metrics", "prometheus_client", "--metrics")
     host, port = options.host, options.port
     path = None if options.unix_socket is None else os.fspath(options.unix_socket)
-    listening = None
+    listening: socket.socket | None = bound_socket(options)
     if path is None:
-        _try_to_bind(host, port)
-    else:
-        listening = _bind_in_file_system(path)
+        # It was tried for the message; viser makes its own.
+        listening.close()
+        listening = None
     viser_private.quiet_websockets()
     viser_private.remember_prop_types()
     viser_private.compare_poses_quickly()
@@ -214,27 +232,40 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
     return listener
 
 
-def _try_to_bind(host: str, port: int) -> None:
+def bound_socket(options: Options) -> socket.socket:
+    """Return a socket at exactly the address that the options name.
+
+    Raises:
+        ServerError: the address cannot be listened on, with what to do about it.
+    """
+    if options.unix_socket is not None:
+        return _bind_in_file_system(os.fspath(options.unix_socket))
+    return _bind(options.host, options.port)
+
+
+def _bind(host: str, port: int) -> socket.socket:
     if not 0 <= port <= 65535:
         raise ServerError(f"port {port} does not exist; choose one from 1 to 65535")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    with socket.socket(family, socket.SOCK_STREAM) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, _OF_A_PROBE, 1)
-        try:
-            probe.bind((host, port))
-        except (OSError, UnicodeError) as error:
-            code = error.errno if isinstance(error, OSError) else None
-            if code == errno.EADDRINUSE:
-                raise _taken(host, port) from error
-            if code == errno.EACCES:
-                raise ServerError(
-                    f"port {port} needs the rights of an administrator; choose one "
-                    "from 1024 on, or --port 0 for any free one"
-                ) from error
+    made = socket.socket(family, socket.SOCK_STREAM)
+    made.setsockopt(socket.SOL_SOCKET, _OF_A_PROBE, 1)
+    try:
+        made.bind((host, port))
+    except (OSError, UnicodeError) as error:
+        made.close()
+        code = error.errno if isinstance(error, OSError) else None
+        if code == errno.EADDRINUSE:
+            raise _taken(host, port) from error
+        if code == errno.EACCES:
             raise ServerError(
-                f"cannot listen on '{host}': this machine has no such address; use "
-                "127.0.0.1 for this machine only, or 0.0.0.0 for all its networks"
+                f"port {port} needs the rights of an administrator; choose one "
+                "from 1024 on, or --port 0 for any free one"
             ) from error
+        raise ServerError(
+            f"cannot listen on '{host}': this machine has no such address; use "
+            "127.0.0.1 for this machine only, or 0.0.0.0 for all its networks"
+        ) from error
+    return made
 
 
 def _bind_in_file_system(path: str) -> socket.socket:

@@ -113,7 +113,8 @@ class Session:
         self.fullscreen = options.fullscreen
         private = self.private = isinstance(audience, viser.ClientHandle)
         self.own_model = self._has_others = False
-        self.roles = Roles(change, options.presenter is not None and not private)
+        presented = options.presenter is not None and not private
+        self.roles = Roles(change, presented, not options.in_class)
         history = self.history = History(change)
 
         frames = None if moved_by is None else FrameHistory()

@@ -7,6 +7,7 @@ typed in the page. That counts no try: only the button Check does.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sambot_viz.lessons.evaluation import DemandResult, faults_in
@@ -15,6 +16,23 @@ from sambot_viz.lessons.study import Study
 from sambot_viz.session.background import Background
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.unsaved import unsaved
+
+
+@dataclass(frozen=True, slots=True)
+class FromTeacher:
+    """What the teacher of a class says to a student.
+
+    Attributes:
+        number: another one for each sentence.
+        text: the last sentence; "" when there is none.
+        link: to the page of a student that is shown to all; "" when there is none.
+        name: of that student.
+    """
+
+    number: int = 0
+    text: str = ""
+    link: str = ""
+    name: str = ""
 
 
 class ShownLesson:
@@ -35,6 +53,7 @@ class ShownLesson:
         checking: whether a try is being counted.
         other_model: the name of its model file, where the view shows another one.
         trouble: why the progress cannot be kept; "" when it is.
+        teacher: what the teacher says.
     """
 
     def __init__(
@@ -53,6 +72,7 @@ class ShownLesson:
         self.outcomes: list[DemandResult] | None = None
         self.checking = False
         self.trouble = self.other_model = ""
+        self.teacher = FromTeacher()
         self._closed = False
         self._background = Background("sambot-viz-lesson")
         self._disconnect = connect(facts, self.look)
@@ -66,6 +86,19 @@ class ShownLesson:
     def wait(self, timeout: float) -> bool:
         """Wait until all is looked at; False when that takes longer [s]."""
         return self._background.wait(timeout)
+
+    # What the teacher of a class does; with the session locked.
+
+    def announce(self, sentence: str) -> None:
+        """Show a sentence of the teacher."""
+        number = self.teacher.number + 1
+        self.teacher = replace(self.teacher, number=number, text=sentence)
+        self.changed.touch()
+
+    def point_to(self, link: str, name: str) -> None:
+        """Offer the page of a student; an empty link offers none."""
+        self.teacher = replace(self.teacher, link=link, name=name)
+        self.changed.touch()
 
     # What users do; with the session locked.
 

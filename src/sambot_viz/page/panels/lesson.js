@@ -1,7 +1,7 @@
 // @ts-check
 /* The Lesson panel: a step, what holds of it, and the list of all steps. */
 
-import { html, useLayoutEffect, useRef } from "../vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { useCommand, useData } from "../state.js";
 import { Icon } from "../window/icons.js";
 import { act } from "../wire/channel.js";
@@ -12,6 +12,7 @@ import { Blocks } from "./lesson_text.js";
  * @typedef {{holds: boolean, text: string, place: string}} Outcome
  * @typedef {{outcomes: Outcome[] | null, tries: number, passed: boolean, checking: boolean,
  *   trouble: string, hint_in: number}} State
+ * @typedef {{number: number, text: string, link: string, name: string}} Teacher
  */
 
 /** The points that there are, and those that are earned. @param {Step[]} steps */
@@ -41,6 +42,7 @@ export function LessonPanel() {
   }, [all?.shown]);
   if (!all || !text) return null;
   return html`<div class="panel lesson">
+    <${FromTeacher} />
     <${Steps} title=${all.title} shown=${all.shown} steps=${all.steps} />
     <div class="page" ref=${scrolled}>
       <h2>${`${all.shown}. ${text.title}`}</h2>
@@ -55,6 +57,27 @@ export function LessonPanel() {
     </div>
     <${Buttons} shown=${all.shown} count=${all.steps.length} />
   </div>`;
+}
+
+/** In a class: what the teacher says, and whose page is shown to all. */
+function FromTeacher() {
+  /** @type {Teacher | undefined} */
+  const said = useData("lesson/teacher");
+  const [read, setRead] = useState(0);
+  if (!said) return null;
+  const unread = said.text && said.number > read;
+  // Who looks at the page of another one is below it.
+  const home = location.pathname.replace(/student\/\d+\/$/, "");
+  return html`${
+    unread &&
+    html`<p class="teacher" role="alert"><b>Teacher:</b> ${said.text}
+      <button onClick=${() => setRead(said.number)}>Close</button></p>`
+  }${
+    said.link
+      ? html`<p class="teacher" role="status">The teacher shows
+          <a href=${home + said.link} target="_blank">the robot of ${said.name}</a>.</p>`
+      : said.name && html`<p class="teacher" role="status">Your robot is shown to all.</p>`
+  }`;
 }
 
 /** @param {{title: string, shown: number, steps: Step[]}} props */

@@ -75,7 +75,7 @@ class TokenCheck:
             f"sambot-viz-{hashlib.sha256(b'cookie ' + secret).hexdigest()[:12]}": secret
             for secret in (one.encode() for one in (token, presenter) if one)
         }
-        self._path = "" if base_path == "/" else f"Path={base_path}; "
+        self._base = base_path
         self._waiting = 0
 
     def refusal(self, request: Request) -> Response | Awaitable[Response] | None:
@@ -156,11 +156,7 @@ class TokenCheck:
 
     def _remember(self, name: str, address: str, headers: Headers) -> Response:
         """The same page without the token in its address, and with a cookie."""
-        tls = "https" in headers.get_all("X-Forwarded-Proto")
-        cookie = (
-            f"{name}={self._tokens[name].decode()}; {self._path}"
-            f"Max-Age={_REMEMBERED}; HttpOnly; SameSite=Lax{'; Secure' if tls else ''}"
-        )
+        cookie = remembered(name, self._tokens[name].decode(), self._base, headers)
         more = {"Location": address, "Set-Cookie": cookie}
         return plain_page(http.HTTPStatus.SEE_OTHER, "See other", "", more)
 
@@ -176,6 +172,22 @@ class TokenCheck:
             "Its token is wrong. Ask for the link that the program has printed at its "
             "last start.",
         )
+
+
+def remembered(name: str, value: str, base_path: str, headers: Headers) -> str:
+    """Return a Set-Cookie header that a browser keeps, and no script of a page reads.
+
+    Args:
+        name: of the cookie.
+        value: a secret.
+        base_path: where the page is; as for `TokenCheck`.
+        headers: of the request that is answered.
+    """
+    path = "" if base_path == "/" else f"Path={base_path}; "
+    tls = "https" in headers.get_all("X-Forwarded-Proto")
+    secure = "; Secure" if tls else ""
+    age = f"Max-Age={_REMEMBERED}"
+    return f"{name}={value}; {path}{age}; HttpOnly; SameSite=Lax{secure}"
 
 
 def _equal(one: bytes, two: bytes) -> bool:

@@ -53,6 +53,7 @@ class Roles:
     Args:
         presented: whether only presenters, and those to whom they give control, may
             change the session.
+        may_ask: whether others may request control.
 
     Attributes:
         changed: who is there, and who has or requests control.
@@ -60,8 +61,11 @@ class Roles:
         end_connection: closes the page of a client for good.
     """
 
-    def __init__(self, change: Change, presented: bool = False) -> None:
+    def __init__(
+        self, change: Change, presented: bool = False, may_ask: bool = True
+    ) -> None:
         self.presented = presented
+        self.may_ask = may_ask
         self.changed = Signal(change, None)
         self.copies = 0
         self.end_connection: Callable[[int], object] = lambda client_id: None
@@ -139,6 +143,7 @@ class Roles:
         Raises:
             UsageError: as for `rename`.
         """
+        self._require_asking()
         person = self._people[client_id]
         self._name(client_id, "" if person.known else name)
         person.requests = not person.has_control
@@ -222,6 +227,7 @@ class Roles:
             UsageError: only presenters may, and only to who is there.
         """
         person = self._viewer(presenter_id, client_id)
+        self._require_asking()
         self._key_of_control = ""
         for other in self._people.values():
             other.has_control = other.presenter
@@ -287,6 +293,10 @@ class Roles:
         if person is None or person.presenter:
             raise UsageError("this viewer has left")
         return person
+
+    def _require_asking(self) -> None:
+        if not self.may_ask:
+            raise UsageError("in a class, this robot can only be looked at")
 
     def _check_presenter(self, client_id: int) -> None:
         person = self._people.get(client_id)

@@ -1,0 +1,1 @@
+"""A class: a page and a folder for each student, and a board for the teacher."""

@@ -1,0 +1,183 @@
+"""One student's page: a server of its own that only this machine can reach.
+
+Its session is shared by the student's pages, who are its presenters; the teacher, and
+those to whom it is shown, look at the same one. What is typed is written into the
+student's folder by itself.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from sambot_viz.classroom.seat_state import SeatState
+from sambot_viz.errors import SambotVizError, UsageError
+from sambot_viz.inputs import Inputs
+from sambot_viz.lessons.evaluation import faults_in
+from sambot_viz.lessons.lesson import Lesson
+from sambot_viz.lessons.study import Study
+from sambot_viz.options import Options
+from sambot_viz.session.signals import connect
+from sambot_viz.session.worker import Throttle
+from sambot_viz.visualizer import Visualizer
+
+PERIOD = 1.0
+"""The board hears of a student at most so often [s]."""
+REST = 2.0
+"""A text is written when nothing was typed for so long [s] …"""
+LONGEST = 10.0
+"""… and after so long in any case [s]."""
+NAME_HEADER = "X-Sambot-Name"
+"""Says who opens a page; only the program of the class reaches the server."""
+
+
+class Seat:
+    """A student's page, from the first visit on.
+
+    Args:
+        lesson: what is learnt.
+        folder: of the student.
+        track: the way through the lesson; None for the first, or that of the files.
+        tell: takes how far the student is, at most once a period.
+    """
+
+    def __init__(
+        self,
+        lesson: Lesson,
+        folder: Path,
+        track: str | None,
+        tell: Callable[[SeatState], object],
+    ) -> None:
+        self._lesson = lesson
+        study = self._study = Study.begun(lesson, folder, track, trusted=False)
+        options = Options(token="", presenter="", trust_user_header=NAME_HEADER)
+        options = options.having(trusted=False, in_class=True).learning(study)
+        inputs = Inputs(options, may_be_broken=True)
+        self._viz = Visualizer.of_inputs(inputs)
+        place = self._viz.server.sessions.shared_place
+        assert place is not None and place.session is not None
+        assert place.window is not None and place.window.text is not None
+        assert place.window.lesson is not None
+        self._session, self._window = place.session, place.window
+        self._text, self._shown = place.window.text, place.window.lesson
+        self._tell = tell
+        self._changed = self._typed = 0.0
+        self._saves = False
+        self._since, self._trouble = SeatState.on_disk(lesson, folder).since, ""
+        self._passed = self._count_passed()
+        self._throttle = Throttle(self._session.worker, PERIOD, self._send)
+        facts = (
+            self._session.problems.shown,
+            self._session.roles.changed,
+            self._shown.changed,
+        )
+        self._ends = [
+            connect(facts, self._throttle.request),
+            connect([self._text.changed], self._note_text),
+        ]
+        self._throttle.request()
+
+    @property
+    def port(self) -> int:
+        """Where it listens, on this machine only."""
+        return self._viz.viser.get_port()
+
+    @property
+    def student_secret(self) -> str:
+        """Lets a program in as the student."""
+        return str(self._viz.server.options.presenter)
+
+    @property
+    def viewer_secret(self) -> str:
+        """Lets a program in to look."""
+        return str(self._viz.server.options.token)
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence of the teacher in the student's pages."""
+        with self._session.lock:
+            self._window.say(sentence, "warn")
+            self._shown.announce(sentence)
+
+    def point_to(self, link: str, name: str) -> None:
+        """Offer the page of another student, or no longer with an empty link."""
+        with self._session.lock:
+            self._shown.point_to(link, name)
+
+    def close(self) -> None:
+        """Write what is not written, and end."""
+        with self._session.lock:
+            self._save()
+            for end in self._ends:
+                end()
+        self._throttle.close()
+        self._viz.stop()
+
+    # What is typed
+
+    def _note_text(self) -> None:
+        now = time.time()
+        if not self._text.unsaved:
+            return
+        self._changed = now
+        if not self._saves:
+            self._saves, self._typed = True, now
+            self._session.worker.post_later(REST, self._save_later)
+        self._throttle.request()
+
+    def _save_later(self) -> None:
+        now = time.time()
+        if now - self._changed < REST and now - self._typed < LONGEST:
+            left = REST - (now - self._changed)
+            self._session.worker.post_later(left, self._save_later)
+            return
+        self._saves = False
+        self._save()
+
+    def _save(self) -> None:
+        """Write each text into its file; the board says what cannot be written."""
+        before, self._trouble = self._trouble, ""
+        for buffer in self._text.unsaved:
+            try:
+                self._text.save(buffer.name)
+            except (UsageError, SambotVizError) as error:
+                self._trouble = f"not saved: {error}"
+        if self._trouble and self._trouble != before:
+            self._window.say(self._trouble.capitalize(), "error")
+        if self._trouble != before:
+            self._throttle.request()
+
+    # What the board hears
+
+    def _count_passed(self) -> int:
+        steps, progress = self._lesson.steps, self._study.progress
+        return sum(progress.of(step.name).passed for step in steps)
+
+    def _send(self) -> None:
+        with self._session.lock:
+            state = self._state()
+        with suppress(OSError):
+            self._tell(state)
+
+    def _state(self) -> SeatState:
+        passed, self._passed = self._passed, self._count_passed()
+        if self._passed > passed:
+            self._since = time.time()
+        listed = self._session.problems.shown.value.listed
+        faults = faults_in(self._shown.outcomes or ())
+        errors = [problem for problem in listed if problem.severity == "error"]
+        said = [fault.message for fault in faults] + [one.message for one in errors]
+        people = self._session.roles.people.values()
+        return SeatState.of(
+            self._lesson,
+            self._study.progress,
+            errors=len(errors),
+            warnings=sum(problem.severity == "warning" for problem in listed),
+            unmet=len(faults),
+            first=said[0][:200] if said else "",
+            pages=sum(person.presenter for person in people),
+            changed=self._changed,
+            since=self._since,
+            trouble=self._trouble or self._shown.trouble,
+        )

@@ -1,0 +1,145 @@
+"""A process with seats, as the program of the class sees it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sambot_viz.classroom.seat_state import SeatState
+from sambot_viz.errors import ServerError, UsageError
+
+_LONGEST_START = 60.0
+"""A seat is there after so long at most [s]."""
+_LONGEST_END = 10.0
+_LONGEST_LINE = 2**20
+
+
+@dataclass(frozen=True, slots=True)
+class SeatAddress:
+    """Where the page of a student is, and what lets the class's program in.
+
+    Attributes:
+        port: of this machine.
+        student: the secret of the student.
+        viewer: that of those who look.
+    """
+
+    port: int
+    student: str
+    viewer: str
+
+
+class SeatProcess:
+    """A child process with the seats of some students; made again when it has died.
+
+    Args:
+        lesson: the file of the lesson.
+        track: the way through it.
+        tell: takes the number of a student, and how far that is.
+
+    Attributes:
+        seats: those that are open, by the numbers of their students.
+    """
+
+    def __init__(
+        self,
+        lesson: Path,
+        track: str | None,
+        tell: Callable[[int, SeatState], object],
+    ) -> None:
+        self._first = {"lesson": str(lesson), "track": track}
+        self._tell = tell
+        self._process: asyncio.subprocess.Process | None = None
+        self._reading: asyncio.Task[None] | None = None
+        self._starting = asyncio.Lock()
+        self._waiting: dict[int, asyncio.Future[SeatAddress]] = {}
+        self.seats: dict[int, SeatAddress] = {}
+
+    async def start(self) -> None:
+        """Start the process, unless it runs."""
+        async with self._starting:
+            if self._reading is not None and not self._reading.done():
+                return
+            self.seats.clear()
+            self._process = await asyncio.create_subprocess_exec(
+                *(sys.executable, "-X", "utf8", "-m", "sambot_viz.classroom.seats"),
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                limit=_LONGEST_LINE,
+                # Ctrl-C is for the class's program, which then ends this one.
+                start_new_session=True,
+            )
+            self._send(self._first)
+            self._reading = asyncio.create_task(self._read(self._process))
+
+    async def open(self, number: int, folder: Path) -> SeatAddress:
+        """Open the seat of a student, unless it is open.
+
+        Raises:
+            UsageError: the files of the student cannot be written.
+            ServerError: the process does not answer.
+        """
+        await self.start()
+        if number in self.seats:
+            return self.seats[number]
+        waiting = self._waiting.get(number)
+        if waiting is None:
+            waiting = asyncio.get_running_loop().create_future()
+            self._waiting[number] = waiting
+            self._send({"do": "open", "number": number, "folder": str(folder)})
+        try:
+            return await asyncio.wait_for(asyncio.shield(waiting), _LONGEST_START)
+        except asyncio.TimeoutError as error:
+            raise ServerError("the page of a student does not begin") from error
+        finally:
+            self._waiting.pop(number, None)
+
+    def order(self, what: str, number: int, **fields: str) -> None:
+        """Order something for a student; nothing is done without a seat."""
+        if number in self.seats:
+            self._send({"do": what, "number": number, **fields})
+
+    async def close(self) -> None:
+        """Let it write what is not written, and end it."""
+        process = self._process
+        if process is None or process.stdin is None:
+            return
+        process.stdin.close()
+        if not self.seats:
+            process.kill()
+        try:
+            await asyncio.wait_for(process.wait(), _LONGEST_END)
+        except asyncio.TimeoutError:
+            process.kill()
+            await process.wait()
+
+    def _send(self, order: dict[str, Any]) -> None:
+        assert self._process is not None and self._process.stdin is not None
+        self._process.stdin.write(f"{json.dumps(order)}\n".encode())
+
+    async def _read(self, process: asyncio.subprocess.Process) -> None:
+        assert process.stdout is not None
+        async for line in process.stdout:
+            self._take(json.loads(line))
+        for waiting in self._waiting.values():
+            if not waiting.done():
+                waiting.set_exception(ServerError("the page of a student has ended"))
+
+    def _take(self, answer: dict[str, Any]) -> None:
+        number = answer.get("number", 0)
+        waiting = self._waiting.get(number)
+        if "state" in answer:
+            self._tell(number, SeatState.read(answer["state"]))
+        elif waiting is None or waiting.done():
+            return
+        elif "refused" in answer:
+            waiting.set_exception(UsageError(answer["refused"]))
+        elif "port" in answer:
+            seat = SeatAddress(answer["port"], answer["student"], answer["viewer"])
+            self.seats[number] = seat
+            waiting.set_result(seat)

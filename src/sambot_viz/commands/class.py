@@ -1,0 +1,65 @@
+"""``sambot-viz class``: a lesson for a whole class, and a board for its teacher."""
+
+from __future__ import annotations
+
+import os
+import threading
+from pathlib import Path
+
+from sambot_viz.commands.command_line import Parser, parse
+from sambot_viz.commands.lesson import add_track, lesson_of
+from sambot_viz.outlet import write_err
+
+_SECRET = "SAMBOT_VIZ_PRESENTER"
+"""The environment variable with the secret of the board's address."""
+
+
+def run(words: list[str]) -> int:
+    """Serve a class until Ctrl-C."""
+    given, options = parse(parser(), words, presenter=os.environ.get(_SECRET, ""))
+    lesson = lesson_of(given.lesson, ())
+    folder = Path(given.dir or f"{lesson.name}-class")
+    # The imports are late: --help needs no server.
+    from sambot_viz.classroom.classroom import Classroom
+    from sambot_viz.commands.show import announce, stop_on_signals
+
+    stop = threading.Event()
+    signals = stop_on_signals(stop)
+    try:
+        with Classroom(options, lesson, folder, given.track) as room:
+            write_err(f"sambot-viz: the students' files are in {folder}")
+            whose = ("students:  ", "teacher:   ")
+            announce(options, room.port, given.open, "/board", whose)
+            stop.wait()
+    finally:
+        # Whoever waits for a signal waits no more.
+        signals.put(0)
+    return 0
+
+
+def parser() -> Parser:
+    """Return the flags of the command."""
+    made = Parser(
+        prog="sambot-viz class",
+        groups=("listen",),
+        takes_model=False,
+        description="Show a lesson to a class, until Ctrl-C. Two addresses are "
+        "printed. Students open the first one and type a name: each has a page and a "
+        "folder, and finds both again after a reload, a lost network or a restart. The "
+        "second one is the teacher's board: how far each student is, what is wrong "
+        "there, and a look over the shoulder.",
+    )
+    made.add_argument(
+        "lesson",
+        metavar="LESSON",
+        help="name of a lesson that ships, a lesson.yaml, or its folder",
+    )
+    add_track(made)
+    made.add_argument(
+        "--dir",
+        metavar="DIR",
+        help="the folder of the class, with a folder for each student in it; by "
+        "default a new one with the name of the lesson",
+    )
+    made.add_open()
+    return made

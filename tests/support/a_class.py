@@ -1,0 +1,141 @@
+"""A class for tests, and the browsers of its students and its teacher.
+
+with a_class(tmp_path) as room:
+    ada = Browser(room)
+    ada.join("Ada")                 # types the name, and keeps the cookie
+    page = ada.page()               # a ProtocolClient; ada.type(page, "<robot/>")
+    teacher = Browser(room, teaches=True)
+    teacher.get("board/class.csv").text
+"""
+
+from __future__ import annotations
+
+import json
+import urllib.error
+import urllib.request
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, urlencode, urlsplit
+
+from lesson_files import BASE
+from patience import patience
+from protocol_client import ProtocolClient
+
+from sambot_viz.classroom.classroom import Classroom
+from sambot_viz.lessons.read_lesson import open_lesson
+from sambot_viz.options import Options
+
+ASKED = "Sambot-Class"
+MODEL = "robot.urdf"
+
+
+@dataclass(frozen=True)
+class Got:
+    """An answer."""
+
+    status: int
+    headers: Mapping[str, str]
+    content: bytes
+
+    @property
+    def text(self) -> str:
+        return self.content.decode()
+
+
+@contextmanager
+def a_class(
+    folder: Path, lesson: str | Path = BASE, **options: Any
+) -> Generator[Classroom]:
+    """Serve a class whose seats are in one process."""
+    given = Options(presenter="", **options)
+    with Classroom(given, open_lesson(lesson), folder, processes=1) as room:
+        yield room
+
+
+class Browser:
+    """What one person opens.
+
+    Args:
+        room: the class.
+        teaches: whether it has the secret of the board.
+        cookie: what it has kept from before.
+    """
+
+    def __init__(
+        self, room: Classroom, *, teaches: bool = False, cookie: str = ""
+    ) -> None:
+        self._room, self.cookie = room, cookie
+        self._open = ExitStack()
+        self._secret = urlsplit(room.board_url).query.partition("=")[2]
+        self._teaches = teaches
+
+    @property
+    def headers(self) -> dict[str, str]:
+        found = {"Cookie": self.cookie} if self.cookie else {}
+        if self._teaches:
+            found["Authorization"] = f"Bearer {self._secret}"
+        return found
+
+    def get(self, path: str, **headers: str) -> Got:
+        more = {name.replace("_", "-"): value for name, value in headers.items()}
+        asked = urllib.request.Request(
+            f"{self._room.url}/{path}", headers={**self.headers, **more}
+        )
+        try:
+            with urllib.request.urlopen(asked, timeout=patience(60.0)) as answer:
+                return Got(answer.status, answer.headers, answer.read())
+        except urllib.error.HTTPError as error:
+            return Got(error.code, error.headers, error.read())
+
+    def join(self, name: str) -> Got:
+        """Type a name."""
+        got = self.get("join", **{ASKED: quote(name)})
+        if "Set-Cookie" in got.headers:
+            self.cookie = got.headers["Set-Cookie"].partition(";")[0]
+        return got
+
+    def do(self, what: str, **fields: object) -> Got:
+        """Press a button of the board."""
+        return self.get(f"board/{what}?{urlencode(fields)}", **{ASKED: "1"})
+
+    def page(self, path: str = "/") -> ProtocolClient:
+        """Open a page."""
+        port = self._room.port
+        client = ProtocolClient(port, path=path, headers=self.headers)
+        self._open.callback(client.close)
+        client.wait_until(lambda: "lesson/text" in client.rows)
+        return client
+
+    def close(self) -> None:
+        """Close all pages."""
+        self._open.close()
+
+    def rows(self) -> Iterator[dict[str, Any]]:
+        """What the board is told, one event after the other."""
+        asked = urllib.request.Request(
+            f"{self._room.url}/board/rows", headers=self.headers
+        )
+        answer = self._open.enter_context(
+            urllib.request.urlopen(asked, timeout=patience(30.0))
+        )
+        for line in answer:
+            if line.startswith(b"data: "):
+                yield json.loads(line.removeprefix(b"data: "))
+
+
+def write(client: ProtocolClient, text: str, name: str = MODEL) -> None:
+    """Type a whole text in a page."""
+    client.act("model/show", True)
+    client.wait_until(lambda: shown(client, "model/text") is not None)
+    before = shown(client, "model/text")
+    length = len(before["text"].encode("utf-16-le")) // 2
+    client.act("model/type", name, before["version"], 0, length, text, False)
+    client.wait_until(lambda: shown(client, "model/text")["text"] == text)
+
+
+def shown(client: ProtocolClient, name: str) -> Any:
+    """What a panel of a page is told."""
+    return client.rows.get(name, {}).get("value")
