@@ -123,7 +123,7 @@ class ClientSessions:
         study = self._options.study
         if study is None:
             return None
-        facts = [session.saved, *([] if text is None else [text.changed])]
+        facts = [session.saved, *([] if text is None else [text.followed])]
         return ShownLesson(
             study,
             lambda: {} if text is None else text.texts,

@@ -59,6 +59,7 @@ class ModelText:
 
     Attributes:
         changed: told after a change of the files, or of one of their texts.
+        followed: told after the texts were loaded and checked.
         numbers: the properties and arguments of the model.
     """
 
@@ -78,7 +79,7 @@ class ModelText:
         self._paths: dict[str, Path] = {}
         self._buffers: dict[str, Buffer] = {}
         self._words: tuple[Robot | None, tuple[OfferedElement, ...]] | None = None
-        self.changed = Signal(change, None)
+        self.changed, self.followed = Signal(change, None), Signal(change, None)
         # A copy of a session begins with what is not saved there.
         self.numbers = ModelNumbers(
             files.arguments, self._sources, change, checks.moved
@@ -96,7 +97,7 @@ class ModelText:
             change,
             self._wanted,
             self.can_save,
-            self.changed,
+            (self.changed, self.followed),
         )
         facts = (robot.changed, checks.files, problems.saves)
         self._ends = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -67,7 +67,7 @@ class TextLoader:
         change: Change,
         wanted: Callable[[], ModelState],
         trusts_typed: bool,
-        changed: Signal[None],
+        changed: Sequence[Signal[None]],
     ) -> None:
         self._files, self._robot, self._checks = files, robot, checks
         self._problems, self._show, self._change = problems, show, change
@@ -151,5 +151,5 @@ class TextLoader:
             self._checks.run_again()
         except Exception as error:
             self._problems.report_error(error)
-        with self._change(self._changed):
+        with self._change(*self._changed):
             self.checked = wanted.versions
