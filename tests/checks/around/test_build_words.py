@@ -84,6 +84,20 @@ install_scripts=$base/lib/robot
 DRIVE = "drive = robot.drive:main"
 TF = "<exec_depend>tf2_ros</exec_depend>\n  "
 CASES = [
+    (MANIFEST, '<package format="3">', '<pckage format="3">', "<pckage> is not a tag"),
+    (MANIFEST, 'format="3"', "format=3", "the value of format is not in quotes"),
+    (MANIFEST, 'format="3"', 'format="3', "the value of format is not in quotes"),
+    (MANIFEST, '<package format="3">\n', "", "</package> closes nothing"),
+    (MANIFEST, "\n</package>", "", "<package> is not closed"),
+    (MANIFEST, "</package>", "</pakage>", "</pakage> is not a tag"),
+    (MANIFEST, "<license>", "<licence>", "<licence> is closed by </license>"),
+    (MANIFEST, "<license>", "license>", "license has no <"),
+    (MANIFEST, "<license>", "<license", "<license has no >"),
+    (MANIFEST, "0.0.1", "", "<version> is empty"),
+    (MANIFEST, "depend>ament_cmake", "depend>catkin", "is a package of ROS 1"),
+    (MANIFEST, "depend>ament_cmake", "depend>maent_cmake", "there is ament_cmake"),
+    (MANIFEST, ">tf2_ros<", ">tf2ros<", "package.xml depends on tf2ros"),
+    (MANIFEST, "type>ament_cmake", "type>Ament_cmake", "colcon knows no Ament_cmake"),
     (CMAKE, "\nendif()", "", "the if( … ) of line 4 has no endif()"),
     (MANIFEST, ' format="3"', "", "of format 1, which has no <exec_depend>"),
     (SETUP, "'drive = ", "'drive ", "no = between a program and its function"),
@@ -136,6 +150,14 @@ def test_a_mistake_in_a_build_file_is_undone_by_its_edit(
     (problem,) = check(package)
     assert cause in problem.message
     assert undone(package, problem, file) == []
+
+
+def test_an_element_that_is_misspelt_is_not_missing_too(tmp_path: Path) -> None:
+    right, wrong = "<version>0.0.1</version>", "<versoin>0.0.1</versoin>"
+    package = package_with(tmp_path / "robot", MANIFEST, right, wrong)
+    (problem,) = check(package)
+    assert "has no <versoin>" in problem.message
+    assert undone(package, problem, MANIFEST) == []
 
 
 @pytest.mark.parametrize(("file", "right", "wrong", "severity", "cause"), SAID)

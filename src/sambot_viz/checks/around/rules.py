@@ -41,6 +41,12 @@ from sambot_viz.checks.around.controllers import (
     undeclared_controllers,
     unknown_controllers,
 )
+from sambot_viz.checks.around.dependencies import (
+    missing_dependencies,
+    misspelt_dependencies,
+    misspelt_packages,
+    packages_of_ros1,
+)
 from sambot_viz.checks.around.display_topics import unseen_topics
 from sambot_viz.checks.around.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.filter_inputs import inputs_without_config
@@ -127,14 +133,10 @@ from sambot_viz.checks.around.launched_parameters import launched_parameters
 from sambot_viz.checks.around.manifest import (
     build_types,
     incomplete_manifest,
-    missing_dependencies,
-    misspelt_dependencies,
     unreadable_manifest,
 )
 from sambot_viz.checks.around.manifest_words import (
     malformed_values,
-    misspelt_packages,
-    packages_of_ros1,
     unknown_elements,
 )
 from sambot_viz.checks.around.nav2_sections import odd_clocks, unread_sections

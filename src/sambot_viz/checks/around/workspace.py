@@ -235,8 +235,13 @@ class Package:
     def is_ros1(self) -> bool:
         """True when catkin alone builds it: it is not for ROS 2."""
         root = self.manifest
-        tools = [] if root is None else root.find_all("buildtool_depend")
-        return {tool.text.strip() for tool in tools} == {"catkin"}
+        if root is None:
+            return False
+        kinds = (e.text for e in root.iter() if e.tag == "build_type")
+        tools = root.find_all("buildtool_depend")
+        return not any("ament" in kind for kind in kinds) and {
+            tool.text.strip() for tool in tools
+        } == {"catkin"}
 
     @cached_property
     def setup(self) -> SetupFile | None:
