@@ -100,6 +100,26 @@ CASES = [
     (MANIFEST, "type>ament_cmake", "type>Ament_cmake", "colcon knows no Ament_cmake"),
     (CMAKE, "\nendif()", "", "the if( … ) of line 4 has no endif()"),
     (MANIFEST, ' format="3"', "", "of format 1, which has no <exec_depend>"),
+    (CMAKE, "project(robot)\n", "", "there is no project( … )"),
+    (CMAKE, "project(", "projcet(", "there is no command projcet()"),
+    (CMAKE, "install(", "instal(", "there is no command instal()"),
+    (CMAKE, "DESTINATION", "destination", "install( … ) has destination"),
+    (CMAKE, "DIRECTORY", "DIRECTROY", "install( … ) has DIRECTROY"),
+    (CMAKE, "ament_package()", "ament_package(", "the ( of ament_package is not"),
+    (CMAKE, "if(BUILD_TESTING)", "if(BUILD_TESTING", "the ( of if is not closed"),
+    (CMAKE, "launch DEST", "launch)\n  DEST", "this ) closes nothing"),
+    (CMAKE, "3.8)", '"3.8)', "is opened and not closed"),
+    (CFG, "[install]", "[instal]", "no install_scripts in [install]"),
+    (CFG, "[install]\n", "", "no install_scripts in [install]"),
+    (CFG, "install_scripts=$base/lib/robot\n", "", "no install_scripts in [install]"),
+    (CFG, "script_dir", "script_dirs", "no script_dir in [develop]"),
+    (CFG, "[develop]\n", "", "is in no section"),
+    (SETUP, "from glob import glob", "import glob", "glob is a module here"),
+    (SETUP, "from setuptools import setup\n", "", "setup is used here"),
+    (SETUP, "robot.drive:main", "drive:main", "has no drive.py beside setup.py"),
+    (SETUP, "share/robot/launch", "share/robto/launch", "installed into share/robto"),
+    (SETUP, "glob('launch/*.py')", "glob('launch/')", "launch, which is a folder"),
+    (SETUP, "['package.xml']),", "['package.xml'])", "a comma is missing"),
     (SETUP, "'drive = ", "'drive ", "no = between a program and its function"),
     (SETUP, "robot.drive:main", "robot.drive.py:main", "has dots and no .py"),
     (SETUP, "robot.drive:main", "robot/drive:main", "has dots and no .py"),
@@ -109,8 +129,6 @@ CASES = [
 ]
 SAID = [
     (CMAKE, "\nif(BUILD_TESTING)", "", "error", "endif() closes nothing"),
-    (CFG, "[install]", "[instal]", "error", "no install_scripts in [install]"),
-    (CFG, "script_dir", "script_dirs", "warning", "no script_dir in [develop]"),
 ]
 
 

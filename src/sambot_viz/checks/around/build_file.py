@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from sambot_viz.checks.around.files.cmake import CMakeFile, CMakeWord
+from sambot_viz.checks.around.files.cmake import INSTALLED, CMakeFile, CMakeWord
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.manifest import named_as_its_folder
 from sambot_viz.checks.around.place import line_fix, where
@@ -13,7 +13,6 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
-from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
@@ -33,24 +32,19 @@ _WITHOUT_AMENT = frozenset(
 """What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
 _END = "ament_package"
 _PLACES = frozenset({"DESTINATION", "TYPE"})
-_INSTALLED = frozenset(
-    "TARGETS IMPORTED_RUNTIME_ARTIFACTS FILES PROGRAMS DIRECTORY SCRIPT CODE EXPORT "
-    "RUNTIME_DEPENDENCY_SET".split()
-)
-"""What install( … ) begins with."""
 _BEFORE = frozenset({"ament_package_xml", "rosidl_generate_interfaces"})
 _MAKES = frozenset({"file", "execute_process", "add_custom_command", "include"})
 
 
 def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
-    """Report brackets and quotation marks that are not closed."""
+    """Report brackets that are not closed, and words that CMake does not know."""
     cmake = around.cmake
     if cmake is not None and cmake.fault is not None:
         place = cmake.place(cmake.fault.line)
         yield Problem.at(
             place,
             "error",
-            "cmake-unclosed",
+            "cmake-unclosed" if cmake.misspelt is None else "cmake-command-missing",
             f"CMake cannot read this file: {cmake.fault.cause}; colcon build stops",
             line_fix(cmake.fault, place, around.files.text("CMakeLists.txt") or ""),
         )
@@ -69,15 +63,12 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
     finds = any(name.lower() not in _WITHOUT_AMENT for name in found)
     if not cmake.is_package and "ament_cmake" in found and cmake.certain("install"):
         last = cmake.commands[-1]
-        wrong = next((c for c in cmake.commands if is_one_slip(c.name, _END)), None)
-        place = cmake.place((wrong or last).line)
+        place = cmake.place(last.line)
         yield _missing_command(
             place,
             f"{_END}() is missing, so colcon build does not register the package: "
             "ros2 launch does not find it",
-            _at_the_end(place.file, around)
-            if wrong is None
-            else write(place, wrong.name, _END, hint=f"write {_END}()"),
+            _at_the_end(place.file, around),
         )
     if cmake.is_package and not finds:
         ends = ("ament_package", "ament_auto_package")
@@ -88,6 +79,8 @@ def missing_commands(around: Surroundings) -> Iterator[Problem]:
             "REQUIRED): colcon build stops",
             _after_project(cmake),
         )
+    if cmake.is_package and "project" not in cmake.names:
+        yield _without_project(cmake, around)
 
 
 def commands_after_the_end(around: Surroundings) -> Iterator[Problem]:
@@ -121,6 +114,22 @@ def commands_after_the_end(around: Surroundings) -> Iterator[Problem]:
             else hint,
         )
         return
+
+
+def _without_project(cmake: CMakeFile, around: Surroundings) -> Problem:
+    """Report a CMakeLists.txt that gives the package no name."""
+    first = cmake.commands[0]
+    line = cmake.place(first.line)
+    is_version = first.name == "cmake_minimum_required"
+    at = Place(line.file, first.line + is_version, 1)
+    written = f"project({around.files.name})"
+    where_ = f"after line {first.line}" if is_version else "as the first line"
+    return _missing_command(
+        line,
+        "there is no project( … ) with the name of the package, which ament_package() "
+        "needs: colcon build stops",
+        write_between(at, at, f"{written}\n", f"add {written} {where_}"),
+    )
 
 
 def _after_project(cmake: CMakeFile) -> Fix:
@@ -176,7 +185,7 @@ def malformed_installs(around: Surroundings) -> Iterator[Problem]:
             continue
         said = {word.text for word in words}
         first, last = words[0], words[-1]
-        if said & _INSTALLED == set() and _is_folder(first.text, around):
+        if said & INSTALLED == set() and _is_folder(first.text, around):
             what, place, word = "what is installed", cmake.place(first.line), first.text
             fix = write(
                 place, word, f"DIRECTORY {word}", hint="write DIRECTORY before it"

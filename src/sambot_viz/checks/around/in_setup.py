@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.setup_cfg import programs_elsewhere
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.setup_files import (
     joined_scripts,
     missing_data_files,
     missing_entry_points,
     missing_marks,
-    programs_elsewhere,
 )
 from sambot_viz.checks.around.setup_words import (
     malformed_entry_points,

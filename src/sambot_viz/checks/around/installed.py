@@ -17,7 +17,7 @@ from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeW
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.installs import Installed, Piece
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write, write_between
@@ -39,6 +39,8 @@ _NOT_INSTALLED = frozenset({"doc", "docs", "example", "examples", "test", "tests
 def not_installed(around: Surroundings) -> Iterator[Problem]:
     """Report each file that is used and exists, but is not installed where it is."""
     if any(folders_as_files(around)) or any(malformed_installs(around)):
+        return
+    if around.cmake is not None and around.cmake.fault is not None:
         return
     used: dict[str, Place] = {}
     for path, user in sorted(_used(around), key=lambda u: (u[1].file, u[1].line)):
@@ -247,6 +249,11 @@ def _at_wrong_place(
         if right == piece.said:
             right = f"{_OF_PACKAGE}/{above}"
     fix = write(place, piece.said, right)
+    if setup is not None:
+        pairs = (entry.node for entry in setup.data_files)
+        for pair in (pair for pair in pairs if setup.place(pair) == place):
+            if isinstance(pair, ast.Tuple):
+                fix = rewritten(pair.elts[0], setup.shown, right)
     return Problem.at(place, "error", "install-destination", what, fix)
 
 

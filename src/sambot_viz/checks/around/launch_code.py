@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sambot_viz.checks.around.launch_file import LaunchFile
@@ -130,29 +130,34 @@ def _without_return(function: ast.FunctionDef, launch: LaunchFile) -> Problem:
 
 def unknown_names(around: Surroundings) -> Iterator[Problem]:
     """Report names that are used and neither imported nor defined."""
-    for file in _python_files(around):
+    for file in python_files(around):
         undefined = undefined_names(file.tree)
         bound = bound_names(file.tree) if undefined else set[str]()
+        advised: set[str] = set()
         for name, node in undefined.items():
-            code, stops = _stopped(file)
+            code, stops = stopped(file)
+            fix = _advice(name, bound, code, file, node, tuple(undefined))
+            if fix.hint in advised and "import" in fix.hint and fix.edits:
+                continue
+            advised.add(fix.hint)
             yield Problem.at(
                 file.place(node),
                 "error",
                 code,
                 f"{name} is used here, but it is neither imported nor defined: {stops} "
                 "stops with it",
-                _advice(name, bound, code, file, node),
+                fix,
             )
 
 
 def missing_commas(around: Surroundings) -> Iterator[Problem]:
     """Report two items of a list without a comma, which Python takes for a call."""
-    for file in _python_files(around):
+    for file in python_files(around):
         for node in ast.walk(file.tree):
             item = node.func if isinstance(node, ast.Call) else None
             item = node.value if isinstance(node, ast.Subscript) else item
             if isinstance(item, ast.Constant) and item.value in modules():
-                code, stops = _stopped(file)
+                code, stops = stopped(file)
                 yield Problem.at(
                     file.place(item),
                     "error",
@@ -162,7 +167,7 @@ def missing_commas(around: Surroundings) -> Iterator[Problem]:
                     rewritten(item, file.shown, str(item.value)),
                 )
             elif isinstance(item, _NEVER_CALLED):
-                code, stops = _stopped(file)
+                code, stops = stopped(file)
                 end = Place(file.shown, item.end_lineno or item.lineno)
                 second = "(" if isinstance(node, ast.Call) else "["
                 yield Problem.at(
@@ -175,19 +180,25 @@ def missing_commas(around: Surroundings) -> Iterator[Problem]:
                     if second == "("
                     else "a comma is missing at the end of this line: Python takes "
                     f"the [ after it for an index; {stops} stops with it",
-                    "add a comma there",
+                    _comma(item, file),
                 )
 
 
-def _python_files(around: Surroundings) -> Iterator[LaunchFile | SetupFile]:
+def _comma(item: ast.expr, file: LaunchFile | SetupFile) -> Fix:
+    end = Place(file.shown, item.end_lineno or 1, (item.end_col_offset or 0) + 1)
+    return write_between(end, end, ",", "add a comma there")
+
+
+def python_files(around: Surroundings) -> Iterator[LaunchFile | SetupFile]:
+    """Give the launch files and the setup.py of each package."""
     for package in around.packages:
         yield from package.launches
         if package.setup is not None:
             yield package.setup
 
 
-def _stopped(file: LaunchFile | SetupFile) -> tuple[str, str]:
-    """The code of a finding, and what stops."""
+def stopped(file: LaunchFile | SetupFile) -> tuple[str, str]:
+    """Return the code of a finding, and what stops."""
     if isinstance(file, LaunchFile):
         return _CODE, "ros2 launch"
     return "setup-py-code", "colcon build"
@@ -206,14 +217,19 @@ def undefined_names(tree: ast.Module) -> dict[str, ast.Name]:
 
 
 def _advice(
-    name: str, bound: set[str], code: str, file: LaunchFile | SetupFile, node: ast.Name
+    name: str,
+    bound: set[str],
+    code: str,
+    file: LaunchFile | SetupFile,
+    node: ast.Name,
+    undefined: Sequence[str],
 ) -> Fix:
     own = bound - PREDEFINED
-    known = modules()
-    module = _IN_SETUP.get(name) if code != _CODE else None
-    module = module or known.get(name)
+    known = {**modules(), **(_IN_SETUP if code != _CODE else {})}
+    module = known.get(name)
     if module is not None:
-        return _imported(f"from {module} import {name}", file)
+        names = sorted(other for other in undefined if known.get(other) == module)
+        return _imported(f"from {module} import {', '.join(names)}", file)
     if name in _MODULES:
         return _imported(f"import {name}", file)
     near = nearest(name, sorted(own), 0.7) or nearest(name, known, 0.85)
@@ -232,6 +248,10 @@ def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:
         if isinstance(step, (ast.Import, ast.ImportFrom)) and not future:
             begin = Place(file.shown, step.lineno, 1)
             return write_between(begin, begin, f"{line}\n", hint)
+    for step in file.tree.body:
+        if not (isinstance(step, ast.Expr) and isinstance(step.value, ast.Constant)):
+            begin = Place(file.shown, step.lineno, 1)
+            return write_between(begin, begin, f"{line}\n\n", hint)
     return Fix(hint)
 
 

@@ -38,6 +38,7 @@ def line_fix(fault: Fault, place: Place, text: str) -> Fix:
     """
     if fault.better is None:
         return Fix(fault.hint)
+    place = Place(place.file, fault.at or place.line)
     line = text.splitlines()[place.line - 1]
     comment = line[len(line.partition("#")[0].rstrip()) :]
     kept = "" if fault.better.endswith(comment) else comment

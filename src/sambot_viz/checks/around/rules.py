@@ -35,6 +35,7 @@ from sambot_viz.checks.around.build_file import (
     project_name,
     unreadable_cmake,
 )
+from sambot_viz.checks.around.called_modules import called_modules
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
 from sambot_viz.checks.around.control_interfaces import unfit_interfaces
 from sambot_viz.checks.around.controllers import (
@@ -225,6 +226,7 @@ OF_FILES: tuple[Check, ...] = (
     missing_entries,
     wrong_imports,
     unknown_names,
+    called_modules,
     missing_commas,
     unknown_keywords,
     unknown_elements_of_launch,

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import ast
-import configparser
 import posixpath
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.launch_code import PREDEFINED, bound_names
 from sambot_viz.checks.around.misspelt import is_misspelt
-from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.setup_file import DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
-from sambot_viz.checks.rule import listed
-from sambot_viz.edits import together, write, write_between
-from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.edits import write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _INDEX = "share/ament_index/resource_index/packages"
-_SCRIPTS = (("develop", "script_dir"), ("install", "install_scripts"))
-_IN_BASE = "$base/lib/"
 
 
 def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
@@ -73,16 +69,22 @@ def missing_marks(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
         )
 
 
-def _of_folder(path: str, node: object, setup: SetupFile, around: Surroundings) -> str:
+def _of_folder(
+    path: str, node: ast.expr, setup: SetupFile, around: Surroundings
+) -> str | Fix:
+    found = [p for e in setup.data_files for n, p in e.files.items if n is node]
     if node in [g for entry in setup.data_files for g in entry.globs]:
-        endings = {
-            posixpath.splitext(p)[1]
-            for p in around.files.paths
-            if posixpath.dirname(p) == posixpath.dirname(path)
-        }
-        if len(endings) == 1:
-            pattern = f"{posixpath.dirname(path)}/*{endings.pop()}"
-            return f"write {setup.globbed(pattern)}"
+        folder = path if found == [path] else posixpath.dirname(path)
+        beside = [p for p in around.files.paths if posixpath.dirname(p) == folder]
+        endings = {posixpath.splitext(p)[1] for p in beside}
+        nested = any(
+            posixpath.dirname(p).startswith(f"{path}/") for p in around.files.paths
+        )
+        if len(endings) == 1 or (beside and folder == path and not nested):
+            ending = endings.pop() if len(endings) == 1 else ""
+            right = setup.globbed(f"{folder}/*{ending}")
+            if right is not None:
+                return rewritten(node, setup.shown, right)
     below = f"('share/{around.files.name}/{path}', {setup.globbed(f'{path}/*')})"
     return f"list the files in it, with an entry of their own such as {below}"
 
@@ -164,12 +166,13 @@ def _no_module(
     has, own = around.files.folder, around.files.name
     folder, top = posixpath.dirname(path), path.partition("/")[0]
     if not (has / top).is_dir() and not (has / f"{top}.py").is_file():
-        inside = path.replace(top, own, 1)
+        inside = path.replace(top, own, 1) if "/" in path else f"{own}/{path}"
         named = f"depend>{top}<" in (around.files.text("package.xml") or "")
-        if named or "/" not in path or not (has / f"{inside}.py").is_file():
+        if named or not (has / f"{inside}.py").is_file():
             return None
         better = f"{inside.replace('/', '.')}:{program.function}"
-        return f"the package has no folder {top}", f"write {program.name} = {better}"
+        what = f"folder {top}" if "/" in path else f"{top}.py beside setup.py"
+        return f"the package has no {what}", f"write {program.name} = {better}"
     if not folder or not (has / folder).is_dir():
         return None
     files = [p for p in around.files.paths if posixpath.dirname(p) == folder]
@@ -202,76 +205,4 @@ def _no_function(
     return (
         f"{file} has no {first}; it has {near}",
         f"write {program.name} = {program.module}:{near}",
-    )
-
-
-def programs_elsewhere(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
-    """Report a setup.cfg that does not install programs where ros2 run looks."""
-    name = around.files.name
-    if not setup.programs or around.cmake is not None:
-        return
-    text = around.files.text("setup.cfg") or ""
-    config = configparser.RawConfigParser()
-    try:
-        config.read_string(text)
-    except configparser.Error:
-        return
-    said = {
-        option: config.get(section, option, fallback="")
-        or config.get(section, option.replace("_", "-"), fallback="")
-        for section, option in _SCRIPTS
-    }
-    right = f"{_IN_BASE}{name}"
-    wrong = {
-        value
-        for value in said.values()
-        if value.startswith(_IN_BASE) and value.strip("/") != right
-    }
-    program = setup.programs[0]
-    for value in sorted(wrong):
-        lines = [n for n, row in enumerate(text.splitlines(), 1) if value in row]
-        place = Place(around.files.shown("setup.cfg"), lines[0])
-        also = f" and in line {lines[1]}" if len(lines) > 1 else ""
-        places = (Place(place.file, line) for line in lines)
-        hint = f"write {right} here{also}"
-        yield Problem.at(
-            place,
-            "error",
-            "setup-cfg-folder",
-            f"setup.cfg installs the programs into {value.removeprefix('$base/')}, but "
-            f"the package is called {name}: ros2 run does not find "
-            f"{listed(p.name for p in setup.programs)} "
-            f"({where(setup.place(program.node), place)})",
-            together(hint, *(write(at, value, right) for at in places)),
-        )
-    has_file = around.files.text("setup.cfg") is not None
-    for section, option in _SCRIPTS if setup.given("options") is None else ():
-        if not said[option] and (has_file or (section == "install" and _used(around))):
-            yield _not_said(section, option, right, around, setup)
-
-
-def _used(around: Surroundings) -> bool:
-    """Tell whether a launch file of the package starts a program of it."""
-    return any(
-        launch.text(call, "package") == around.files.name
-        for launch in around.launches
-        for call in launch.called()
-    )
-
-
-def _not_said(
-    section: str, option: str, right: str, around: Surroundings, setup: SetupFile
-) -> Problem:
-    """Report that programs are installed into bin, where only a shell finds them."""
-    when = "" if section == "install" else " after colcon build --symlink-install"
-    program = setup.place(setup.programs[0].node)
-    has_file = around.files.text("setup.cfg") is not None
-    return Problem.at(
-        Place(around.files.shown("setup.cfg"), 1) if has_file else program,
-        "warning" if when else "error",
-        "setup-cfg-folder",
-        f"setup.cfg has no {option} in [{section}], so that the programs are installed "
-        f"into bin{when}: ros2 run does not find "
-        f"{listed(sorted(each.name for each in setup.programs))}",
-        f"write {option}={right} below [{section}] in setup.cfg",
     )

@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 from sambot_viz.checks.around.files.fault import Fault
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.errors import Place, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _TOKEN = re.compile(
     r"(?P<skip>\s+|\#\[(?P<level>=*)\[.*?\](?P=level)\]|\#[^\n]*)"
@@ -26,6 +28,13 @@ _KEYWORDS = frozenset(
     "USE_SOURCE_PERMISSIONS FILES_MATCHING OPTIONAL MESSAGE_NEVER CONFIGURATIONS "
     "COMPONENT EXCLUDE_FROM_ALL".split()
 )
+INSTALLED = frozenset(
+    "TARGETS IMPORTED_RUNTIME_ARTIFACTS FILES PROGRAMS DIRECTORY SCRIPT CODE EXPORT "
+    "RUNTIME_DEPENDENCY_SET".split()
+)
+"""What install( … ) begins with."""
+_DEFINING = frozenset({"macro", "function", "include", "add_subdirectory"})
+"""With one of these there may be commands of any name."""
 _HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
 _NAME = "PROJECT_NAME"
 
@@ -93,9 +102,14 @@ class CMakeFile:
         self.shown = shown
         self.fault: Fault | None = None
         """What stops CMake; the commands are then not certain."""
+        self.misspelt: Fault | None = None
+        """The same, for a word that CMake does not know."""
         self._lines = text.splitlines()
         self.commands = tuple(self._commands(text))
         self.fault = self.fault or self._open_block()
+        if self.fault is None:
+            self.misspelt = next(self._misspelt(), None)
+            self.fault = self.misspelt
 
     def place(self, line: int) -> Place:
         """Return the place of a line."""
@@ -163,6 +177,29 @@ class CMakeFile:
         if opened:
             self.fault = self._never_closed(name, opened[0])
 
+    def _misspelt(self) -> Iterator[Fault]:
+        """Find commands that nearly have the name of another, and their keywords."""
+        known = vocabulary("cmake_commands")
+        for command in self.commands if _DEFINING.isdisjoint(self.names) else ():
+            near = [name for name in known if is_one_slip(command.name, name)]
+            if command.name not in known and len(near) == 1:
+                cause = f"there is no command {command.name}()"
+                yield self._renamed(command.line, command.name, near[0], cause)
+        for words in (c.words for c in self.commands if c.name == "install"):
+            said = {word.text for word in words}
+            for word in (*words[:1], *words[1:-1]):
+                wanted = INSTALLED if word is words[0] else ["DESTINATION"]
+                near = [key for key in wanted if is_one_slip(word.text.upper(), key)]
+                if near and said.isdisjoint(wanted):
+                    cause = f"install( … ) has {word.text}"
+                    yield self._renamed(word.line, word.text, near[0], cause)
+
+    def _renamed(self, line: int, wrong: str, right: str, cause: str) -> Fault:
+        old = self._lines[line - 1]
+        pattern = rf"(?i)\b{re.escape(wrong)}\b"
+        better = re.sub(pattern, right, old, count=1)
+        return Fault(line, cause, f"write {right}", better)
+
     def _open_block(self) -> Fault | None:
         """Find an if( … ) or the like without its end, and an end without it."""
         opened: list[CMakeCommand] = []
@@ -200,10 +237,11 @@ class CMakeFile:
 
     def _never_closed(self, name: CMakeWord, line: int) -> Fault:
         """Find the last line before the next command: there the ) is missing."""
-        end = len(self._lines)
+        end, head = len(self._lines), _indent(self._lines[line - 1])
         for number in range(line + 1, end + 1):
             text = self._lines[number - 1]
-            if _COMMAND.match(text) and _indent(text) <= _indent(self._lines[line - 1]):
+            inner = name.text.lower() not in _BLOCKS and _indent(text) > head
+            if _COMMAND.match(text) and not inner:
                 end = number - 1
                 break
         code = {n: _code(self._lines[n - 1]) for n in range(line, end + 1)}
@@ -213,19 +251,18 @@ class CMakeFile:
             line,
             f"the ( of {name.text} is not closed",
             f"write {word}) in line {last}" if last != line else f"write {word})",
+            f"{code[last]})",
+            last,
         )
 
     def _closed_early(self, name: CMakeWord, closed: int, line: int) -> Fault:
         """Find the ) that has closed a command before its last words."""
         before = _code(self._lines[closed - 1]) if name.line > closed > 0 else ""
         word = "".join(before.split()[-1:]).removesuffix(")")
-        return Fault(
-            line,
-            "this ) closes nothing",
-            f"write {word} without the ) after it in line {closed}"
-            if word and before.endswith(")")
-            else "delete it",
-        )
+        if word and before.endswith(")"):
+            hint = f"write {word} without the ) after it in line {closed}"
+            return Fault(line, "this ) closes nothing", hint, before[:-1], closed)
+        return Fault(line, "this ) closes nothing", "delete it")
 
     def _open_quote(self, text: str) -> Fault:
         """Find the first quotation mark whose text does not end in its line."""
@@ -237,10 +274,12 @@ class CMakeFile:
                 break
         rest = _code(text[at:].split("\n", 1)[0])
         value = re.split(r"\s|\)", rest, maxsplit=1)[0]
+        start = text.rfind("\n", 0, at) + 1
         return Fault(
             text.count("\n", 0, at) + 1,
             'a quotation mark " is opened and not closed',
             f'write {value}"',
+            f'{text[start:at]}{value}"{rest[len(value) :]}',
         )
 
 

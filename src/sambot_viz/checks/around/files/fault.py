@@ -13,9 +13,11 @@ class Fault(NamedTuple):
         cause: what is wrong there.
         hint: what to write.
         better: the line as it should be, where one line is all that changes.
+        at: the line that is to change; None for the same.
     """
 
     line: int
     cause: str
     hint: str
     better: str | None = None
+    at: int | None = None
