@@ -22,12 +22,16 @@ _ATTRIBUTES = re.compile(
 )
 _PAIR = re.compile(r'([\w:.-]+)="([^"]*)"')
 _ELEMENT = re.compile(
-    r"(?:write|add) (<[^…]*>)((?: into it| inside it| to the model| before it)?)"
+    r"(?:write|add) (<[^…]*?>)((?: into it| inside it| to the model| before it)?)"
     rf"(?:, (?:or|here or) [^…]*| with [^…]*)?{_END}"
 )
 _WORDS = re.compile("> [a-z]")
 _NUMBERS = re.compile(
     rf"write (\w+(?=$)|[+-]?[\d.]+(?:e[+-]?\d+)?(?: [+-]?[\d.e+-]+)*){_END}"
+)
+_AROUND = re.compile(r"write ((?:<\w+>)+) before it and ((?:</\w+>)+) behind it$")
+_MOVE = re.compile(
+    r"move <([\w:]+)> into <(\w+)(?: name=\"([^\"]*)\")?> \(line (\d+)\)$"
 )
 _DELETE = re.compile(r"delete (?:(it)|<([\w:]+)>|(?:the )?([\w:]+))(?=$|: )")
 _OPENS = re.compile(r"<(?=[^\s<>/=\"'!?])")
@@ -143,8 +147,54 @@ def _element(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
         # What holds others, or says nothing, is no other way of saying the same.
         return []
     if "$" in old and "$" not in written:
+        written = _with_expressions(source, tag, written)
+    if "$" in old and "$" not in written:
         return []
     return [(Extent(tag.name.start - 1, end), written)]
+
+
+def _with_expressions(source: SourceFile, tag: Tag, written: str) -> str:
+    """Write the attributes of an element, as the file has them, for their values.
+
+    Returns:
+        The text as it was, where an attribute that is computed is not in it.
+    """
+    names = re.findall(r"<(\w+)>[^<]*</\1>", written)
+    for name, extent in tag.values.items():
+        value = source.text[extent.start : extent.end]
+        if "$" in value and names.count(name) != 1:
+            return written
+    for name in names:
+        if name in tag.values:
+            value = source.text[slice(*tag.values[name])]
+            inner = rf"(?<=<{name}>)[^<]*(?=</{name}>)"
+            written = re.sub(inner, lambda _, value=value: value, written)
+    return written
+
+
+def _wrapped(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
+    """Write other elements around one."""
+    end, start = source.end_of(tag), tag.name.start - 1
+    if end is None:
+        return []
+    return [(Extent(start, start), said[1]), (Extent(end, end), said[2])]
+
+
+def _moved(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
+    """Move an element, with its line, to the end of another one."""
+    other, end = _tag_at(source, Place("", int(said[4]))), source.end_of(tag)
+    if other is None or end is None or _name(source, tag) != said[1]:
+        return []
+    named = other.values.get("name")
+    name = None if named is None else source.text[slice(*named)]
+    behind = other.end <= tag.name.start - 1 < (source.end_of(other) or other.end)
+    # An <origin> may be meant for the link, which has none.
+    of_link = said[1] == "origin" and said[2] != "joint"
+    if behind or of_link or (_name(source, other), name) != (said[2], said[3]):
+        return []
+    written = source.text[tag.name.start - 1 : end]
+    put = _put_into(source, other, written)
+    return [*_without(source, tag, end), *put] if put else []
 
 
 def _inner(source: SourceFile, tag: Tag, written: str) -> Changes:
@@ -236,9 +286,14 @@ def _deleted(source: SourceFile, tag: Tag, said: re.Match[str]) -> Changes:
             return []
         start = len(source.text[: name.start].rstrip())
         return [(Extent(start, value.end + 1), "")]
-    end, start = source.end_of(tag), tag.name.start - 1
+    end = source.end_of(tag)
     if end is None or (said[2] and said[2] != _name(source, tag)):
         return []
+    return _without(source, tag, end)
+
+
+def _without(source: SourceFile, tag: Tag, end: int) -> Changes:
+    start = tag.name.start - 1
     line = source.text.rfind("\n", 0, start) + 1
     behind = source.text.find("\n", end)
     rest = source.text[end : behind if behind >= 0 else len(source.text)]
@@ -256,6 +311,8 @@ _FORMS: tuple[
     ...,
 ] = (
     (_ATTRIBUTES, _attributes),
+    (_AROUND, _wrapped),
+    (_MOVE, _moved),
     (_ELEMENT, _element),
     (_NUMBERS, _numbers),
     (_DELETE, _deleted),

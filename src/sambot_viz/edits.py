@@ -226,6 +226,33 @@ def write_part(
     return _written(place, parts[at][1], right)
 
 
+def negate_part(place: Place | None, name: str, at: int) -> tuple[Edit, ...]:
+    """Return the edit that gives one of several numbers in an attribute another sign.
+
+    Args:
+        place: where the element begins.
+        name: the attribute.
+        at: which of the numbers, from 0; xacro may compute it.
+    """
+    parts = _parts(place, name)
+    if at >= len(parts):
+        return ()
+    old, extent = parts[at]
+    if old.startswith("${"):
+        inner = old[2:-1]
+        bare = inner.removeprefix("-")
+        simple = bare.isidentifier() or _is_bracketed(bare)
+        if not old.endswith("}") or (bare != inner and not simple):
+            return ()
+        right = bare if bare != inner else f"-{inner if simple else f'({inner})'}"
+        return _written(place, extent, f"${{{right}}}")
+    return _written(place, extent, old[1:] if old.startswith("-") else f"-{old}")
+
+
+def _is_bracketed(text: str) -> bool:
+    return text[:1] == "(" and text[-1:] == ")" and "(" not in text[1:]
+
+
 def exchange_parts(
     place: Place | None, name: str, one: int, other: int
 ) -> tuple[Edit, ...]:
@@ -257,6 +284,22 @@ def _parts(place: Place | None, name: str) -> list[tuple[str, Extent]]:
 def _written(place: Place | None, extent: Extent, new: str) -> tuple[Edit, ...]:
     source = None if place is None else source_of(place.file)
     return (source.edit(place, extent, new),) if place and source else ()
+
+
+def write_behind(place: Place, added: str) -> tuple[Edit, ...]:
+    """Return the edit that writes a text behind the one of an element.
+
+    Args:
+        place: where the element begins.
+        added: what is missing at its end.
+    """
+    found = _tag_at(place)
+    if found is None or found[1].is_empty:
+        return ()
+    source, tag = found
+    text = source.text_behind(tag)
+    at = Extent(text.end, text.end)
+    return (source.edit(place, at, added),) if text.start < text.end else ()
 
 
 def put_into(place: Place | None, written: str) -> tuple[Edit, ...]:

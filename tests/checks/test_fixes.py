@@ -16,6 +16,7 @@ REVEALED = {
     "xacro-prefix-missing": {"root-not-unique"},
     "xacro-prefix-undeclared": {"xacro-left-over"},
     "cmake-command-missing": {"install-folder-missing"},
+    "cmake-unclosed": {"cmake-command-missing"},
     "python-syntax": {"launch-code"},
 }
 """What is seen only when the macro is called, or the file can be read."""

@@ -15,6 +15,7 @@ from sambot_viz.checks.exchanged_joint import exchanged_joint
 from sambot_viz.checks.exchanged_lengths import exchanged_lengths
 from sambot_viz.checks.falling import falls_over
 from sambot_viz.checks.flat_wheels import flat_wheels
+from sambot_viz.checks.ground import wheels_off_the_ground
 from sambot_viz.checks.launch_text import launch_text_as_yaml
 from sambot_viz.checks.lengths import lengths_in_another_unit
 from sambot_viz.checks.masses import masses_in_grams
@@ -27,7 +28,6 @@ from sambot_viz.checks.physics import (
     impossible_inertia,
     inertia_on_root,
     missing_inertia,
-    wheels_off_the_ground,
     zero_mass,
 )
 from sambot_viz.checks.proportion import lengths_out_of_proportion
@@ -95,6 +95,7 @@ _CAUSES: tuple[Rule, ...] = (
     wheels_across_their_axles,
     flat_wheels,
     unlike_twins,
+    wheels_off_the_ground,
 )
 """The rules about a model that say what others follow from."""
 

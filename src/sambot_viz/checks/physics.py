@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from sambot_viz.checks.around.place import where
-from sambot_viz.checks.clues import Clues, guess
+from sambot_viz.checks.inertia_repair import repaired
 from sambot_viz.checks.rule import Subject, listed, number
 from sambot_viz.checks.unused_macros import links_without_mass, unused_inertia
-from sambot_viz.checks.wheel_clues import is_rotor, wheel_clues
-from sambot_viz.errors import Place, Problem
-from sambot_viz.geometry import ORIGIN, UP, PlainPose, Vector3, dot
-from sambot_viz.robot.parts import Cylinder, Inertial, Joint, Link, Sphere
+from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.geometry import ORIGIN, Vector3
+from sambot_viz.robot.parts import Inertial
 
 
 def inertia_on_root(subject: Subject) -> Iterator[Problem]:
@@ -66,13 +65,14 @@ def missing_inertia(subject: Subject) -> Iterator[Problem]:
 def impossible_inertia(subject: Subject) -> Iterator[Problem]:
     """Report a mass or inertia that no real body has; calls of one macro together."""
     found: dict[Place | None, list[tuple[str, Place | None]]] = {}
-    reasons: dict[Place | None, tuple[str, str]] = {}
+    reasons: dict[Place | None, tuple[str, str | Fix]] = {}
     for link in subject.robot.links.values():
         reason = None if link.inertial is None else _why_impossible(link.inertial)
         if link.inertial is not None and reason is not None:
             place = link.inertial.place or link.place
             found.setdefault(place, []).append((link.name, link.inertial.call))
-            reasons.setdefault(place, reason)
+            fix = repaired(link, lambda other: _why_impossible(other) is None)
+            reasons.setdefault(place, (reason[0], fix or reason[1]))
     for place, links in found.items():
         reason, hint = reasons[place]
         names = [f"{name}{_called_at(call, place)}" for name, call in links]
@@ -179,90 +179,3 @@ def zero_mass(subject: Subject) -> Iterator[Problem]:
             "leaves such a link out",
             "give it a small mass such as 0.001, or delete its <inertial>",
         )
-
-
-_SMALLEST_GAP = 0.01
-_SHARE_OF_RADIUS = 0.1
-
-
-def wheels_off_the_ground(subject: Subject) -> Iterator[Problem]:
-    """Report wheels above or below height 0 of base_footprint, in one finding.
-
-    Navigation puts base_footprint on the floor, so a wheel above it floats. Gaps up to
-    10 mm or a tenth of the wheel's radius are tolerated: tyres are often modelled so.
-    """
-    robot = subject.robot
-    footprint = next((n for n in robot.links if n.endswith("base_footprint")), None)
-    if footprint is None:
-        return
-    T_footprint_root = robot.at_start[footprint].inverse()
-    gaps: dict[str, float] = {}
-    standing: list[str] = []
-    first: Joint | None = None
-    for joint in robot.joints.values():
-        link = robot.links[joint.child]
-        gap = _gap(joint, link, T_footprint_root @ robot.at_start[link.name])
-        if gap == 0.0:
-            standing.append(link.name)
-        elif gap is not None:
-            gaps[link.name] = gap
-            first = first or joint
-    if first is None:
-        return
-    if len(gaps) == 1 and standing:
-        clues = {"height"} | wheel_clues(robot, first)
-        yield _one_wheel(first, gaps[first.child], standing, clues)
-        return
-    worst = max(gaps.values(), key=abs)
-    ends, touch = ("ends", "it touches") if len(gaps) == 1 else ("end", "they touch")
-    yield guess(
-        first.place,
-        "wheel-not-on-ground",
-        f"the wheel{'s' if len(gaps) > 1 else ''} {listed(gaps)} {ends} "
-        f"{abs(worst):.3g} m {'above' if worst > 0 else 'below'} the ground: "
-        f"{footprint} should lie where {touch} the floor",
-        f"move {footprint} by {abs(worst):.3g} m {'up' if worst > 0 else 'down'}, or "
-        "correct the height or radius",
-        {"height"} | wheel_clues(robot, first),
-    )
-
-
-def _one_wheel(
-    joint: Joint, gap: float, standing: Sequence[str], clues: Clues
-) -> Problem:
-    """Report the only wheel that does not touch the floor."""
-    above, move = ("above", "lower") if gap > 0 else ("below", "raise")
-    touch = "touches" if len(standing) == 1 else "touch"
-    return guess(
-        joint.place,
-        "wheel-not-on-ground",
-        f"the wheel {joint.child} ends {abs(gap):.3g} m {above} the ground, which "
-        f"{listed(standing)} {touch}",
-        f"{move} the origin of joint {joint.name} by {abs(gap):.3g} m, or correct the "
-        "radius",
-        clues,
-    )
-
-
-def _gap(joint: Joint, link: Link, T_footprint_link: PlainPose) -> float | None:
-    """Height of a wheel's lowest point [m]; 0 when it touches the floor.
-
-    A wheel turns without end about a level axis, and is a sphere or a cylinder
-    about that axis. Other links, and wheels that are meshes, give None.
-    """
-    if not joint.endless or is_rotor(joint):
-        return None
-    axis = T_footprint_link.turned(joint.axis)
-    if abs(axis[2]) > 0.1:
-        return None
-    for shape in (*link.collisions, *link.visuals):
-        T = T_footprint_link @ shape.origin.pose
-        geometry = shape.geometry
-        along_axis = abs(dot(T.turned(UP), axis)) > 0.99
-        if isinstance(geometry, Sphere) or (
-            isinstance(geometry, Cylinder) and along_axis
-        ):
-            lowest = T.position[2] - geometry.radius
-            tolerance = max(_SMALLEST_GAP, _SHARE_OF_RADIUS * geometry.radius)
-            return lowest if abs(lowest) > tolerance else 0.0
-    return None

@@ -9,10 +9,12 @@ import re
 from collections.abc import Iterator
 
 from sambot_viz.checks.rule import Subject
-from sambot_viz.edits import rename_element
+from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Problem
 from sambot_viz.robot.findings import tag_text
-from sambot_viz.robot.sdf.elements import ElementType, meant_word, model_type
+from sambot_viz.robot.sdf.check_elements import value_fault
+from sambot_viz.robot.sdf.elements import ElementType, model_type
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 _SYNONYMS = {
@@ -22,6 +24,8 @@ _SYNONYMS = {
     "framename": "gz_frame_id",
     "frameid": "gz_frame_id",
 }
+_ANGLES = ("horizontal_fov",)
+"""Angles of more than a full turn are the finding of another rule."""
 _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
 """Elements that Gazebo reads in a sensor, and the table of SDF does not have."""
 
@@ -37,7 +41,7 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
                 yield from _misspelt(element, kind, sensor)
                 if subject.robot.language == "urdf":
                     # In SDF ROS itself refuses such a word.
-                    yield from _unknown_word(element, kind, sensor)
+                    yield from _unfit_text(element, kind, sensor)
                 stack += [
                     (child, kind.children[child.tag])
                     for child in element.children
@@ -57,7 +61,9 @@ def _misspelt(
     for child in element.children if not kind.open else ():
         if child.tag in kind.children or child.tag in _BESIDE or ":" in child.tag:
             continue
-        right = tags.get(_plain(child.tag))
+        plain = _plain(child.tag)
+        near = [tag for other, tag in tags.items() if is_one_slip(plain, other)]
+        right = tags.get(plain) or (near[0] if len(near) == 1 else None)
         if element is sensor:
             right = right or _SYNONYMS.get(_plain(child.tag))
         if right is None or right in present:
@@ -72,18 +78,19 @@ def _misspelt(
         )
 
 
-def _unknown_word(
+def _unfit_text(
     element: Element, kind: ElementType, sensor: Element
 ) -> Iterator[Problem]:
-    text, wanted = element.text.strip(), kind.text
-    if not text or not wanted.words or wanted.lenient or text in wanted.words:
+    """Report a text that is no number, no word or nothing that Gazebo reads."""
+    fault = value_fault(element, kind.text)
+    if fault is None or (element.tag in _ANGLES and "more than" in fault.reason):
         return
-    right = meant_word(text, wanted)
+    text = element.text.strip()
     yield Problem.at(
         element.place,
         "warning",
         "sdf-value",
-        f"<{element.tag}>{text}</{element.tag}> of {tag_text(sensor)} is none of the "
-        "words that Gazebo knows",
-        f"write {right}" if right else f"write one of {', '.join(wanted.words)}",
+        f"<{element.tag}>{text}</{element.tag}> of {tag_text(sensor)} {fault.reason}: "
+        "Gazebo does not read it as it is meant",
+        write(element.place, text, fault.right) if fault.right else fault.hint,
     )

@@ -30,6 +30,7 @@ _OF_JOINTS = ("force_torque",)
 _ANGLES = ("min_angle", "max_angle", "horizontal_fov")
 _FRAMES = ("frame_id", "frame", "sensor_frame", "optical_frame_id", "link_frame")
 _LIKENESS = 0.75
+_TURN = 360.0
 _FULL_TURN = 2 * math.pi + 0.01
 _NEAR, _FAR = 1.0, 5.0
 """A sensor sees from so near on [m], or so many times as far; else one end is wrong."""
@@ -143,7 +144,7 @@ def sensor_values(robot: Robot) -> Iterator[Problem]:
     for _, sensor in sensors(robot.gazebo):
         for element in sensor.iter():
             for fact in facts(element, *_ANGLES):
-                if fact.number is not None and abs(fact.number) > _FULL_TURN:
+                if fact.number is not None and _FULL_TURN < abs(fact.number) <= _TURN:
                     yield _in_degrees(sensor, fact, fact.number)
             yield from _exchanged(sensor, element)
         for fact in facts(sensor, "update_rate"):

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.edits import write_behind
+from sambot_viz.errors import Fix, did_you_mean
 from sambot_viz.robot.findings import ModelFindings, tag_text
 from sambot_viz.robot.sdf import values
 from sambot_viz.robot.sdf.elements import (
@@ -186,8 +187,10 @@ class _ElementChecker:
             ignored = text and _check_content(element, text, wanted)
         except BadValue as bad:
             bad = _without_units(element, text, wanted) or bad
+            added = write_behind(element.place, bad.added) if bad.added else ()
+            hint = Fix(f"write {text}{bad.added}", added) if added else bad.hint
             self._findings.reject(
-                "sdf-value", f"{shown} {bad.reason}; {REFUSED}", bad.hint, element
+                "sdf-value", f"{shown} {bad.reason}; {REFUSED}", hint, element
             )
             return
         if ignored:
@@ -208,12 +211,7 @@ class _ElementChecker:
     def _report_ignored(
         self, element: Element, shown: str, text: str, wanted: Values
     ) -> None:
-        better = re.sub(r"(?<=\d),(?=\d)", ".", text)
-        better = without_units(better, degrees=_in_degrees(element))
-        better = re.sub(r"(?<=[\d.])(?![eE][-+]?\d)[^\d\s.,+-]+", "", better)
-        better = " ".join(w for w in better.split() if re.search(r"\d", w))
-        if wanted.kind in ("vector2", "vector3"):
-            better = " ".join(better.split()[: int(wanted.kind[-1])])
+        better = _with_numbers(element, text, wanted)
         hint = f"write {better}" if better != text else "write nothing but numbers"
         start = values.read_number(text.split()[0])
         self._findings.warn(
@@ -321,6 +319,34 @@ def _without_units(element: Element, text: str, wanted: Values) -> BadValue | No
         return bad
     reason = "has a unit; SDF knows only metres, radians and kilograms"
     return BadValue(reason, f"write {plain}")
+
+
+def _with_numbers(element: Element, text: str, wanted: Values) -> str:
+    """Return a text whose numbers are read as a whole."""
+    better = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    better = without_units(better, degrees=_in_degrees(element))
+    better = re.sub(r"(?<=[\d.])(?![eE][-+]?\d)[^\d\s.,+-]+", "", better)
+    better = " ".join(w for w in better.split() if re.search(r"\d", w))
+    if wanted.kind in ("vector2", "vector3"):
+        better = " ".join(better.split()[: int(wanted.kind[-1])])
+    return better
+
+
+def value_fault(element: Element, wanted: Values) -> BadValue | None:
+    """Return why libsdformat does not take the text of an element, or reads a part.
+
+    Args:
+        element: any, also in the <gazebo> of a URDF.
+        wanted: what its text may be.
+    """
+    text = trimmed(element.text)
+    try:
+        if text and _check_content(element, text, wanted):
+            better = _with_numbers(element, text, wanted)
+            return BadValue("is read up to the first letter or comma", "", better)
+    except BadValue as bad:
+        return _without_units(element, text, wanted) or bad
+    return None
 
 
 def _in_degrees(element: Element) -> bool:

@@ -18,6 +18,7 @@ from sambot_viz.robot.sdf.scopes import Frame
 from sambot_viz.robot.sdf.sdf_frames import FramePoses
 from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, and_list
+from sambot_viz.robot.slips.axle import axle_of
 from sambot_viz.robot.urdf.joints import meant_type
 from sambot_viz.robot.xml.element import Element
 
@@ -117,10 +118,13 @@ class MotionReader:
         direction = np.array(vector_in(axis, "xyz", _Z))
         length = math.hypot(*direction)
         if length == 0.0:
+            axle = axle_of(joint.element)
             self._findings.reject(
                 "axis-zero",
                 f"the axis 0 0 0 of joint {joint.name} has no direction; {REFUSED}",
-                "write a direction such as <xyz>0 1 0</xyz>",
+                f"write <xyz>{axle}</xyz>"
+                if axle
+                else "write a direction such as <xyz>0 1 0</xyz>",
                 axis.find("xyz") or axis,
             )
             return _Z

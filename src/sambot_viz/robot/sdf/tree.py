@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from sambot_viz.errors import did_you_mean
+from sambot_viz.errors import did_you_mean, nearest
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.joint_graph import (
     children_of,
@@ -38,11 +38,14 @@ def root_link(scope: Scope, findings: ModelFindings) -> Frame | None:
     if root is not None:
         return root
     name = trimmed(model.get("canonical_link") or "")
-    near = did_you_mean(name, [link.name for link in links])
+    names = [link.name for link in links]
+    near, one = did_you_mean(name, names), nearest(name, names, 0.75)
     findings.reject(
         "sdf-canonical-link-unknown",
         f'canonical_link="{name}" names no link of the model ({near}); {REFUSED}',
-        "name the link that all others hang from",
+        f'write canonical_link="{one}"'
+        if one
+        else "name the link that all others hang from",
         model,
         "canonical_link",
     )

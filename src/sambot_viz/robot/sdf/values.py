@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sambot_viz import limits
+from sambot_viz.errors import nearest
 from sambot_viz.geometry import (
     SHORTEST,
     Matrix,
@@ -45,13 +46,17 @@ class BadValue(ValueError):
         reason: what is wrong, worded to follow the text itself.
         hint: what to write.
         right: the right value, where it is certain.
+        added: what is missing at the end, where it is certain.
     """
 
-    def __init__(self, reason: str, hint: str, right: str = "") -> None:
+    def __init__(
+        self, reason: str, hint: str, right: str = "", added: str = ""
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
         self.hint = f"write {right}" if right else hint
         self.right = right
+        self.added = added
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +150,8 @@ def read_boolean(text: str) -> bool:
     """
     word = trimmed(text).lower()
     if word not in ("true", "false", "1", "0"):
-        raise BadValue("is neither true nor false", "write true or false")
+        right = nearest(word, ("true", "false")) or ""
+        raise BadValue("is neither true nor false", "write true or false", right)
     return word in ("true", "1")
 
 
@@ -275,6 +281,7 @@ def read_pose(text: str, degrees: bool, rotation_format: str) -> PoseText:
             if count == 7
             else "write x y z roll pitch yaw, in metres and "
             + ("degrees" if degrees else "radians"),
+            added={3: " 0 0 0", 5: " 0"}.get(len(read), "") if count == 6 else "",
         )
     numbers = [number.value for number in read]
     if degrees:

@@ -88,7 +88,9 @@ def read_numbers(text: str, count: int, name: str = "") -> tuple[float, ...]:
         needed = _WORDS.get(count, str(count))
         have = f"has {len(parts)} number{'' if len(parts) == 1 else 's'}"
         hint = _filled_up(parts, count, name)
-        better = " ".join(parts * count) if name == "scale" and len(parts) == 1 else ""
+        is_one = name == "scale" and len(parts) == 1
+        is_zero = parts and not any(part.strip("-0.") for part in parts)
+        better = " ".join(parts[:1] * count) if is_one or is_zero else ""
         raise BadNumber(f"{have}, {needed} are needed", hint, better)
     return numbers
 

@@ -11,6 +11,7 @@ from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
+from sambot_viz.robot.slips.axle import axle_of
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.joint_limits import LimitReader
 from sambot_viz.robot.xml.element import Element
@@ -199,11 +200,12 @@ class _JointReader:
     def _report_zero_axis(self, element: Element) -> None:
         if self._kind == "planar":
             return
+        axle = axle_of(self._element)
         self._findings.error(
             "axis-zero",
             f'the axis "{element.get("xyz")}" of joint {self._name} has no '
             "direction: ROS divides by zero and the link vanishes",
-            'write a direction such as xyz="0 1 0"',
+            f'write xyz="{axle}"' if axle else 'write a direction such as xyz="0 1 0"',
             element,
             "xyz",
         )

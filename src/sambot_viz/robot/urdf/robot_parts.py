@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from sambot_viz.errors import Place
+from sambot_viz.errors import Fix, Place
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, Link
 from sambot_viz.robot.urdf.joints import read_joint
 from sambot_viz.robot.urdf.links import LinkReader
+from sambot_viz.robot.urdf.repeated_names import other_joint, other_link
 from sambot_viz.robot.xml.element import Element
 
 
@@ -124,10 +125,12 @@ def _report_duplicate(
     parts: RobotParts, name: str, element: Element, findings: ModelFindings
 ) -> None:
     wanted = {link: joint for joint, link, end in parts.wanted if end == "child"}
-    hint = "give one of the two another name"
+    hint: str | Fix = "give one of the two another name"
     if len(wanted) == 1:
         link, joint = wanted.popitem()
-        hint = f'write name="{link}" for one of the two: joint {joint} expects it'
+        joints = {j.get("name") or "": j for j in parts.robot.find_all("joint")}
+        first = parts.link_elements[name]
+        hint = other_link(first, element, link, joints[joint])
     elif element.call is not None:
         hint = f"give the macro call on line {element.call.line} another name"
     findings.reject(
@@ -190,7 +193,7 @@ def _read_joints(parts: RobotParts, findings: ModelFindings) -> None:
                 "joint-duplicate",
                 f"the joint name {joint.name} is used on line {first.place.line} and "
                 "again here; names must be unique and ROS refuses the model",
-                "give one of the two another name",
+                other_joint(first, element, parts.robot),
                 element,
             )
         if joint is None or first is not None:
