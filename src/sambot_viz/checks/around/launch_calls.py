@@ -7,18 +7,33 @@ import posixpath
 from collections.abc import Iterator, Mapping
 
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.launch_file import NODES, LaunchFile
 from sambot_viz.checks.around.launching.python_parts import Call
 from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write, write_between
-from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.edits import write_between
+from sambot_viz.errors import Fix, Place, Problem
 
-_ALIKE = 0.85
 _FILES = {"RosGzBridge": "config_file", "GzServer": "world_sdf_file"}
 """Action → its argument that is the path of a file."""
+_NEEDED = {
+    "Command": "command",
+    "DeclareLaunchArgument": "name",
+    "ExecuteProcess": "cmd",
+    "FindPackageShare": "package",
+    "IfCondition": "predicate_expression",
+    "IncludeLaunchDescription": "launch_description_source",
+    "LaunchConfiguration": "variable_name",
+    "LifecycleNode": "executable",
+    "Node": "executable",
+    "PathJoinSubstitution": "substitutions",
+    "PythonLaunchDescriptionSource": "launch_file_path",
+    "RegisterEventHandler": "event_handler",
+    "UnlessCondition": "predicate_expression",
+}
+"""Call → the argument without which it is an error."""
 _ENDINGS = (".yaml", ".yml", ".sdf", ".world", ".rviz")
 
 
@@ -79,30 +94,25 @@ def _stops(value: ast.expr, launch: LaunchFile, cause: str, right: str) -> Probl
     )
 
 
-def misspelt_packages_of_nodes(around: Surroundings) -> Iterator[Problem]:
-    """Report the package of a node that is almost the one that has its program."""
-    programs = vocabulary("launch_programs")
-    root = around.manifest
-    depends = [e.text.strip() for e in root.children] if root is not None else []
+def calls_without_argument(around: Surroundings) -> Iterator[Problem]:
+    """Report calls that lack the argument which they need."""
     for launch in around.launches:
-        for call in launch.calls:
-            given = call.given("package")
-            package = launch.text(call, "package") or ""
-            program = launch.text(call, "executable") or ""
-            near = nearest(package, programs, _ALIKE)
-            known = package in programs or package in around.names
-            if near is None or known or package in depends or given is None:
+        for call in launch.called(*_NEEDED):
+            name = _NEEDED[call.name]
+            node = call.node
+            words = vocabulary("launch_calls")[call.name]
+            # A keyword that is not known may be this one, misspelt.
+            others = {k.arg for k in node.keywords}.difference(words) - {None}
+            given = any(k.arg in (name, None) for k in node.keywords)
+            if given or others or (node.args and call.name not in NODES):
                 continue
-            if program in programs[near]:
-                place = launch.place(given)
-                yield Problem.at(
-                    place,
-                    "error",
-                    "launch-package-unknown",
-                    f"there is no package {package}, but {program} is in {near}: ros2 "
-                    "launch stops with it",
-                    write(place, package, near),
-                )
+            yield Problem.at(
+                call.place,
+                "error",
+                "launch-code",
+                f"{call.name} has no {name}, which it needs: ros2 launch stops with it",
+                f"write {name} into its brackets",
+            )
 
 
 def paths_from_the_root(around: Surroundings) -> Iterator[Problem]:

@@ -257,7 +257,12 @@ def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:
 
 def bound_names(tree: ast.Module) -> set[str]:
     """Return all names that get a value anywhere in a file; "*" when others may."""
-    found = set(PREDEFINED)
+    return {*PREDEFINED, *names_in(tree)}
+
+
+def names_in(tree: ast.AST) -> set[str]:
+    """Return the names that get a value in a piece of Python; "*" when others may."""
+    found: set[str] = set()
     for node in ast.walk(tree):
         match node:
             case ast.Name(id=name, ctx=ast.Store() | ast.Del()):

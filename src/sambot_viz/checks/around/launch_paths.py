@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.parameters import YamlFile
@@ -40,33 +40,70 @@ _MODELS = (".urdf", ".xacro", ".sdf")
 
 def missing_files(around: Surroundings) -> Iterator[Problem]:
     """Report files that a launch file names otherwise than they are called."""
+    python = {launch.shown: launch for launch in around.launches}
+    known: set[tuple[str, str]] = set()
+    for fact in (*_python_paths(around), *around.running.paths):
+        package, below = around.named(fact.value) or (None, "")
+        key, launch = (fact.place.file, fact.value), python.get(fact.place.file)
+        if package is None or key in known or "*" in below or ".." in below:
+            continue
+        known.add(key)
+        if (launch and _makes_files(launch)) or not _is_missing(below, package):
+            continue
+        read = _read_by(launch, fact, package) if launch is not None else None
+        near = read or _near(below, package.paths)
+        others = [p.name for p in around.packages if _has_instead(p, below, package)]
+        if near is not None:
+            yield _missing(
+                fact,
+                below,
+                package,
+                f"it has {near}",
+                _renamed(fact.place, below, near)
+                if read or _is_meant(below, near, package.paths)
+                else f"add that file, or write {near} if it is meant",
+            )
+        elif len(others) == 1:
+            yield _missing(
+                fact,
+                below,
+                package,
+                f"the package {others[0]} has one",
+                f"name the package {others[0]} there",
+            )
+
+
+def _has_instead(other: Package, below: str, package: Package) -> bool:
+    """Tell whether a package has the file of another one, whose build it is not in."""
+    nested = package.folder in other.folder.parents
+    return "/" in below and below in other.paths and not nested
+
+
+def _python_paths(around: Surroundings) -> Iterator[Fact]:
+    """Give the paths in Python files, each where it is put together."""
     for launch in around.launches:
-        known: set[str] = set()
-        for fact in () if _makes_files(launch) else launch.paths:
-            package, below = around.named(fact.value) or (None, "")
-            if package is None or fact.value in known or "*" in below:
-                continue
-            known.add(fact.value)
-            near = read = None
-            if _is_missing(below, package):
-                read = _read_by(launch, fact, package)
-                near = read or _near(below, package.paths)
-            if near is not None:
-                yield Problem.at(
-                    fact.place,
-                    "warning",
-                    "launch-file-missing",
-                    f"the launch file uses {below}, which {_whose(package, launch)} "
-                    f"does not have; it has {near}",
-                    _renamed(fact.place, below, near)
-                    if read or _is_meant(below, near, package.paths)
-                    else f"add that file, or write {near} if it is meant",
-                )
+        yield from launch.paths
+
+
+def _missing(
+    fact: Fact, below: str, package: Package, instead: str, fix: str | Fix
+) -> Problem:
+    own = Path(fact.place.file).absolute().is_relative_to(package.folder)
+    whose = "the package" if own else f"the package {package.name}"
+    return Problem.at(
+        fact.place,
+        "warning",
+        "launch-file-missing",
+        f"the launch file uses {below}, which {whose} does not have; {instead}",
+        fix,
+    )
 
 
 def _renamed(place: Place, below: str, near: str) -> Fix:
     """Return the fix that writes another file, also where its folder is apart."""
     old, new = PurePosixPath(below), PurePosixPath(near)
+    if not place.file.endswith(".py"):
+        return write(place, f"/{below}", f"/{near}", hint=f"write {near}")
     if old.parent != new.parent:
         return write(place, below, near)
     return write(place, old.name, new.name, hint=f"write {near}")
@@ -74,11 +111,14 @@ def _renamed(place: Place, below: str, near: str) -> Fix:
 
 def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
     """Tell whether a file is misspelt, or there is only one that can be meant."""
+    folder, kind = PurePosixPath(near).parent, PurePosixPath(near).suffix
+    beside = [p for p in paths if PurePosixPath(p).parent == folder]
+    stem = PurePosixPath(near).name.partition(".")[0]
+    if sum(PurePosixPath(p).name.partition(".")[0] == stem for p in beside) > 1:
+        return False
     names = (PurePosixPath(path).name for path in (below, near))
     if is_misspelt(*(name.partition(".")[0] for name in names)):
         return True
-    folder, kind = PurePosixPath(near).parent, PurePosixPath(near).suffix
-    beside = [p for p in paths if PurePosixPath(p).parent == folder]
     return sum(p.endswith(kind) for p in beside) == 1
 
 
@@ -89,11 +129,6 @@ def _makes_files(launch: LaunchFile) -> bool:
         or (call.name == "open" and "w" in (launch.text(call, "mode", 1) or ""))
         for call in launch.calls
     )
-
-
-def _whose(package: Package, launch: LaunchFile) -> str:
-    own = any(launch is other for other in package.launches)
-    return "the package" if own else f"the package {package.name}"
 
 
 def _is_missing(below: str, package: Package) -> bool:
@@ -110,7 +145,8 @@ def _is_missing(below: str, package: Package) -> bool:
     if any(path.startswith(f"{folder}/") for path in paths):
         return True
     # The build may give a folder another name.
-    build = (package.text(name) for name in ("CMakeLists.txt", "setup.py"))
+    files = ("setup.py", *package.ending("CMakeLists.txt"))
+    build = (package.text(name) for name in files)
     return not any(text is not None and folder in text for text in build)
 
 
@@ -150,8 +186,8 @@ def _near(below: str, paths: Sequence[str]) -> str | None:
     beside = [p for p in paths if PurePosixPath(p).parent == wanted.parent]
     stem = wanted.name.partition(".")[0]
     twins = [p for p in beside if PurePosixPath(p).name.partition(".")[0] == stem]
-    if len(twins) == 1:
-        return twins[0]
+    if len(twins) == 1 or (twins and not alike):
+        return nearest(below, twins, likeness=0.0)
     return nearest(below, sorted({*beside} & {*alike}), likeness=0.0)
 
 

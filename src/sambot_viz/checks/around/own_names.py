@@ -7,17 +7,19 @@ import difflib
 import re
 from collections.abc import Iterator
 
-from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 _SHARE_CALLS = frozenset({"FindPackageShare", "get_package_share_directory", "find"})
+_IN_TEXT = re.compile(r"\$\(\s*find-pkg-share\s+([\w.-]+)\s*\)")
 _PARTS = frozenset(
     """
     base bringup common config control controller demo description driver examples
@@ -76,14 +78,14 @@ def unknown_packages(around: Surroundings) -> Iterator[Problem]:
         if package.cmake is not None and package.cmake.project is not None:
             # Where they ask for the name there, that of package.xml is wrong.
             others |= {package.cmake.project.text}
-        for launch in package.launches:
-            asked = list(_asked(launch))
-            if any(text == package.name for text, _ in asked):
-                continue
+        for asked in _asked(package):
+            # Beside the right name, a similar one may be that of another package.
+            has_right = any(text == package.name for text, _ in asked)
+            is_meant = is_one_slip if has_right else _alike
             for text, place in asked:
                 if (
                     text not in others
-                    and _alike(text, package.name)
+                    and is_meant(text, package.name)
                     and not package.knows(text)
                 ):
                     yield Problem.at(
@@ -102,8 +104,8 @@ def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
     known = {*vocabulary("launch_programs"), *known_nodes().packages}
     for package in around.packages:
         others = around.names | _dependencies(package.manifest) | known
-        for launch in package.launches:
-            for text, place in _asked(launch):
+        for asked in _asked(package):
+            for text, place in asked:
                 near = None if text in others else nearest(text, sorted(known), 0.85)
                 if near is None or package.knows(text):
                     continue
@@ -118,12 +120,22 @@ def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
                     )
 
 
-def _asked(launch: LaunchFile) -> Iterator[tuple[str, Place]]:
-    """Give the packages whose share folders a launch file asks for."""
-    for call in launch.calls:
-        text = _text(call.node.args[0]) if call.node.args else None
-        if text is not None and call.name in _SHARE_CALLS:
-            yield text, call.place
+def _asked(package: Package) -> Iterator[list[tuple[str, Place]]]:
+    """Give the packages whose share folders each launch file asks for."""
+    for launch in package.launches:
+        asked = ((_text(next(iter(c.node.args), None)), c) for c in launch.calls)
+        yield [
+            (text, call.place)
+            for text, call in asked
+            if text is not None and call.name in _SHARE_CALLS
+        ]
+    for root in package.frontends:
+        yield [
+            (text, element.place)
+            for element in root.iter()
+            for value in element.attributes.values()
+            for text in _IN_TEXT.findall(value)
+        ]
 
 
 def _dependencies(manifest: Element | None) -> set[str]:

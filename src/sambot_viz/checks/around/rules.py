@@ -73,10 +73,11 @@ from sambot_viz.checks.around.joint_states import no_joint_states, unsent_joint_
 from sambot_viz.checks.around.launch_arguments import undeclared_arguments
 from sambot_viz.checks.around.launch_calls import (
     arguments_that_are_no_texts,
+    calls_without_argument,
     files_without_folder,
-    misspelt_packages_of_nodes,
     paths_from_the_root,
 )
+from sambot_viz.checks.around.launch_choices import other_words
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
     missing_commas,
@@ -109,6 +110,10 @@ from sambot_viz.checks.around.launch_kinds import (
     remappings_without_pairs,
     reversed_remappings,
 )
+from sambot_viz.checks.around.launch_members import (
+    misspelt_members,
+    names_before_values,
+)
 from sambot_viz.checks.around.launch_nodes import (
     descriptions,
     namespaces,
@@ -119,11 +124,11 @@ from sambot_viz.checks.around.launch_paths import (
     missing_files,
     world_names,
 )
+from sambot_viz.checks.around.launch_programs import unknown_programs
 from sambot_viz.checks.around.launch_uses import (
     bridges_as_parameters,
     spawned_topics,
     times_as_text,
-    unknown_programs,
     unused_actions,
 )
 from sambot_viz.checks.around.launch_words import (
@@ -165,6 +170,7 @@ from sambot_viz.checks.around.unreadable import (
     joined_entries,
     missing_key,
     misspelt_key,
+    unreadable_launch_files,
     unreadable_python,
     unreadable_yaml,
 )
@@ -222,16 +228,20 @@ OF_FILES: tuple[Check, ...] = (
     unread_sections,
     odd_clocks,
     unreadable_python,
+    unreadable_launch_files,
     empty_launch_files,
     missing_entries,
     wrong_imports,
     unknown_names,
     called_modules,
+    misspelt_members,
+    names_before_values,
     missing_commas,
     unknown_keywords,
+    other_words,
     unknown_elements_of_launch,
     arguments_that_are_no_texts,
-    misspelt_packages_of_nodes,
+    calls_without_argument,
     paths_from_the_root,
     files_without_folder,
     arguments_without_list,

@@ -14,12 +14,16 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import source_of, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.xml.decode import XmlFault
+from sambot_viz.robot.xml.element import parse_xml
 
 _KNOWN = re.compile(
     r"(.*/)?(ekf|ukf|nav2|amcl|slam|navsat|.*bridge|.*params|.*controllers?)"
     r"[^/]*\.ya?ml"
 )
 _TEMPLATE = re.compile(r"\{\{|\{%|<%")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_TAG = re.compile(r"<(/?)([\w:.-]+)(?:[^<>\"']|\"[^\"]*\"|'[^']*')*?(/?)>")
 _KEY, _LIKENESS = "ros__parameters", 0.84
 
 
@@ -185,3 +189,49 @@ def unreadable_python(around: Surroundings) -> Iterator[Problem]:
                     f"this file is no Python: {fault.cause}; {stops} stops with it",
                     line_fix(fault, place, text),
                 )
+
+
+def unreadable_launch_files(around: Surroundings) -> Iterator[Problem]:
+    """Report launch files that are no XML."""
+    for package in around.packages:
+        for path in package.ending(".launch.xml"):
+            text, shown = package.text(path) or "", package.shown(path)
+            try:
+                parse_xml(text, shown)
+            except XmlFault as fault:
+                open_ = _not_closed(text)
+                # The import is late: most launch files are right.
+                from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+
+                yield from (
+                    explain_xml(text, shown, fault)
+                    if open_ is None
+                    else [_unclosed(shown, *open_)]
+                )
+
+
+def _not_closed(text: str) -> tuple[str, int, str] | None:
+    """Return the first element without an end, its line, and what ends before it."""
+    text = _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), text)
+    waiting: list[tuple[str, int]] = []
+    for found in _TAG.finditer(text):
+        closes, name, is_empty = found.groups()
+        if not closes and not is_empty:
+            waiting.append((name, text.count("\n", 0, found.start()) + 1))
+        elif closes and waiting and waiting[-1][0] == name:
+            waiting.pop()
+        elif closes:
+            ends = any(name == tag for tag, _ in waiting)
+            return (*waiting[-1], f"</{name}>") if ends else None
+    return (*waiting[0], "the end of the file") if waiting else None
+
+
+def _unclosed(shown: str, tag: str, line: int, before: str) -> Problem:
+    return Problem.at(
+        Place(shown, line),
+        "error",
+        "launch-code",
+        f"<{tag}> begins here, and {before} comes before its </{tag}>: ros2 launch "
+        "stops with it",
+        f"write </{tag}> at its end, or /> in place of > if it has nothing inside",
+    )

@@ -140,6 +140,21 @@ class LaunchTexts:
                 text = self.text(expression)
                 return None if text is None else _TRUTH.get(text.strip().lower())
 
+    def no_truth(self, expression: Expression) -> tuple[str, str] | None:
+        """Return an argument that is neither true nor false, and its value.
+
+        Args:
+            expression: the condition; None for one that is no argument.
+        """
+        match expression:
+            case Operation(name="not", operands=(inner,)):
+                return self.no_truth(inner)
+            case LaunchArgument(name=str(name)):
+                text = (self.text(expression) or "").strip()
+                return (name, text) if text and text.lower() not in _TRUTH else None
+            case _:
+                return None
+
 
 def _evaluated(written: str) -> str | None:
     """Return what an expression of Python gives; None when it is not understood."""

@@ -67,6 +67,8 @@ def system_of(
         tuple(with_endpoints(node, find, displays=displays) for node in nodes),
         tuple(dict.fromkeys(unknown)),
         frozenset(name for one in followed.values() for name in one.declared),
+        tuple(dict.fromkeys(path for root in roots for path in followed[root].paths)),
+        {key: at for root in roots for key, at in followed[root].unclear.items()},
     )
 
 

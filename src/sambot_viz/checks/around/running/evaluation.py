@@ -6,6 +6,7 @@ from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import contextmanager
 
 from sambot_viz import limits
+from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.launching.actions import (
     Action,
@@ -21,14 +22,11 @@ from sambot_viz.checks.around.launching.actions import (
 )
 from sambot_viz.checks.around.launching.texts import LaunchTexts
 from sambot_viz.checks.around.running.given import NodeParameters, given_to
-from sambot_viz.checks.around.running.includes import (
-    actions_of_known,
-    installed_as,
-)
+from sambot_viz.checks.around.running.includes import actions_of_known, installed_as
 from sambot_viz.checks.around.running.known import known_nodes
-from sambot_viz.checks.around.running.parameter_files import (
-    options_in,
-)
+from sambot_viz.checks.around.running.parameter_files import options_in
+from sambot_viz.checks.around.running.paths import paths_of
+from sambot_viz.checks.around.running.simulated import simulator_of
 from sambot_viz.checks.around.running.system import (
     GivenFile,
     GivenParameter,
@@ -39,13 +37,6 @@ from sambot_viz.checks.around.running.system import (
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.errors import Place
 
-_SIMULATORS = {
-    "gz sim": "ros_gz_sim",
-    "ign gazebo": "ros_ign_gazebo",
-    "gazebo": "gazebo_ros",
-    "gzserver": "gazebo_ros",
-}
-"""A program of Gazebo → the package whose node stands for it."""
 _NAMES = ("__node", "__name")
 
 Pairs = tuple[tuple[str, str], ...]
@@ -63,6 +54,7 @@ class LaunchEvaluation:
         unknown: where more may start.
         included: the launch files that others include.
         declared: names of launch arguments.
+        paths, unclear: as `RunningSystem` has them.
     """
 
     def __init__(
@@ -75,6 +67,9 @@ class LaunchEvaluation:
         self.unknown: list[UnknownStart] = []
         self.included: set[tuple[Package, str]] = set()
         self.declared: set[str] = set()
+        self.paths: dict[Fact, None] = {}
+        self.unclear: dict[tuple[str, str, Place], Place] = {}
+        self._set_at: dict[str, Place] = {}
         self._texts = LaunchTexts()
         self._texts.arguments.update(arguments or {})
         self._starts: Starts = "yes"
@@ -106,7 +101,14 @@ class LaunchEvaluation:
             if self._left < 0:
                 return
             before = self._starts
-            self._starts = _both(before, self._texts.truth(action.condition))
+            truth = self._texts.truth(action.condition)
+            doubt = self._texts.no_truth(action.condition) if truth is None else None
+            if doubt is not None and before != "no":
+                set_at = self._set_at.get(doubt[0], action.place)
+                self.unclear.setdefault((*doubt, set_at), action.place)
+            self._starts = _both(before, truth)
+            if self._starts != "no":
+                self.paths |= dict.fromkeys(paths_of(action, self._texts))
             self._one(action)
             self._starts = before
 
@@ -150,6 +152,7 @@ class LaunchEvaluation:
             return
         certain = self._starts == "yes"
         known[name] = self._texts.settled(action.value) if certain else None
+        self._set_at[name] = action.place
 
     def _for_nodes(self, action: ForNodes) -> None:
         certain = self._starts == "yes"
@@ -187,6 +190,7 @@ class LaunchEvaluation:
         file = None if package is None else installed_as(package, below)
         known = known_nodes().launches.get((name, below.rpartition("/")[2]))
         self._texts.arguments |= given
+        self._set_at |= dict.fromkeys(given, action.place)
         chain = self._chain
         self._chain = (*chain, action.place)
         if package is not None and file is not None:
@@ -202,11 +206,10 @@ class LaunchEvaluation:
 
     def _process(self, action: StartProcess) -> None:
         words = " ".join(self._texts.text(word) or "" for word in action.words).split()
-        for program, package in _SIMULATORS.items():
-            if words[: len(program.split())] == program.split():
-                given = tuple(words[len(program.split()) :])
-                self._add(package, "gzserver", "gazebo", action.place, arguments=given)
-                return
+        found = simulator_of(words)
+        if found is not None:
+            package, given = found
+            self._add(package, "gzserver", "gazebo", action.place, arguments=given)
 
     def _node(self, action: StartNode) -> None:
         text = self._texts.text

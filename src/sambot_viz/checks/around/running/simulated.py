@@ -14,6 +14,13 @@ from sambot_viz.robot.xml.element import Element
 _FILE = re.compile(r"(?:lib)?(?:gz-sim\d*|ignition-gazebo\d*)-([a-z-]+)-system(\.so)?")
 _OPEN = re.compile(r"\$[({]")
 _CLASSIC = "gazebo_ros"
+_SIMULATORS = {
+    "gz sim": "ros_gz_sim",
+    "ign gazebo": "ros_ign_gazebo",
+    "gazebo": "gazebo_ros",
+    "gzserver": "gazebo_ros",
+}
+"""A program of Gazebo → the package whose node stands for it."""
 
 
 def simulated(parts: Sequence[Element]) -> Iterator[RunningNode]:
@@ -30,6 +37,15 @@ def simulated(parts: Sequence[Element]) -> Iterator[RunningNode]:
             yield _node(SYSTEM, found[1], plugin.filename, plugin.element)
         elif plugin.generation == "classic":
             yield _of_classic(plugin)
+
+
+def simulator_of(words: Sequence[str]) -> tuple[str, tuple[str, ...]] | None:
+    """Return the package of Gazebo and its arguments; None for another command."""
+    for program, package in _SIMULATORS.items():
+        count = len(program.split())
+        if [*words[:count]] == program.split():
+            return package, tuple(words[count:])
+    return None
 
 
 def sensor_node(sensor: Element) -> Iterator[RunningNode]:

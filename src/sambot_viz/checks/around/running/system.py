@@ -6,11 +6,12 @@ A model of it, not the programs: launch files are read, never run.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
+from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 
 Starts = Literal["yes", "no", "unknown"]
@@ -217,12 +218,19 @@ class RunningSystem:
         nodes: the nodes, also those that do not start, in the order of the files.
         unknown: where more may start than is known.
         declared: names of the launch arguments.
+        paths: the paths in packages that are given to something, with their places.
+        unclear: launch arguments that are neither true nor false, with their values
+            and where these are set → where they are conditions.
     """
 
     launches: tuple[str, ...] = ()
     nodes: tuple[RunningNode, ...] = ()
     unknown: tuple[UnknownStart, ...] = field(default=())
     declared: frozenset[str] = frozenset()
+    paths: tuple[Fact, ...] = ()
+    unclear: Mapping[tuple[str, str, Place], Place] = field(
+        default_factory=dict[tuple[str, str, Place], Place]
+    )
 
     @property
     def is_whole(self) -> bool:
