@@ -68,6 +68,7 @@ def _misspelt_classes(config: RvizConfig) -> Iterator[Problem]:
     known = [
         f"{package}/{name}"
         for package, names in vocabulary("rviz_classes").items()
+        if package != "properties"
         for name in names
     ]
     for display in _all(config.displays):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -10,7 +10,9 @@ from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.gazebo_starts import starts
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.rule import listed
 from sambot_viz.errors import Place, Problem
 
 _ENTRY = (
@@ -19,31 +21,64 @@ _ENTRY = (
     "direction: GZ_TO_ROS}"
 )
 _ARGUMENT = "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock"
+_CLOCK = "use_sim_time"
 _WITHOUT_TIME = frozenset({"parameter_bridge", "create", "spawn_entity.py", "spawner"})
 _WITHOUT_CLOCK = frozenset({"ros_gz_sim", "nav2_bringup", "slam_toolbox"})
 """Their launch files bring no clock."""
 
 
 def different_clocks(around: Surroundings) -> Iterator[Problem]:
-    """Report nodes without simulated time in a launch file that starts Gazebo."""
-    for launch in around.launches:
-        simulators = [start for start in starts(launch) if start.simulates]
-        for node in launch.nodes if simulators else ():
-            start, fact = simulators[0], node.sim_time
-            if fact is None or flag(fact.value) is not False:
-                continue
-            if node.executable in _WITHOUT_TIME:
-                continue
-            yield Problem.at(
-                fact.place,
-                "warning",
-                "sim-time-off",
-                f"{node.executable or 'this node'} uses the time of the computer "
-                f"(use_sim_time is false), but {where(start.place, fact.place)} "
-                f"starts Gazebo ({start.what}), whose time begins at 0: its transforms "
-                "never fit",
-                "write True for use_sim_time",
-            )
+    """Report nodes without simulated time beside Gazebo, or beside nodes with it."""
+    running = around.running
+    certain = [node for node in running.nodes if node.starts == "yes"]
+    off: dict[tuple[str, Place], list[RunningNode]] = {}
+    for node in certain:
+        given = node.parameter(_CLOCK)
+        if given is None or flag(given.value or "") is not False:
+            continue
+        exempt = node.is_simulator or node.executable in _WITHOUT_TIME
+        # Another launch file, which includes this one, may say true.
+        open_ = given.is_argument and _CLOCK not in running.declared
+        if not exempt and (given.place in node.chain or not open_):
+            off.setdefault((node.launch, given.place), []).append(node)
+    for (launch, place), nodes in off.items():
+        beside = [node for node in certain if node.launch == launch]
+        other = next((node for node in beside if node.is_simulator), None)
+        is_default = place in nodes[0].chain
+        if other is None and is_default:
+            other = next((node for node in beside if _is_simulated(node)), None)
+        if other is not None:
+            yield _off(nodes, other, place, is_default)
+
+
+def _is_simulated(node: RunningNode) -> bool:
+    given = node.parameter(_CLOCK)
+    return given is not None and flag(given.value or "") is True
+
+
+def _off(
+    nodes: Sequence[RunningNode], other: RunningNode, place: Place, is_default: bool
+) -> Problem:
+    names = dict.fromkeys(node.executable or "this node" for node in nodes)
+    there = where((*other.chain, other.place)[0], place)
+    does = (
+        f"{there} starts Gazebo, whose time begins at 0"
+        if other.is_simulator
+        else f"{other.executable} ({there}) uses simulated time"
+    )
+    chain = () if is_default else nodes[0].chain[-1:]
+    by = "".join(f", by {where(each, place)}" for each in chain)
+    use, them = ("uses", "its") if len(names) == 1 else ("use", "their")
+    return Problem.at(
+        place,
+        "warning",
+        "sim-time-off",
+        f"{listed(names, 3)} {use} the time of the computer ({_CLOCK} is false{by}), "
+        f"but {does}: {them} transforms never fit",
+        f"write '{_CLOCK}': 'true' among the launch_arguments"
+        if is_default
+        else f"write True for {_CLOCK}",
+    )
 
 
 def clock_not_bridged(around: Surroundings) -> Iterator[Problem]:

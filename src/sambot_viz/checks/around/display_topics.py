@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.read_topics import (
@@ -15,13 +17,16 @@ from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.running.displays import DisplayTopic, displays_of
 from sambot_viz.checks.around.running.endpoints import whole_name
 from sambot_viz.checks.around.running.known import known_nodes
+from sambot_viz.checks.around.running.simulated import possible_node
 from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Place, Problem
+from sambot_viz.errors import Fix, Place, Problem, Severity
 
 _SENSED = frozenset("Image Imu LaserScan NavSatFix Odometry PointCloud2".split())
 """What robots have few sources of; others come from nodes that start later too."""
+_OF_SENSORS = frozenset("Imu LaserScan NavSatFix".split())
+"""What hardly a node works out of other messages."""
 _MODEL = "String"
 """The type of robot descriptions, which the check of the config looks at."""
 
@@ -34,7 +39,7 @@ def unseen_topics(around: Surroundings) -> Iterator[Problem]:
     published = list(published_topics(around))
     packages = {package.name: package for package in around.packages}
     done: set[Place] = set()
-    for node in around.running.started:
+    for node in (*around.running.started, *_not_started(around)):
         known = known_nodes().nodes.get((node.package, node.executable))
         if known is None or not known.does("displays"):
             continue
@@ -46,6 +51,18 @@ def unseen_topics(around: Surroundings) -> Iterator[Problem]:
             if each.topic.place not in done and whole.startswith("/"):
                 done.add(each.topic.place)
                 yield from _wrong(around, node, whole, each, topics, published)
+
+
+def _not_started(around: Surroundings) -> Iterator[RunningNode]:
+    """Give an RViz for each config that no launch file names."""
+    said = {word for node in around.running.nodes for word in node.arguments if word}
+    for package in around.packages:
+        for path in package.ending(".rviz"):
+            name, place = path.rpartition("/")[2], Place(package.shown(path), 1)
+            if not any(word.endswith(name) for word in said):
+                words = ("-d", f"{SHARE}{package.name}/{path}")
+                node = possible_node("rviz2", "rviz2", "rviz2", "/", (), place)
+                yield replace(node, arguments=words)
 
 
 def _wrong(
@@ -73,13 +90,23 @@ def _wrong(
         yield _other_type(each, sources[0], free)
         return
     known = {bare(p.topic.value): p for p in fitting}
-    near = _meant(around, bare(whole), kind, known, shown)
+    near = _misspelt(bare(whole), known)
+    is_only = near is None and node.starts == "yes"
+    if is_only:
+        near = _meant(around, bare(whole), kind, known, shown)
     if near is not None and not around.said_elsewhere(bare(whole), as_topic=True):
-        yield _unpublished(each, known[near])
+        certain = not is_only or around.running.is_known
+        yield _unpublished(each, known[near], "warning" if certain else "info")
 
 
 def _short(message: str) -> str:
     return message.rpartition("/")[2]
+
+
+def _misspelt(name: str, known: Mapping[str, Published]) -> str | None:
+    """Return the published topic of which a name is a misspelling."""
+    misspelt = (topic for topic in known if is_misspelt(name, topic))
+    return None if any(map(str.isdigit, name)) else next(misspelt, None)
 
 
 def _meant(
@@ -89,22 +116,25 @@ def _meant(
     known: Mapping[str, Published],
     shown: set[str],
 ) -> str | None:
-    """Return the published topic that is meant; None where others may be published."""
-    misspelt = [topic for topic in known if is_misspelt(name, topic)]
-    if misspelt and not any(map(str.isdigit, name)):
-        return misspelt[0]
-    if around.namespaced or not around.running.is_known or kind not in _SENSED:
+    """Return the published topic that is meant; None where others may be published.
+
+    In a simulation, nodes that are not known have no sensors.
+    """
+    is_known = around.running.is_known
+    if not is_known and not (around.running.simulates and kind in _OF_SENSORS):
+        return None
+    if around.namespaced or kind not in _SENSED:
         return None
     free = {topic: p for topic, p in known.items() if f"/{topic}" not in shown}
     only = next(iter(free)) if len(free) == 1 else None
-    return meant_topic(name, free) or only
+    return (meant_topic(name, free) or only) if is_known else only
 
 
-def _unpublished(each: DisplayTopic, source: Published) -> Problem:
+def _unpublished(each: DisplayTopic, source: Published, severity: Severity) -> Problem:
     place = each.topic.place
     return Problem.at(
         place,
-        "warning",
+        severity,
         "topic-unknown",
         f"the display {each.name} reads {each.topic.value}, but {source.what} "
         f"publishes this {source.kind} as {source.topic.value} "

@@ -139,6 +139,31 @@ class LaunchFile:
         )
 
     @cached_property
+    def said(self) -> frozenset[str]:
+        """The texts that are no names of launch arguments and no parts of paths."""
+        naming = {
+            id(part)
+            for call in self.called(*_JOINS)
+            for given in call.node.args
+            for part in (given.elts if isinstance(given, ast.List) else (given,))
+        }
+        for call in self.called("DeclareLaunchArgument", "LaunchConfiguration"):
+            for given in (call.given("name", 0), call.given("variable_name", 0)):
+                naming.add(id(given))
+            about = call.given("description")
+            naming |= {id(node) for node in ast.walk(about)} if about else set()
+        for call in self.called("IncludeLaunchDescription"):
+            table = call.value("launch_arguments")
+            pairs = table.pairs if isinstance(table, Table) else ()
+            naming |= {id(pair.key_node) for pair in pairs}
+        return frozenset(
+            node.value
+            for node in ast.walk(self.tree)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)
+            if id(node) not in naming
+        )
+
+    @cached_property
     def _used(self) -> frozenset[str]:
         return frozenset(
             node.id

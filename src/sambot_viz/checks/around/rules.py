@@ -49,6 +49,10 @@ from sambot_viz.checks.around.dependencies import (
     packages_of_ros1,
 )
 from sambot_viz.checks.around.display_topics import unseen_topics
+from sambot_viz.checks.around.display_words import (
+    robots_without_source,
+    unknown_settings,
+)
 from sambot_viz.checks.around.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints, unreadable_footprints
@@ -283,6 +287,7 @@ OF_FILES: tuple[Check, ...] = (
     started_twice,
     missing_files,
     unread_parameters,
+    unknown_settings,
     undeclared_controllers,
     unknown_controllers,
     world_names,
@@ -306,6 +311,7 @@ OF_ROBOT: tuple[Check, ...] = (
     topics_of_other_types,
     unknown_topics,
     unseen_topics,
+    robots_without_source,
     wrong_data_types,
     bridge_types,
     bridge_directions,

@@ -214,7 +214,7 @@ class Surroundings:
         if any(
             bare in (word.strip("/") for word in text.split())
             for launch in self.launches
-            for text in launch.strings
+            for text in launch.said
         ):
             return True
         end = rf"{re.escape(bare)}[\"'< ]"

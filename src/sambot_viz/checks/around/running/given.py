@@ -8,7 +8,12 @@ from typing import NamedTuple
 
 from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
-from sambot_viz.checks.around.launching.actions import FromFile, Given, RobotText
+from sambot_viz.checks.around.launching.actions import (
+    FromFile,
+    Given,
+    LaunchArgument,
+    RobotText,
+)
 from sambot_viz.checks.around.launching.texts import LaunchTexts
 from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.running.parameter_files import located, parameters_for
@@ -79,6 +84,7 @@ def given_to(
                 each.place,
                 robot=source if isinstance(source, str) else "",
                 is_robot=isinstance(robot, RobotText),
+                is_argument=isinstance((each.values or ("",))[0], LaunchArgument),
             )
         )
     return NodeParameters(tuple(values), tuple(files), complete)

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.launching.actions import (
     Action,
     FromFile,
+    Given,
     LaunchArgument,
     StartNode,
+    WrittenValue,
 )
 from sambot_viz.checks.around.running.known import KnownLaunch
 from sambot_viz.checks.around.workspace import Package
@@ -26,7 +28,12 @@ def installed_as(package: Package, below: str) -> str | None:
 
 def actions_of_known(known: KnownLaunch, place: Place) -> Iterator[Action]:
     """Give the nodes that a launch file of a well-known package starts."""
-    file = FromFile(LaunchArgument(known.parameters), place)
+    clock = LaunchArgument("use_sim_time", known.sim_time)
+    given: list[Given] = []
+    if known.sim_time:
+        given.append(WrittenValue("use_sim_time", (clock,), place))
+    if known.parameters:
+        given.append(FromFile(LaunchArgument(known.parameters), place))
     for package, program in known.nodes:
         yield StartNode(
             place,
@@ -35,6 +42,6 @@ def actions_of_known(known: KnownLaunch, place: Place) -> Iterator[Action]:
             program,
             "",
             LaunchArgument("namespace", ""),
-            (file,) if known.parameters else (),
+            tuple(given),
             complete=False,
         )

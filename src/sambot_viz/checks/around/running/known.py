@@ -66,10 +66,12 @@ class KnownLaunch(NamedTuple):
     Attributes:
         parameters: the launch argument that names the file with the parameters.
         nodes: the package and the program of each node.
+        sim_time: the default of its argument use_sim_time; empty without that.
     """
 
     parameters: str
     nodes: tuple[tuple[str, str], ...]
+    sim_time: str = ""
 
 
 class KnownNodes(NamedTuple):
@@ -113,8 +115,8 @@ def known_nodes() -> KnownNodes:
                 rows.clear()
             case ["launch", package, file, parameters, *started]:
                 both = tuple(_halves(each) for each in started)
-                argument = parameters.strip("-")
-                launches[package, file] = KnownLaunch(argument, both)
+                argument, _, clock = parameters.strip("-").partition(",use_sim_time=")
+                launches[package, file] = KnownLaunch(argument, both, clock)
             case ["display", kind, message]:
                 displays[kind] = message
             case ["tool", kind, message, *topics]:

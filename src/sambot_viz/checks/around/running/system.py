@@ -93,6 +93,7 @@ class GivenParameter:
             that the launch file has itself.
         is_robot: the value is the text of a robot.
         robot: the command or the file that this text comes from, as far as is known.
+        is_argument: the value is that of a launch argument.
     """
 
     name: str
@@ -101,6 +102,7 @@ class GivenParameter:
     given_at: Place | None = None
     is_robot: bool = False
     robot: str = ""
+    is_argument: bool = False
 
     @property
     def value(self) -> str | None:

@@ -1,0 +1,96 @@
+"""What RViz does not know in a config, or cannot show, is found with its edit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from edited import edited_files
+
+from sambot_viz.checks import check
+from sambot_viz.checks.vocabulary import vocabulary
+from sambot_viz.inputs import declarations
+from sambot_viz.rviz import Property
+
+CONFIG = "rviz/robot.rviz"
+FILES = {
+    "package.xml": """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+</package>
+""",
+    "robot.urdf": '<robot name="r"><link name="base"/></robot>',
+    CONFIG: """\
+Visualization Manager:
+  Global Options:
+    Fixed Frame: base
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Description File: ""
+      Description Source: Topic
+      Enabled: true
+      Links:
+        Visual Enable: {Alpha: 1}
+      Name: RobotModel
+      TF Prefix: ""
+    - Class: rviz_default_plugins/Map
+      Enabled: true
+      Topic:
+        Depth: 5
+        Value: /map
+  Tools:
+    - Class: rviz_default_plugins/SetGoal
+      Topic:
+        Value: /goal_pose
+""",
+}
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A right package with a config of RViz that no launch file names."""
+    for name, text in FILES.items():
+        path = tmp_path / "robot" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return tmp_path / "robot"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "code"),
+    [
+        ("Value: /map", "Vlaue: /map", "config-property"),
+        ("Depth: 5", "Dept: 5", "config-property"),
+        ("plugins/SetGoal", "plugin/SetGoal", "config-class"),
+        ("Source: Topic", "Source: File", "setup-description-topic"),
+        ('Prefix: ""', "Prefix: cart", "frame-unknown"),
+        ("Value: /goal_pose", "Value: /goalpose", "topic-unknown"),
+    ],
+)
+def test_a_setting_that_has_no_effect_is_undone_by_its_edit(
+    package: Path, right: str, wrong: str, code: str
+) -> None:
+    assert check(package) == []
+    path = package / CONFIG
+    path.write_text(path.read_text().replace(right, wrong))
+    (problem,) = check(package)
+    assert problem.code == code
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert check(package) == []
+
+
+def test_all_properties_that_are_declared_are_in_the_vocabulary() -> None:
+    known = declarations()
+    waiting: list[Property] = [*known.global_options]
+    for classes in (known.displays, known.tools, known.views):
+        waiting += [each for kind in classes for each in classes[kind]]
+    names = set[str]()
+    while waiting:
+        one = waiting.pop()
+        names.add(one.name.replace(" ", "_"))
+        waiting += one.children
+    assert names <= {*vocabulary("rviz_classes")["properties"]}

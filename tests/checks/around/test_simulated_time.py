@@ -1,0 +1,56 @@
+"""Nodes with another clock than the simulator beside them, also from includes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from sambot_viz.checks import check
+
+MANIFEST = """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+</package>
+"""
+NAV2 = '<include file="$(find-pkg-share nav2_bringup)/launch/navigation_launch.py">'
+GAZEBO = '<include file="$(find-pkg-share ros_gz_sim)/launch/gz_sim.launch.py"/>'
+ARGUMENT = '<arg name="use_sim_time" value="{}"/>'
+NODE = """\
+<node pkg="robot_localization" exec="ekf_node">
+<param name="use_sim_time" value="true"/></node>
+"""
+
+
+def found(folder: Path, launch: str) -> list[str]:
+    """Return what is found in a package with one launch file."""
+    (folder / "launch").mkdir()
+    (folder / "package.xml").write_text(MANIFEST)
+    (folder / "launch" / "a.launch.xml").write_text(f"<launch>\n{launch}\n</launch>")
+    problems = [p for p in check(folder) if p.code == "sim-time-off"]
+    return [f"{p.line}: {p.message}" for p in problems]
+
+
+@pytest.mark.parametrize("beside", [GAZEBO, NODE])
+def test_a_launch_file_of_nav2_that_is_not_told_the_time(
+    tmp_path: Path, beside: str
+) -> None:
+    (message,) = found(tmp_path, f"{NAV2}</include>\n{beside}")
+    assert message.startswith("2: controller_server, smoother_server, planner_server")
+    assert "use_sim_time is false" in message
+
+
+@pytest.mark.parametrize(
+    "launch",
+    [
+        f"{NAV2}{ARGUMENT.format('true')}</include>{GAZEBO}",
+        f"{ARGUMENT.format('true')}{NAV2}</include>{GAZEBO}",
+        f"{NAV2}</include>",
+    ],
+)
+def test_one_clock_is_right(tmp_path: Path, launch: str) -> None:
+    assert found(tmp_path, launch) == []
