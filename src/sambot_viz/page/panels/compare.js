@@ -9,9 +9,11 @@ import { act, rows } from "../wire/channel.js";
 
 /**
  * @typedef {{whose: string, what: string, mine: string, theirs: string, apart: string,
- *   places: string, link: string, node: string}} Difference places: of both values; link: of the robot, "" where it lacks it; node: of the
- *   link in the view
+ *   places: string, link: string, node: string}} Difference places: where both values are written;
+ *   link: of the robot, "" where it lacks it; node: of the link in the view
  */
+
+const HEADS = ["What", "Mine", "Theirs", "Apart"];
 
 /** Light the link of a difference, or none. @param {Difference} [of] */
 const light = (of) => glow(of?.node ? [of.node, 0, 0, 0] : undefined);
@@ -52,19 +54,18 @@ function Table({ found }) {
     event.preventDefault();
     return body.current.querySelectorAll("tr")[at + step]?.focus();
   };
+  const stop = Math.min(Math.max(0, chosen), found.length - 1);
+  /** @param {Difference} one @param {number} at */
+  const row = (one, at) => html`<tr key=${`${one.whose} ${one.what}`} title=${one.places}
+    tabindex=${at === stop ? 0 : -1} aria-selected=${String(at === chosen)}
+    onFocus=${() => choose(at)} onClick=${() => choose(at)} onDblClick=${() => write(one)}
+    onPointerEnter=${() => light(one)} onPointerLeave=${() => light(found[chosen])}
+    onKeyDown=${(/** @type {KeyboardEvent} */ event) => key(event, at)}>
+    <th scope="row">${one.whose || "robot"}${one.what && html` <small>${one.what}</small>`}</th>
+    <td>${one.mine}</td><td>${one.theirs}</td><td>${one.apart}</td></tr>`;
   return html`<div class="differences">
     <table role="grid" aria-label="What differs">
-      <thead><tr>${["What", "Mine", "Theirs", "Apart"].map((name) => html`<th>${name}</th>`)}</tr></thead>
-      <tbody ref=${body}>${found.map(
-        (
-          one,
-          at,
-        ) => html`<tr key=${`${one.whose} ${one.what}`} tabindex=${at === Math.max(0, chosen) ? 0 : -1}
-          title=${one.places} aria-selected=${String(at === chosen)} onFocus=${() => choose(at)} onClick=${() => choose(at)}
-          onDblClick=${() => write(one)}
-          onPointerEnter=${() => light(one)} onPointerLeave=${() => light(found[chosen])}
-          onKeyDown=${(/** @type {KeyboardEvent} */ event) => key(event, at)}>
-          <th scope="row">${one.whose || "robot"}${one.what && html` <small>${one.what}</small>`}</th>
-          <td>${one.mine}</td><td>${one.theirs}</td><td>${one.apart}</td></tr>`,
-      )}</tbody></table></div>`;
+      <thead><tr>${HEADS.map((name) => html`<th>${name}</th>`)}</tr></thead>
+      <tbody ref=${body}>${found.map(row)}</tbody>
+    </table></div>`;
 }
