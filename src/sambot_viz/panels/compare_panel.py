@@ -100,6 +100,8 @@ class ComparePanel(Panel):
         found, compared = self._comparison.found, self._comparison.choice.compared
         if compared == "none":
             return "Choose a model to see what differs from it.", None
+        if compared == "reference" and not self._comparison.reference:
+            return "The reference is being read…", None
         if self._comparison.other is None:
             return "The other model cannot be read: see Problems.", "warn"
         if self._robot.model is None:

@@ -23,6 +23,7 @@ class ReferenceModel:
         robot: the model; None while none could be read.
         files: those that it is read from.
         problems: why it is not as its file says; empty when it is.
+        was_read: whether it was read once, with or without success.
     """
 
     def __init__(self, given: Path | Robot, load: Callable[[Path], Robot]) -> None:
@@ -32,9 +33,11 @@ class ReferenceModel:
         self.robot = given if isinstance(given, Robot) else None
         self.files: frozenset[Path] = frozenset()
         self.problems: tuple[Problem, ...] = ()
+        self.was_read = False
 
     def read(self) -> RobotError | None:
         """Read the file; return why that failed."""
+        self.was_read = True
         if self._path is None:
             return None
         try:

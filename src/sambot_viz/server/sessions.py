@@ -273,9 +273,9 @@ class Sessions:
             self._forget_unused_files()
 
     def _give_reference(self, session: Session) -> None:
-        if self.reference is not None:
-            name, robot = self.reference.name, self.reference.robot
-            session.comparison.take_reference(name, robot)
+        reference = self.reference
+        if reference is not None and reference.was_read:
+            session.comparison.take_reference(reference.name, reference.robot)
 
     def show_again(self) -> None:
         """Show the opened robot, after `assemble` makes something else of it."""
