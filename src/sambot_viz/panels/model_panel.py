@@ -131,7 +131,9 @@ class ModelPanel(Panel):
         return FileContent("" if is_long else shown)
 
     def _words(self, buffer: Buffer) -> Json:
-        """Return the elements that the editor offers, as CodeMirror reads them."""
+        """Return what the editor offers: elements as CodeMirror reads them, or keys."""
+        if buffer.name.endswith((".yaml", ".yml")):
+            return {node: {**keys} for node, keys in self._text.keys(buffer).items()}
         if not buffer.name.endswith((".urdf", ".xacro", ".sdf", ".xml")):
             return None
         return [

@@ -45,7 +45,7 @@ _ODOMS: dict[str, tuple[str, ...]] = {
 }
 """Parameter for the frame of odometry → the nodes that have it."""
 
-_DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
+DRIVE_BASES = ("robot_base_frame", "robotBaseFrame", "child_frame_id")
 DRIVE_ODOMS = ("odometry_frame", "odometryFrame", "frame_id")
 """Elements in which a drive names the frame of odometry."""
 _NO_BASE = frozenset({"map", "odom", "world"})
@@ -96,7 +96,7 @@ def _turned(name: str, link: str, robot: Robot) -> str | None:
 def _robot_frames(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
     """Give each frame of the robot, who names it, and the link it probably is."""
     for plugin in around.plugins:
-        for fact in plugin.all(*(_DRIVE_BASES if plugin.is_drive else ())):
+        for fact in plugin.all(*(DRIVE_BASES if plugin.is_drive else ())):
             yield fact, f"the plugin {plugin.filename}", plugin.link
         for fact in plugin.all(*(SENSOR_FRAMES if plugin.sensor else ())):
             if bare_frame(fact.value) not in _NO_BASE:
@@ -156,7 +156,7 @@ def _moved_bases(around: Surroundings) -> Iterator[tuple[Fact, str, str]]:
         if base is not None and one.moves_base:
             yield base.fact, one.node, one.world_frame
     for plugin in around.plugins:
-        fact = plugin.one(*_DRIVE_BASES) if plugin.is_drive else None
+        fact = plugin.one(*DRIVE_BASES) if plugin.is_drive else None
         if fact is not None and drive_tf(around, plugin) is not None:
             odom = plugin.one(*DRIVE_ODOMS)
             name = bare_frame(odom.value) if odom is not None else "odom"
@@ -168,7 +168,7 @@ def moved_twice(around: Surroundings) -> Iterator[Problem]:
     moving = [one for one in filters(around) if one.started and one.moves_base]
     for plugin in around.plugins if moving else ():
         told = drive_tf(around, plugin) if plugin.is_drive else None
-        base = plugin.one(*_DRIVE_BASES)
+        base = plugin.one(*DRIVE_BASES)
         if told is None or base is None:
             continue
         for one in moving:

@@ -2,6 +2,7 @@
 /* How texts look in the editor, and its keys: those of VS Code, as CodeMirror has them. */
 
 import { rows } from "../wire/channel.js";
+import { offeredIn } from "./yaml_words.js";
 
 const IS_MODEL = /\.(xacro|urdf|sdf|xml)$/;
 
@@ -69,6 +70,7 @@ function language(cm, name) {
 /** Offer the words that the checks know, and the names of the model: those of now, when asked.
  * @param {any} cm @param {string} name */
 function completion(cm, name) {
+  if (/\.ya?ml$/.test(name)) return cm.autocompletion({ override: [offerKeys] });
   if (!IS_MODEL.test(name)) return cm.autocompletion();
   /** @param {any} context */
   const offer = (context) => {
@@ -76,6 +78,16 @@ function completion(cm, name) {
     return words ? cm.completeFromSchema(words, [])(context) : null;
   };
   return cm.autocompletion({ override: [offer] });
+}
+
+/** Offer keys and values of a parameter file. @param {any} context */
+function offerKeys({ state, pos, explicit }) {
+  const words = rows.data("model/words");
+  const found = words && offeredIn(state.sliceDoc(0, pos), words);
+  if (!found || (!explicit && found.from === pos)) return null;
+  const { from, labels, ends } = found;
+  const options = labels.map((/** @type {string} */ label) => ({ label, apply: label + ends }));
+  return { from, options, validFor: /^[\w:./]*$/ };
 }
 
 /** @param {any} cm */

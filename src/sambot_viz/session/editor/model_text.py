@@ -209,6 +209,13 @@ class ModelText:
                 self._words = robot, tuple(offered(robot, files))
         return self._words[1]
 
+    def keys(self, buffer: Buffer) -> Mapping[str, Mapping[str, tuple[str, ...]]]:
+        """Return what an editor offers in a parameter file."""
+        # The import is late so that the first page does not wait for the rules.
+        from sambot_viz.session.editor.keys import offered_keys
+
+        return offered_keys(self._robot.model, buffer.text)
+
     # What users do; with the session locked.
 
     def replace(

@@ -74,7 +74,18 @@ def offered(robot: Robot | None, files: Iterable[str]) -> list[OfferedElement]:
         given = dict.fromkeys(attributes.split(), ())
         has = (*inside, *anywhere) if name in ("macro", "if", "unless") else ()
         made.append(OfferedElement(f"xacro:{name}", has, given))
-    return [*made, *macros]
+    links = () if robot is None else tuple(robot.links)
+    frames = (OfferedElement(name, texts=links) for name in _frames())
+    return [*made, *macros, *frames]
+
+
+def _frames() -> tuple[str, ...]:
+    """Return the elements of Gazebo whose text is a link."""
+    # The import is late so that the first page does not wait for the rules.
+    from sambot_viz.checks.around.files.gazebo import SENSOR_FRAMES
+    from sambot_viz.checks.around.frame_names import DRIVE_BASES
+
+    return (*SENSOR_FRAMES, *DRIVE_BASES)
 
 
 def _values(robot: Robot | None) -> dict[str, tuple[str, ...]]:
@@ -103,6 +114,7 @@ def _macros(files: Iterable[str]) -> Iterator[OfferedElement]:
 def _sdf(robot: Robot) -> Iterator[OfferedElement]:
     links, joints = tuple(robot.links), tuple(robot.joints)
     texts = {"parent": ("world", *links), "child": links, "joint": joints}
+    texts |= dict.fromkeys(_frames(), links)
     yield OfferedElement("sdf", ("model", "world"), {"version": ()}, is_root=True)
     merged: dict[str, OfferedElement] = {}
     for element in _below(model_type(), set()):
@@ -118,6 +130,9 @@ def _sdf(robot: Robot) -> Iterator[OfferedElement]:
         attributes = {**other.attributes, **made.attributes}
         merged[made.name] = replace(other, children=children, attributes=attributes)
     yield from merged.values()
+    for name in _frames():
+        if name not in merged:
+            yield OfferedElement(name, texts=links)
 
 
 def _below(element: ElementType, seen: set[int]) -> Iterator[ElementType]:
