@@ -226,3 +226,20 @@ def test_a_step_about_another_file_says_that_the_view_shows_the_first(
     desk.client.wait_until(lambda: desk.value("text")["other_model"] == "wheel.urdf")
     desk.client.act("lesson/show", 1)
     desk.client.wait_until(lambda: desk.value("text")["other_model"] == "")
+
+
+@pytest.mark.parametrize("fixes", [True, False])
+def test_a_lesson_may_keep_the_fixes_of_problems_away(
+    learn: Learn, tmp_path: Path, fixes: bool
+) -> None:
+    lesson = tmp_path / "lesson"
+    shutil.copytree(BASE, lesson)
+    text = (lesson / "lesson.yaml").read_text()
+    (lesson / "lesson.yaml").write_text(f"fixes: {str(fixes).lower()}\n{text}")
+    slip = RIGHT.replace("<visual>", "<visul>").replace("</visual>", "</visul>")
+    desk = learn(slip, lesson)
+    problems = session_of(desk.viz).problems.shown
+    desk.client.wait_until(
+        lambda: not problems.value.checking and bool(problems.value.listed)
+    )
+    assert any(problem.edits for problem in problems.value.listed) is fixes

@@ -16,6 +16,7 @@ from sambot_viz.lessons.reading.records import given, read_record
 from sambot_viz.lessons.reading.report import LessonReport
 from sambot_viz.lessons.reading.values import (
     COUNT,
+    FLAG,
     NUMBER,
     TEXT,
     ValueKind,
@@ -144,6 +145,7 @@ class Lesson:
         start: a folder or a file to begin with; empty for nothing.
         solution: a folder or a file that passes; with tracks, one folder for each.
         given_tracks: names and tracks.
+        fixes: whether the page offers to apply the fixes of problems.
         steps: in order.
     """
 
@@ -157,6 +159,7 @@ class Lesson:
     given_tracks: tuple[tuple[str, Track], ...] = given(
         map_of(_TRACK, "a map of names to tracks"), (), key="tracks"
     )
+    fixes: bool = given(FLAG, True)
     steps: tuple[LessonStep, ...] = given(all_of(_STEP, "a list of steps"))
 
     @property

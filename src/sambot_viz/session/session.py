@@ -144,8 +144,9 @@ class Session:
         self.motion = Motion(robot, self.drive, change, worker)
         self._trail = DriveTrail(self.drive, robot, scene, change, worker)
 
+        fixes = options.study is None or options.study.lesson.fixes
         self.problems = Problems(
-            document, scene, robot, change, self.sources, options.notes
+            document, scene, robot, change, self.sources, options.notes, fixes
         )
         worker.on_error = self.problems.report_error
         worker.in_control = self.roles.may_edit

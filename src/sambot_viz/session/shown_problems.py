@@ -7,7 +7,7 @@ they find joins what was found while loading.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -57,6 +57,7 @@ class Problems:
         robot: what is shown while a save has a mistake.
         sources: what is wrong with them, and with the messages that were played.
         notes: stay beside what is wrong with the model.
+        fixes: whether problems have their edits; a lesson may keep them from students.
 
     Attributes:
         shown: what a page shows of them.
@@ -77,8 +78,9 @@ class Problems:
         change: Change,
         sources: SessionSources,
         notes: Sequence[Problem] = (),
+        fixes: bool = True,
     ) -> None:
-        self._notes = tuple(notes)
+        self._notes, self._fixes = tuple(notes), fixes
         self.shown = Signal(change, ShownProblems())
         self.of_model: tuple[Problem, ...] = ()
         self.of_frames: tuple[Problem, ...] = ()
@@ -178,7 +180,8 @@ class Problems:
         others = [p for of in _OTHERS for p in saved.get(of, ())]
         played = [*self._sources.problems.value]
         played += problems_of_topics(self._scene.displays)
-        return in_order((*_also(model, played), *config, *others))
+        found = in_order((*_also(model, played), *config, *others))
+        return found if self._fixes else [replace(one, edits=()) for one in found]
 
     def _note(self) -> str:
         notes: list[str] = []
