@@ -213,7 +213,7 @@ def test_progress_that_cannot_be_kept_is_told(learn: Learn) -> None:
     assert desk.value("state")["trouble"].startswith("the progress cannot be kept: ")
 
 
-def test_a_step_about_another_file_says_that_the_view_shows_the_first(
+def test_the_view_and_the_text_follow_the_file_of_a_step(
     learn: Learn, tmp_path: Path
 ) -> None:
     lesson = tmp_path / "lesson"
@@ -222,10 +222,33 @@ def test_a_step_about_another_file_says_that_the_view_shows_the_first(
     own = "title: A wheel\n    model: wheel.urdf"
     (lesson / "lesson.yaml").write_text(text.replace("title: A wheel", own))
     desk = learn(RIGHT, lesson)
+    desk.write(RIGHT.replace("base_link", "wheel"), "wheel.urdf")
+    session = session_of(desk.viz)
+
+    def shows(link: str) -> bool:
+        robot = session.robot.model
+        return robot is not None and set(robot.links) == {link}
+
+    def opened(name: str) -> bool:
+        content = desk.client.rows["model/text"].get("value") or {}
+        return content.get("file") == name
+
+    desk.client.act("model/show", True)
+    desk.client.wait_until(lambda: shows("base_link") and opened("robot.urdf"))
     desk.client.act("lesson/show", 2)
-    desk.client.wait_until(lambda: desk.value("text")["other_model"] == "wheel.urdf")
+    desk.client.wait_until(lambda: shows("wheel") and opened("wheel.urdf"))
+    # A save of that file is followed, also after a mistake.
+    desk.write("<robot", "wheel.urdf")
+    desk.client.wait_until(lambda: bool(session.problems.of_text))
+    assert shows("wheel")
+    desk.write(RIGHT.replace("base_link", "tyre"), "wheel.urdf")
+    desk.client.wait_until(lambda: shows("tyre") and not session.problems.of_text)
+    # Back again, the server's model is followed as before.
     desk.client.act("lesson/show", 1)
-    desk.client.wait_until(lambda: desk.value("text")["other_model"] == "")
+    desk.client.wait_until(lambda: shows("base_link") and opened("robot.urdf"))
+    desk.write(RIGHT.replace("base_link", "hull"))
+    desk.client.wait_until(lambda: shows("hull"))
+    assert not session.own_model
 
 
 @pytest.mark.parametrize("fixes", [True, False])

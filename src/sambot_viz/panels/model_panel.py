@@ -48,7 +48,8 @@ class ModelPanel(Panel):
         self._folders = folders
         self._remake = remake
         self._shown = self._expands = False
-        self._open = ""
+        self._open: str = ""
+        self._model: str = ""
         self._wanted: Json = None
         self._count = 0
 
@@ -84,7 +85,8 @@ class ModelPanel(Panel):
         names = self._text.names
         if not names:
             return None
-        if self._open not in names:
+        if self._open not in names or names[0] != self._model:
+            self._model = names[0]
             self._open = names[0]
         return self._text.buffer(self._open)
 

@@ -130,6 +130,7 @@ class ClientSessions:
             facts,
             session.change,
             session.problems.report_error,
+            None if text is None else text.follow,
         )
 
     def take_edit(self, client_id: int, edit: object) -> None:

@@ -103,7 +103,7 @@ class ShownInputs:
             # A program may go to another folder.
             model = inputs.model.absolute()
             self.server.sessions.model_files = ModelFiles(
-                model, partial(inputs.load, model), options.xacro_args
+                model, inputs.load, options.xacro_args
             )
         if inputs.reference is not None:
             reference = ReferenceModel(inputs.reference, inputs.load)

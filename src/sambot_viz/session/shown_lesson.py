@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from sambot_viz.lessons.evaluation import DemandResult, faults_in
@@ -44,6 +45,7 @@ class ShownLesson:
         facts: after a change of one of these the student may have written something.
         change: of the session.
         report: shows an error that nobody expected.
+        follow: shows another model file; None where the view has one only.
 
     Attributes:
         study: the student's way through it.
@@ -63,7 +65,9 @@ class ShownLesson:
         facts: Iterable[Signal[Any]],
         change: Change,
         report: Callable[[Exception], object],
+        follow: Callable[[Path], object] | None = None,
     ) -> None:
+        self._follow = follow
         self.study, self._texts = study, texts
         self._change, self._report = change, report
         self.changed = Signal(change, None)
@@ -114,7 +118,12 @@ class ShownLesson:
         self.step = self.study.lesson.step(number)
         self.outcomes = None
         model = self.study.model_of(self.step)
-        self.other_model = "" if model == self._model else model.name
+        if self._follow is not None:
+            self._follow(model)
+        elif model != self._model:
+            self.other_model = model.name
+        else:
+            self.other_model = ""
         self.changed.touch()
         self.look()
 

@@ -50,7 +50,10 @@ def model_text(viz: Visualizer, tmp_path: Path) -> Iterator[ModelText]:
     model, session = tmp_path / "robot.urdf", session_of(viz)
 
     def load(
-        trusted: bool, texts: Mapping[str, str], arguments: Mapping[str, str]
+        model: Path,
+        trusted: bool,
+        texts: Mapping[str, str],
+        arguments: Mapping[str, str],
     ) -> Robot:
         return load_robot(model, trusted=trusted, edited=texts, xacro_args=arguments)
 

@@ -19,14 +19,14 @@ class ModelFiles:
 
     Attributes:
         model: the whole path of its file.
-        load: loads it with other texts of its files, by their whole paths; the first
-            argument is False where they come from a user who may not write them, the
-            last one has values of ``xacro:arg`` in place of `arguments`.
+        load: loads a model file with other texts of its files, by their whole paths;
+            the second argument is False where they come from a user who may not write
+            them, the last one has values of ``xacro:arg`` in place of `arguments`.
         arguments: those of the command line.
     """
 
     model: Path
-    load: Callable[[bool, Mapping[str, str], Mapping[str, str]], Robot]
+    load: Callable[[Path, bool, Mapping[str, str], Mapping[str, str]], Robot]
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
 
     def named(self, paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:

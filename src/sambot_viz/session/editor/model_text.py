@@ -7,6 +7,7 @@ with the problem beside it. Nothing is written to the disk but by `save`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -75,7 +76,8 @@ class ModelText:
         edits: ModelEdits | None = None,
     ) -> None:
         self._robot, self._checks, self._problems = robot, checks, problems
-        self._files, self._edits = files, edits
+        self._files = self._of_server = files
+        self._edits, self._saves, self._was_other = edits, 0, False
         self._paths: dict[str, Path] = {}
         self._buffers: dict[str, Buffer] = {}
         self._words: tuple[Robot | None, tuple[OfferedElement, ...]] | None = None
@@ -89,7 +91,6 @@ class ModelText:
                 self._paths[name] = whole
                 self.buffer(name).take(text)
         self._loader = TextLoader(
-            files,
             robot,
             checks,
             problems,
@@ -247,6 +248,21 @@ class ModelText:
             buffer.take(text)
         self._tell()
 
+    def follow(self, model: Path) -> None:
+        """Show another model of the folder in this session, or that of the server.
+
+        Args:
+            model: its file, which need not exist.
+        """
+        model = model.absolute()
+        if model == self._files.model:
+            return
+        own = self._of_server
+        self._files = own if model == own.model else replace(own, model=model)
+        self._was_other = True
+        self._find()
+        self._tell()
+
     def revert(self, name: str) -> None:
         """Take the text that is on the disk."""
         self.buffer(name).revert()
@@ -326,7 +342,16 @@ class ModelText:
             text = laid_over(buffer.text, (n for n in numbers if n.file == name))
             if text != buffer.text:
                 texts[str(buffer.path)] = text
-        return ModelState(texts, arguments_of(numbers), frozenset(typed), versions)
+        files, is_other = self._files, self._files is not self._of_server
+        return ModelState(
+            files,
+            is_other,
+            self._saves,
+            texts,
+            arguments_of(numbers),
+            frozenset(typed),
+            versions,
+        )
 
     def _find(self) -> None:
         """Look for the files of the model, after there may be others."""
@@ -341,12 +366,15 @@ class ModelText:
         paths = dict([*paths.items()][: limits.EDITED_FILES.value])
         for name, buffer in self._buffers.items():
             paths.setdefault(name, buffer.path)
-        if paths != self._paths:
+        if [*paths.items()] != [*self._paths.items()]:
             self._paths = paths
             self.changed.touch()
 
     def _look(self) -> None:
         """Compare with the disk what another program may have saved."""
         looked = [buffer.look() for buffer in self._buffers.values()]
-        if any(looked):
+        if self._was_other:
+            # The server follows its own model only.
+            self._saves += 1
+        if any(looked) or self._was_other:
             self._tell()

@@ -26,12 +26,18 @@ class ModelState(NamedTuple):
     """What is to be shown.
 
     Attributes:
+        files: of the model.
+        is_other: whether it is another model than the server's.
+        saves: another number after other programs have saved files of such a model.
         texts: those that differ from the disk.
         arguments: of xacro, in place of those of the command line.
         typed: the files whose text a user has written.
         versions: name of a file → the version of its text.
     """
 
+    files: ModelFiles
+    is_other: bool
+    saves: int
     texts: Texts
     arguments: Mapping[str, str]
     typed: frozenset[str]
@@ -42,7 +48,6 @@ class TextLoader:
     """Shows each state of the texts that loads; one with a mistake leaves the last one.
 
     Args:
-        files: those of the model.
         robot: what is shown.
         checks: look at it with these texts.
         problems: show why a text is not shown.
@@ -59,7 +64,6 @@ class TextLoader:
 
     def __init__(
         self,
-        files: ModelFiles,
         robot: RobotState,
         checks: Checks,
         problems: Problems,
@@ -69,7 +73,7 @@ class TextLoader:
         trusts_typed: bool,
         changed: Sequence[Signal[None]],
     ) -> None:
-        self._files, self._robot, self._checks = files, robot, checks
+        self._robot, self._checks = robot, checks
         self._problems, self._show, self._change = problems, show, change
         self._wanted, self._trusts_typed = wanted, trusts_typed
         self._changed = changed
@@ -77,8 +81,9 @@ class TextLoader:
         self.suspects: tuple[Path, ...] = ()
         self._background = Background("sambot-viz-text")
         self._spare, self._closed = SpareChild(), False
-        arguments = wanted().arguments
-        self._loaded = self._shown = (self.of_model(checks.texts), arguments)
+        state = wanted()
+        self._shown = self._of_model(state)
+        self._loaded = state._replace(texts=self._shown)
 
     def close(self) -> None:
         """Show nothing more."""
@@ -99,57 +104,63 @@ class TextLoader:
         self._background.do(self, self._load_newest)
         self._background.do(self._checks, self._check, after=0.0 if rests else REST)
 
-    def of_model(self, texts: Texts) -> Texts:
-        """Return those of the files that the robot is loaded from."""
+    def _of_model(self, state: ModelState) -> Texts:
+        """Return the texts of the files that the robot is loaded from."""
         robot = self._robot.model
         files = (() if robot is None else robot.files, self.suspects)
-        known = {self._files.model, *(p.absolute() for each in files for p in each)}
-        return {file: text for file, text in texts.items() if Path(file) in known}
+        known = {state.files.model, *(p.absolute() for each in files for p in each)}
+        return {file: text for file, text in state.texts.items() if Path(file) in known}
 
     def _load_newest(self) -> None:
         try:
             with self._change.lock:
-                wanted = self._wanted()
-                texts = self.of_model(wanted.texts)
-                if self._closed or (texts, wanted.arguments) == self._loaded:
+                state = self._wanted()
+                state = state._replace(texts=self._of_model(state))
+                if self._closed or _of_robot(state) == _of_robot(self._loaded):
                     return
-            trusted = self._trusts_typed or wanted.typed.isdisjoint(texts)
-            self._load(texts, wanted.arguments, trusted)
+            self._load(state)
         except Exception as error:
             self._problems.report_error(error)
         finally:
             if self._closed:
                 self._spare.end()
 
-    def _load(self, texts: Texts, arguments: Mapping[str, str], trusted: bool) -> None:
-        loaded, is_own = (texts, arguments), bool(texts or arguments)
+    def _load(self, state: ModelState) -> None:
+        files, texts, arguments = state.files, state.texts, state.arguments
+        is_own = state.is_other or bool(texts or arguments)
+        trusted = self._trusts_typed or state.typed.isdisjoint(texts)
         try:
             with unsaved(texts), self._spare.used():
-                robot = self._files.load(trusted, texts, arguments)
+                robot = files.load(files.model, trusted, texts, arguments)
         except RobotError as error:
             with self._change():
-                self._loaded, self.suspects = loaded, error.files
+                self._loaded, self.suspects = state, error.files
                 self._problems.set_text(error.problems if is_own else None)
             return
         with self._change():
             if self._closed:
                 return
-            self._loaded = self._shown = loaded
+            self._loaded, self._shown = state, texts
             self._checks.texts, self.suspects = texts, ()
             self._problems.set_text(() if is_own else None)
             self._show(robot, is_own)
 
     def _check(self) -> None:
         with self._change.lock:
-            wanted = self._wanted()
-            texts, of_model = wanted.texts, self.of_model(wanted.texts)
+            state = self._wanted()
+            of_model = self._of_model(state)
             if self._closed:
                 return
-            around = {f: t for f, t in texts.items() if f not in of_model}
-            self._checks.texts = {**around, **self._shown[0]}
+            around = {f: t for f, t in state.texts.items() if f not in of_model}
+            self._checks.texts = {**around, **self._shown}
         try:
             self._checks.run_again()
         except Exception as error:
             self._problems.report_error(error)
         with self._change(*self._changed):
-            self.checked = wanted.versions
+            self.checked = state.versions
+
+
+def _of_robot(state: ModelState) -> object:
+    """Return what the robot depends on."""
+    return state.files.model, state.saves, state.texts, state.arguments
