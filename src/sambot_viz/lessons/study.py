@@ -24,6 +24,9 @@ from sambot_viz.lessons.student_files import BUILT, HandedIn, handed_in
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.model import Robot
 
+TEXTS = (".urdf", ".xacro", ".sdf", ".xml", ".py", ".yaml", ".yml", ".rviz", ".txt")
+"""The endings of files that a student writes."""
+
 
 class Study:
     """A lesson with the folder of a student, for a page that shows both.
@@ -35,6 +38,7 @@ class Study:
         trusted: as for `load_robot`.
 
     Attributes:
+        folder: the whole path of the student's folder.
         lesson: the lesson.
         track: the way through it.
         progress: how far the student is.
@@ -58,7 +62,7 @@ class Study:
         self.lesson = lesson
         self.track = found.track if track is None else track
         self.progress = Progress(folder, lesson.name)
-        self._folder = folder
+        self.folder = folder.absolute()
         self._trusted = trusted
 
     @classmethod
@@ -112,7 +116,7 @@ class Study:
         root = source.parent if source.is_file() else source
         written: list[Path] = []
         for file in files:
-            target = self._folder / file.relative_to(root)
+            target = self.folder / file.relative_to(root)
             if file.is_file() and not target.exists():
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, target)
@@ -129,12 +133,16 @@ class Study:
         What is built or hidden is left out, and so is what comes behind the limit.
         """
         found: list[Path] = []
-        for folder, inner, names in os.walk(self._folder.absolute()):
+        for folder, inner, names in os.walk(self.folder):
             inner[:] = sorted(n for n in inner if n[0] != "." and n not in BUILT)
             found += Path(folder), *(Path(folder, n) for n in names if n[0] != ".")
             if len(found) >= limits.STUDENT_FILES.value:
                 break
         return found[: limits.STUDENT_FILES.value]
+
+    def texts(self) -> list[Path]:
+        """Return the files of the student that are texts, by their endings."""
+        return [path for path in self.files() if path.suffix in TEXTS]
 
     def picture(self, name: str) -> bytes:
         """Return a picture of the lesson's folder; nothing where it cannot be read."""
@@ -218,8 +226,8 @@ class Study:
         return result
 
     def _handed_in(self) -> HandedIn:
-        found = handed_in(self.lesson, self._folder)
+        found = handed_in(self.lesson, self.folder)
         if found.track == self.track:
             return found
-        model = self._folder / self.lesson.tracks[self.track].model
-        return HandedIn(self._folder, self.track, model, False)
+        model = self.folder / self.lesson.tracks[self.track].model
+        return HandedIn(self.folder, self.track, model, False)

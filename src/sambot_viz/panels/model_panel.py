@@ -79,6 +79,8 @@ class ModelPanel(Panel):
         """Tell whether files may be written."""
         if command_id == "model/expand":
             return bool(self._text.expanded)
+        if command_id == "model/create":
+            return self._text.can_create
         return command_id != "model/save" or self._text.can_save
 
     def _buffer(self) -> Buffer | None:
@@ -204,6 +206,12 @@ class ModelPanel(Panel):
     @command("model/open", TEXT, name="Open", client_local=True)
     def _open_file(self, name: str) -> None:
         self._text.buffer(name)
+        self._open = name
+        self._remake(self)
+
+    @command("model/create", TEXT, name="New file")
+    def _create(self, name: str) -> None:
+        self._text.create(name)
         self._open = name
         self._remake(self)
 

@@ -101,15 +101,21 @@ class ShownInputs:
         )
         if inputs.model is not None and os.path.isfile(inputs.model):
             # A program may go to another folder.
-            model = inputs.model.absolute()
+            model, study = inputs.model.absolute(), options.study
             self.server.sessions.model_files = ModelFiles(
-                model, inputs.load, options.xacro_args
+                model,
+                inputs.load,
+                options.xacro_args,
+                None if study is None else study.folder,
+                tuple if study is None else study.texts,
             )
         if inputs.reference is not None:
             reference = ReferenceModel(inputs.reference, inputs.load)
             self.server.sessions.reference = reference
         if options.edit and inputs.model is not None:
-            self.server.sessions.edits = ModelEdits(inputs.model, options.watch)
+            folder = None if options.study is None else options.study.folder
+            edits = ModelEdits(inputs.model, options.watch, folder)
+            self.server.sessions.edits = edits
 
     def start(self) -> None:
         """Show the robot, and follow the files if the options say so.

@@ -32,13 +32,15 @@ class ModelEdits:
     Args:
         model: its file.
         watched: whether what is saved is shown.
+        folder: the whole path of a student's folder, which may be written in place of
+            the package of the model.
 
     Attributes:
         watched: the same.
     """
 
-    def __init__(self, model: Path, watched: bool) -> None:
-        self._model = model.absolute()
+    def __init__(self, model: Path, watched: bool, folder: Path | None = None) -> None:
+        self._model, self._folder = model.absolute(), folder
         self.watched = watched
 
     def save(self, file: Path, before: bytes | None, after: bytes) -> None:
@@ -66,6 +68,8 @@ class ModelEdits:
     @cached_property
     def _folders(self) -> tuple[Path, ...]:
         """The packages of the model: where it is, and where a link to it leads."""
+        if self._folder is not None:
+            return (self._folder,)
         real = Path(os.path.realpath(self._model))
         if _is_bundled(real):
             return ()
@@ -106,6 +110,7 @@ def _save_new(file: Path, after: bytes) -> None:
     if os.path.lexists(file):
         raise EditRefused.changed(name)
     try:
+        file.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(file, after)
     except OSError as error:
         raise EditRefused(name, f"cannot be written: {reason_of(error)}") from error

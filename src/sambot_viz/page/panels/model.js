@@ -47,6 +47,7 @@ export function ModelPanel() {
   return html`<div class="model">
     <${ModelNumbers} write=${editor ? () => editor.write() : undefined} />
     <${Files} editor=${editor} open=${content?.file} expanded=${expanded} expand=${expand} />
+    <${NewFile} />
     ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
     <${Conflict} content=${content} />
     <${Called} file=${content?.file} />
@@ -96,6 +97,27 @@ function Called({ file }) {
     <span>A macro makes ${link}; it is called in ${call}.</span>
     <button onClick=${() => act("model/call", [link])}>Go to the call</button>
   </div>`;
+}
+
+/** Asks for the name of a new file, where files may be added. */
+function NewFile() {
+  const may = useCommand("model/create");
+  const [asks, setAsks] = useState(false);
+  if (!may) return null;
+  if (!asks)
+    return html`<div class="new-file"><button class="flat" onClick=${() => setAsks(true)}>
+      New file…</button></div>`;
+  const create = (/** @type {Event} */ event) => {
+    event.preventDefault();
+    const field = /** @type {HTMLFormElement} */ (event.target).querySelector("input");
+    act("model/create", [/** @type {any} */ (field).value.trim()]);
+    setAsks(false);
+  };
+  return html`<form class="new-file" onSubmit=${create}>
+    <input class="field" autofocus required maxlength="60" spellcheck=${false} autocomplete="off"
+      aria-label="Name of the new file" placeholder="launch/robot.launch.py" />
+    <button type="submit">Create</button>
+    <button type="button" onClick=${() => setAsks(false)}>Cancel</button></form>`;
 }
 
 /** What another program has saved meanwhile. @param {{content: any}} props */

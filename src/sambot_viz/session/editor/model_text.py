@@ -303,6 +303,26 @@ class ModelText:
         buffer.saved(data)
         self._tell()
 
+    @property
+    def can_create(self) -> bool:
+        """Whether users may add files."""
+        return self._edits is not None and self._files.folder is not None
+
+    def create(self, name: str) -> None:
+        """Write an empty file.
+
+        Args:
+            name: as for `ModelFiles.new`.
+
+        Raises:
+            UsageError: it may not be written, or there are too many.
+            EditRefused: it cannot be written.
+        """
+        if self._edits is None or len(self._paths) >= limits.EDITED_FILES.value:
+            raise UsageError("no file can be added here")
+        self._edits.save(self._files.new(name), None, b"")
+        self._find()
+
     # What follows
 
     def _tell(self, *, loads: bool = True) -> None:
@@ -359,6 +379,7 @@ class ModelText:
         found: list[Path] = [self._files.model, *self._loader.suspects]
         found += () if robot is None else robot.files
         found += sorted(self._checks.files.value)
+        found += self._files.others()
         for problem in self._problems.of_newest:
             found += () if problem.file is None else (Path(problem.file),)
         named = self._files.named(dict.fromkeys(found))
@@ -372,6 +393,7 @@ class ModelText:
 
     def _look(self) -> None:
         """Compare with the disk what another program may have saved."""
+        self._find()
         looked = [buffer.look() for buffer in self._buffers.values()]
         if self._was_other:
             # The server follows its own model only.
