@@ -42,8 +42,8 @@ def test_a_student_comes_with_a_name_and_finds_the_text_again(
 ) -> None:
     with a_class(folder) as room, closing(Browser(room)) as ada:
         assert "<title>" in ada.get("").text and not ada.cookie
-        got = ada.join(" Ada  Löv ")
-        assert (got.status, got.text) == (200, "Ada Löv")
+        got = ada.join(" Ada  李雷ğ ")
+        assert (got.status, got.text) == (200, "Ada 李雷ğ")
         cookie = got.headers["Set-Cookie"]
         assert "HttpOnly" in cookie and "SameSite=Lax" in cookie
         page = ada.page()
@@ -53,9 +53,11 @@ def test_a_student_comes_with_a_name_and_finds_the_text_again(
         other.act("model/show", True)
         other.wait_until(lambda: (shown(other, "model/text") or {}).get("text"))
         assert shown(other, "model/text")["text"] == WRONG
-        page.wait_until(lambda: people(page) == {"Ada Löv": True, "Ada Löv 2": True})
+        page.wait_until(
+            lambda: people(page) == {"Ada 李雷ğ": True, "Ada 李雷ğ 2": True}
+        )
     # What was not written yet is at the end of the program.
-    assert (folder / "Ada-Löv" / MODEL).read_text() == WRONG
+    assert (folder / "Ada-李雷ğ" / MODEL).read_text() == WRONG
     with a_class(folder) as room, closing(Browser(room, cookie=ada.cookie)) as again:
         page = again.page()
         page.act("model/show", True)
@@ -86,6 +88,32 @@ def test_what_is_typed_is_saved_by_itself_and_counts(
         steps = lambda: shown(page, "lesson/steps")["steps"]  # noqa: E731
         page.wait_until(lambda: [step["passed"] for step in steps()] == [True, False])
         assert not shown(page, "model/text")["changed"]
+
+
+def test_a_student_adds_a_file_in_the_own_folder_only(
+    room: Classroom, folder: Path
+) -> None:
+    with closing(Browser(room)) as ada, closing(Browser(room, teaches=True)) as teacher:
+        ada.join("Ada")
+        page, seen = ada.page(), teacher.page("/student/1/")
+        page.act("model/show", True)
+        for name in ("../Bob/x.urdf", "/x.urdf", ".x.urdf", "a/.b/x.py", "x.sh", MODEL):
+            number = (shown(page, "notice") or {}).get("number", 0)
+            page.act("model/create", name)
+            page.wait_until(
+                lambda n=number: (shown(page, "notice") or {}).get("number", 0) > n
+            )
+        seen.act("model/create", "b.urdf")
+        seen.wait_until(lambda: noticed(seen))
+        page.act("model/create", "launch/go.launch.py")
+        page.wait_until(
+            lambda: (shown(page, "model/text") or {})["file"] == "launch/go.launch.py"
+        )
+        write(page, "import x\n")
+        file = folder / "Ada" / "launch" / "go.launch.py"
+        page.wait_until(lambda: file.read_text() == "import x\n")
+        files = {path.name for path in folder.rglob("*") if path.is_file()}
+        assert files == {".sambot-class.json", MODEL, "go.launch.py"}
 
 
 def test_the_board_follows_each_student(room: Classroom) -> None:

@@ -126,13 +126,13 @@ class Browser:
                 yield json.loads(line.removeprefix(b"data: "))
 
 
-def write(client: ProtocolClient, text: str, name: str = MODEL) -> None:
+def write(client: ProtocolClient, text: str) -> None:
     """Type a whole text in a page."""
     client.act("model/show", True)
     client.wait_until(lambda: shown(client, "model/text") is not None)
     before = shown(client, "model/text")
     length = len(before["text"].encode("utf-16-le")) // 2
-    client.act("model/type", name, before["version"], 0, length, text, False)
+    client.act("model/type", before["file"], before["version"], 0, length, text, False)
     client.wait_until(lambda: shown(client, "model/text")["text"] == text)
 
 

@@ -24,8 +24,10 @@ HEAD_TIME = 10.0
 """A request is there after so long, or the connection ends [s]."""
 _END = b"\r\n\r\n"
 _BLOCK = 64 * 1024
+NAME_HEADER = "X-Sambot-Name"
+"""Tells a seat who opens a page; only the program of the class reaches it."""
 _PRIVATE = frozenset(
-    {"authorization", "cookie", "connection", "upgrade", "x-sambot-name"}
+    {"authorization", "cookie", "connection", "upgrade", NAME_HEADER.lower()}
 )
 """Headers that say who somebody is; the rest goes on as it came."""
 
@@ -71,22 +73,18 @@ def on_behalf(request: Request, path: str, secret: str, name: str) -> bytes:
         request: as it came.
         path: below the address of the seat.
         secret: lets it in there.
-        name: who it is.
-
-    Raises:
-        UnicodeEncodeError: its path or a header is no text.
+        name: who it is, in letters of any script.
     """
-    headers = Headers()
-    for key, value in request.headers.raw_items():
-        if key.lower() not in _PRIVATE:
-            headers[key] = value
     upgrade = request.headers.get("Upgrade", "")
-    headers["Connection"] = "Upgrade" if upgrade else "close"
-    if upgrade:
-        headers["Upgrade"] = upgrade
-    headers["Authorization"] = f"Bearer {secret}"
-    headers["X-Sambot-Name"] = name
-    return Request(path, headers).serialize()
+    kept = (
+        pair for pair in request.headers.raw_items() if pair[0].lower() not in _PRIVATE
+    )
+    lines = [f"{key}: {value}" for key, value in kept]
+    lines += ["Connection: Upgrade", f"Upgrade: {upgrade}"] if upgrade else []
+    lines += [f"Authorization: Bearer {secret}", f"{NAME_HEADER}: {name}"]
+    head = "\r\n".join([f"GET {path} HTTP/1.1", *lines, "", ""])
+    # What was no text in the request is the same bytes again.
+    return head.encode(errors="surrogateescape")
 
 
 async def pipe(

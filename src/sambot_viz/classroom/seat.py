@@ -12,6 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
+from sambot_viz.classroom.requests import NAME_HEADER
 from sambot_viz.classroom.seat_state import SeatState
 from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.inputs import Inputs
@@ -29,8 +30,6 @@ REST = 2.0
 """A text is written when nothing was typed for so long [s] …"""
 LONGEST = 10.0
 """… and after so long in any case [s]."""
-NAME_HEADER = "X-Sambot-Name"
-"""Says who opens a page; only the program of the class reaches the server."""
 
 
 class Seat:

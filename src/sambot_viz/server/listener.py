@@ -135,20 +135,24 @@ def page_url(
     host = host or _ANYWHERE.get(options.host, options.host)
     name = f"[{host}]" if ":" in host else host
     path = "" if options.base_path == "/" else options.base_path
-    base = f"http://{name}:{port}{path}{below}"
-    return with_secret(base, options, presenter=presenter)
+    base = f"http://{name}:{port}{path}"
+    return with_secret(base, options, below, presenter=presenter)
 
 
-def with_secret(base: str, options: Options, *, presenter: bool = False) -> str:
+def with_secret(
+    base: str, options: Options, below: str = "", *, presenter: bool = False
+) -> str:
     """Return the address of a page with its secret, under a name that says whose it is.
 
-    Two links that look alike end up in the wrong chat.
+    Two links that look alike end up in the wrong chat. What is below has no slash at
+    its end: so a browser sends the cookie of the answer to all that is beside it.
     """
     secret = options.presenter if presenter else options.token
     if secret is None:
-        return base
+        return f"{base}{below}"
     name = "token" if options.presenter is None else "view"
-    return f"{base.rstrip('/')}/?{'present' if presenter else name}={secret}"
+    place = f"{base.rstrip('/')}{below or '/'}"
+    return f"{place}?{'present' if presenter else name}={secret}"
 
 
 def public_url(
@@ -164,8 +168,8 @@ def public_url(
     if not options.allowed_origins:
         return None
     path = "" if options.base_path == "/" else options.base_path
-    base = f"{options.allowed_origins[0]}{path}{below}"
-    return with_secret(base, options, presenter=presenter)
+    base = f"{options.allowed_origins[0]}{path}"
+    return with_secret(base, options, below, presenter=presenter)
 
 
 def reachable_at(host: str) -> str:

@@ -74,7 +74,7 @@ function FromTeacher() {
       <button onClick=${() => setRead(said.number)}>Close</button></p>`
   }${
     said.link
-      ? html`<p class="teacher" role="status">The teacher shows
+      ? html`<p class="teacher" role="status">The teacher shows${" "}
           <a href=${home + said.link} target="_blank">the robot of ${said.name}</a>.</p>`
       : said.name && html`<p class="teacher" role="status">Your robot is shown to all.</p>`
   }`;
