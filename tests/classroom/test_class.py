@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 import zipfile
 from collections.abc import Iterator
 from contextlib import closing, suppress
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from a_class import MODEL, Browser, a_class, shown, write
+from lesson_files import BASE
 from patience import until
 from protocol_client import ProtocolClient
 from websockets.exceptions import InvalidStatus
@@ -178,6 +180,22 @@ def test_the_teacher_looks_over_the_shoulder_and_changes_nothing(
             )
         assert shown(page, "model/text")["text"] == RIGHT
         page.wait_until(lambda: people(page) == {"Ada": True, "Teacher": False})
+
+
+def test_a_student_cannot_send_the_teacher_away(room: Classroom) -> None:
+    with closing(Browser(room)) as ada, closing(Browser(room, teaches=True)) as teacher:
+        ada.join("Ada")
+        page, seen = ada.page(), teacher.page("/student/1/")
+        page.wait_until(lambda: "Teacher" in people(page))
+        rows = page.rows.values()
+        client = next(r["client"] for r in rows if r.get("name") == "Teacher")
+        for command in ("role/remove", "role/give"):
+            before = (shown(page, "notice") or {}).get("number", 0)
+            page.act(command, client)
+            page.wait_until(
+                lambda n=before: (shown(page, "notice") or {}).get("number", 0) > n
+            )
+        assert people(page) == {"Ada": True, "Teacher": False} and not seen.closed
 
 
 def test_a_page_is_shown_to_all_and_no_longer(room: Classroom) -> None:
@@ -363,6 +381,71 @@ def test_a_process_that_has_died_is_made_again(room: Classroom, folder: Path) ->
         again = ada.page()
         again.act("model/show", True)
         again.wait_until(lambda: (shown(again, "model/text") or {}).get("text"))
+
+
+def test_what_is_too_long_is_not_taken_and_nothing_else_is_lost(
+    room: Classroom,
+) -> None:
+    with closing(Browser(room)) as ada:
+        ada.join("Ada")
+        page = ada.page()
+        write(page, RIGHT)
+        text = shown(page, "model/text")
+        at, version = len(text["text"]), text["version"]
+        # A page sends what was pasted in pieces; more than a file may have is refused.
+        piece = "<!--" + "x" * 9_900 + "-->"
+        for number in range(110):
+            start = at + number * len(piece)
+            page.act("model/type", MODEL, version + number, start, start, piece, True)
+        page.wait_until(lambda: "at most are taken" in noticed(page), 30.0)
+        assert len(shown(page, "model/text")["text"]) < 1_000_000
+        write(page, RIGHT)
+
+
+def test_many_save_at_the_same_time(room: Classroom, folder: Path) -> None:
+    students = [Browser(room) for _ in range(8)]
+    try:
+        for number, browser in enumerate(students):
+            browser.join(f"S{number}")
+        pages = [browser.page() for browser in students]
+        for page in pages:
+            write(page, RIGHT)
+            page.act("model/save", MODEL)
+        for number, page in enumerate(pages):
+            file = folder / f"S{number}" / MODEL
+            page.wait_until(lambda f=file: f.read_text() == RIGHT, 30.0)
+    finally:
+        for browser in students:
+            browser.close()
+
+
+def test_a_text_that_cannot_be_saved_is_told(room: Classroom, folder: Path) -> None:
+    with closing(Browser(room)) as ada, closing(Browser(room, teaches=True)) as teacher:
+        ada.join("Ada")
+        page = ada.page()
+        file = folder / "Ada" / MODEL
+        page.act("model/show", True)
+        page.wait_until(lambda: shown(page, "model/text") is not None)
+        file.unlink()
+        file.mkdir()
+        events = teacher.rows()
+        next(events)
+        write(page, RIGHT)
+        row = next(e["row"] for e in events if e["row"]["trouble"])
+        assert row["trouble"].startswith("not saved: ")
+
+
+def test_a_lesson_that_is_changed_meanwhile_stays_as_it_was(tmp_path: Path) -> None:
+    lesson = tmp_path / "lesson"
+    shutil.copytree(BASE, lesson)
+    with a_class(tmp_path / "class", lesson) as room:
+        with closing(Browser(room)) as ada, closing(Browser(room)) as bob:
+            ada.join("Ada")
+            ada.page()
+            (lesson / "lesson.yaml").write_text("steps: [")
+            bob.join("Bob")
+            page = bob.page()
+            assert shown(page, "lesson/text")["title"] == "The body"
 
 
 def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:

@@ -191,7 +191,7 @@ class OwnRolePanel(Panel):
 
     def offers(self, command_id: str) -> bool:
         """Tell whether the browser has joined, and may have what it asks for."""
-        asks = command_id in ("role/request", "role/give")
+        asks = command_id in ("role/request", "role/give", "role/remove")
         return self._id in self._roles.people and (self._roles.may_ask or not asks)
 
     @contextmanager

@@ -18,8 +18,9 @@ import { useCommand } from "../state.js";
 export function PeopleList({ now, close }) {
   const { state, me, people, requests } = now;
   const canInvite = useCommand("people/invite");
+  const canAsk = useCommand("role/request");
   return html`
-    ${state.presented && !me.presenter && html`<${Control} now=${now} close=${close} />`}
+    ${state.presented && !me.presenter && canAsk && html`<${Control} now=${now} close=${close} />`}
     <ul aria-label="Everyone">${people.map(
       (person) => html`<${PersonRow} key=${person.id} person=${person} now=${now} />`,
     )}</ul>
@@ -48,8 +49,9 @@ export function PeopleList({ now, close }) {
 function PersonRow({ person, now: { state, me } }) {
   const [renaming, setRenaming] = useState(false);
   const { client, name } = person;
+  const canGive = useCommand("role/give");
   const own = client === me.client,
-    leads = state.presented && me.presenter && !person.presenter;
+    leads = canGive && state.presented && me.presenter && !person.presenter;
   const said = state.presented
     ? person.presenter
       ? name.startsWith("Presenter")

@@ -8,6 +8,7 @@ import { act } from "../wire/channel.js";
 import { PeopleList } from "../dialogs/people.js";
 import { Icon } from "./icons.js";
 import { Popup } from "./popup.js";
+import { useCommand } from "../state.js";
 import { ownName, peopleOpen, usePeople } from "./users.js";
 
 /**
@@ -113,6 +114,8 @@ export function Asking() {
 /** One click requests control; what has been requested is cancelled in the dialog.
  * @param {{me: Me}} props */
 function ViewOnly({ me }) {
+  const may = useCommand("role/request");
+  if (!may) return html`<span class="chip">View only</span>`;
   const click = () => (me.requests ? peopleOpen.set(true) : act("role/request", [ownName.value]));
   return html`<button class="chip" onClick=${click}>
     ${me.requests ? "View only · Control requested" : "View only · Request control"}</button>`;

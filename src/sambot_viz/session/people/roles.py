@@ -53,7 +53,8 @@ class Roles:
     Args:
         presented: whether only presenters, and those to whom they give control, may
             change the session.
-        may_ask: whether others may request control.
+        may_ask: whether others may request control; where they may not, presenters
+            neither give it to them nor remove or rename them.
 
     Attributes:
         changed: who is there, and who has or requests control.
@@ -227,7 +228,6 @@ class Roles:
             UsageError: only presenters may, and only to who is there.
         """
         person = self._viewer(presenter_id, client_id)
-        self._require_asking()
         self._key_of_control = ""
         for other in self._people.values():
             other.has_control = other.presenter
@@ -289,6 +289,7 @@ class Roles:
 
     def _viewer(self, presenter_id: int, client_id: int) -> Participant:
         self._check_presenter(presenter_id)
+        self._require_asking()
         person = self._people.get(client_id)
         if person is None or person.presenter:
             raise UsageError("this viewer has left")
