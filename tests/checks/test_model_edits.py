@@ -196,3 +196,73 @@ def test_base_footprint_between_the_wheels_is_only_noted(tmp_path: Path) -> None
     path.write_text(URDF.replace('"0 0 0.15"', '"0 0 0.05"'))
     (problem,) = (p for p in check(path) if p.code == "wheel-not-on-ground")
     assert problem.severity == "info"
+
+
+CONTROL = """\
+  <ros2_control name="sim" type="system">
+    <hardware>
+      <plugin>gz_ros2_control/GazeboSimSystem</plugin>
+    </hardware>
+    <joint name="left_wheel_joint">
+      <command_interface name="velocity"/>
+      <state_interface name="position"/>
+    </joint>
+    <joint name="right_wheel_joint">
+      <command_interface name="velocity"/>
+      <state_interface name="position"/>
+    </joint>
+  </ros2_control>
+</robot>
+"""
+CLASSIC = """\
+  <gazebo reference="base_link">
+    <sensor name="laser" type="ray">
+      <plugin name="laser" filename="libgazebo_ros_ray_sensor.so">
+        <output_type>sensor_msgs/LaserScan</output_type>
+        <frame_name>base_link</frame_name>
+      </plugin>
+    </sensor>
+  </gazebo>
+</robot>
+"""
+INTERFACE, PLUGIN = "control-interface", "gazebo-plugin"
+
+
+@pytest.mark.parametrize(
+    ("part", "right", "wrong", "code"),
+    [
+        (CONTROL, "velocity", "velosity", INTERFACE),
+        (CONTROL, "GazeboSim", "GazebboSim", INTERFACE),
+        (CONTROL, 'type="system"', 'type="sytem"', INTERFACE),
+        (CONTROL, '"right_wheel_joint">', '"left_wheel_joint">', INTERFACE),
+        (CONTROL, "state_interface name", "stat_interface name", "element-misspelt"),
+        (CONTROL, "state_interface name", "state_interface nAme", "attribute-misspelt"),
+        (CLASSIC, "_ray_sensor.so", "_raysensor.so", PLUGIN),
+        (CLASSIC, "sensor_msgs/", "sensor_msgs/msg/", PLUGIN),
+        (CLASSIC, "frame_name>base", "frameName>base", "gazebo-element-unknown"),
+        (CLASSIC, "name>base_link", "name>link_base", "frame-unknown"),
+    ],
+)
+def test_the_edit_brings_parts_for_the_simulator_back(
+    tmp_path: Path, part: str, right: str, wrong: str, code: str
+) -> None:
+    path = tmp_path / "cart.urdf"
+    text = URDF[: URDF.index("  <gazebo")] + part
+    path.write_text(text)
+    assert [p for p in check(path) if p.severity != "info"] == []
+    times = 2 if "frameName" in wrong else 1
+    changed = text.replace(right, wrong, times)
+    changed = changed.replace("</frame_name", "</frameName") if times == 2 else changed
+    path.write_text(changed)
+    (problem,) = (p for p in check(path) if p.severity != "info")
+    assert problem.code == code
+    path.write_bytes(edited_files(problem.edits)[str(path)])
+    assert path.read_text() == text
+
+
+def test_a_part_that_nothing_reads_has_to_be_xml(tmp_path: Path) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>cart</name></package>")
+    (tmp_path / "cart.urdf").write_text(URDF)
+    (tmp_path / "arm.xacro").write_text("<robot><link></robot>")
+    found = [p for p in check(tmp_path) if p.code == "xml-tag-not-closed"]
+    assert [p.file for p in found] == [str(tmp_path / "arm.xacro")]

@@ -8,6 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.classic_plugins import (
+    unknown_libraries,
+    words_of_plugins,
+)
+from sambot_viz.checks.around.control_words import words_of_control
 from sambot_viz.checks.around.drives import misspelt_elements, wrong_sides
 from sambot_viz.checks.around.joint_names import unknown_joints, unknown_references
 from sambot_viz.checks.around.sensors import (
@@ -42,10 +47,20 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     sensor_values,
     misspelt_frames,
     frames_of_sensors,
+    unknown_libraries,
+    words_of_plugins,
+    words_of_control,
 )
 """The rules."""
 
 IN_MODEL_OF_ROS2: frozenset[Callable[[Robot], Iterable[Problem]]] = frozenset(
-    {misspelt_elements, both_generations, unknown_systems, lidars_of_the_other}
+    {
+        misspelt_elements,
+        both_generations,
+        unknown_systems,
+        lidars_of_the_other,
+        unknown_libraries,
+        words_of_plugins,
+    }
 )
 """Those that know only what Gazebo for ROS 2 reads."""

@@ -175,6 +175,7 @@ from sambot_viz.checks.around.unreadable import (
     missing_key,
     misspelt_key,
     unreadable_launch_files,
+    unreadable_models,
     unreadable_python,
     unreadable_yaml,
 )
@@ -191,6 +192,7 @@ Check = Callable[[Surroundings], Iterable[Problem]]
 """A rule about packages."""
 
 OF_BUILD: tuple[Check, ...] = (
+    unreadable_models,
     unreadable_cmake,
     unreadable_manifest,
     incomplete_manifest,

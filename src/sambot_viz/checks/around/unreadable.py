@@ -235,3 +235,16 @@ def _unclosed(shown: str, tag: str, line: int, before: str) -> Problem:
         "stops with it",
         f"write </{tag}> at its end, or /> in place of > if it has nothing inside",
     )
+
+
+def unreadable_models(around: Surroundings) -> Iterator[Problem]:
+    """Report models and their parts that are no XML, also those that nothing reads."""
+    for package in around.packages:
+        for path in package.ending(".xacro", ".urdf"):
+            text, shown = package.text(path), package.shown(path)
+            try:
+                parse_xml(text or "<robot/>", shown)
+            except XmlFault as fault:
+                from sambot_viz.robot.xml.diagnose.explain_xml import explain_xml
+
+                yield from explain_xml(text or "", shown, fault)

@@ -1,0 +1,135 @@
+"""Words of <ros2_control>: elements, interfaces, hardware, and joints given twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sambot_viz.checks.around.place import where
+from sambot_viz.edits import write, write_attribute
+from sambot_viz.errors import Fix, Problem, nearest
+from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.misspelt import find_slips
+from sambot_viz.robot.slips.slip_words import slip_in_words
+from sambot_viz.robot.slips.vocabulary import Vocabulary, Word, is_one_slip
+from sambot_viz.robot.xml.element import Element
+
+_CODE = "control-interface"
+_PARTS = "command_interface state_interface param"
+_WORDS = Vocabulary(
+    "ros2_control",
+    {
+        "ros2_control": Word(
+            "name type rw_rate is_async thread_priority",
+            "hardware",
+            "joint sensor gpio",
+            "transmission async",
+        ),
+        "hardware": Word("", "plugin", "param", "group properties"),
+        "joint": Word("name mimic", many=_PARTS, also="limits properties"),
+        "sensor": Word("name", many=_PARTS, also="limits properties"),
+        "gpio": Word("name", many=_PARTS, also="limits properties"),
+        "command_interface": Word("name data_type size", many="param", also="limits"),
+        "state_interface": Word("name data_type size", many="param", also="limits"),
+        "param": Word("name"),
+    },
+)
+_INTERFACES = ("position", "velocity", "effort", "acceleration")
+_TYPES = ("system", "actuator", "sensor")
+_HARDWARE = (
+    "gazebo_ros2_control/GazeboSystem",
+    "gz_ros2_control/GazeboSimSystem",
+    "ign_ros2_control/IgnitionSystem",
+    "mock_components/GenericSystem",
+    "fake_components/GenericSystem",
+    "topic_based_ros2_control/TopicBasedSystem",
+)
+"""Hardware that needs no code of one's own."""
+
+
+def words_of_control(robot: Robot) -> Iterator[Problem]:
+    """Report what ros2_control does not know, and was meant to be what it knows."""
+    for part in robot.gazebo:
+        if part.tag != "ros2_control":
+            continue
+        for slip in find_slips(part, _WORDS):
+            said = slip_in_words(slip, False)
+            message = said.message.replace("ROS ignores", "ros2_control does not read")
+            yield Problem.at(
+                slip.element.place, "warning", said.code, message, said.hint
+            )
+        yield from _attribute(part, "type", _TYPES, "ros2_control knows no type")
+        for joint in part.find_all("joint"):
+            for interface in joint.children:
+                if interface.tag in ("command_interface", "state_interface"):
+                    what = f"joints have no {interface.tag.replace('_', ' ')}"
+                    yield from _attribute(interface, "name", _INTERFACES, what)
+        yield from _hardware(part)
+        yield from _twice(part, robot)
+
+
+def _attribute(
+    element: Element, name: str, known: tuple[str, ...], what: str
+) -> Iterator[Problem]:
+    said = element.get(name) or ""
+    near = [word for word in known if is_one_slip(said.strip().lower(), word)]
+    if said and said not in known and len(near) == 1:
+        yield Problem.at(
+            element.place,
+            "warning",
+            _CODE,
+            f"{what} {said}: the controllers of the joint do not start",
+            write_attribute(element.place, name, said, near[0]),
+        )
+
+
+def _hardware(part: Element) -> Iterator[Problem]:
+    for hardware in part.find_all("hardware"):
+        for plugin in hardware.find_all("plugin"):
+            said = plugin.text.strip()
+            near = [known for known in _HARDWARE if is_one_slip(said, known)]
+            if near and said not in _HARDWARE:
+                yield Problem.at(
+                    plugin.place,
+                    "warning",
+                    _CODE,
+                    f"there is no hardware {said}, but {near[0]}: no controller gets "
+                    "the joints",
+                    write(plugin.place, said, near[0]),
+                )
+
+
+def _twice(part: Element, robot: Robot) -> Iterator[Problem]:
+    """Report joints that one <ros2_control> has twice."""
+    first: dict[str, Element] = {}
+    for joint in part.find_all("joint"):
+        name = joint.get("name") or ""
+        other = first.setdefault(name, joint)
+        if other is joint or other.place == joint.place:
+            continue
+        taken = {each.get("name") for each in part.find_all("joint")}
+        free = [
+            each.name
+            for each in robot.joints.values()
+            if each.type != "fixed" and each.name not in taken
+        ]
+        right = free[0] if len(free) == 1 else nearest(name, free)
+        order = list(robot.joints)
+        later = (
+            right is not None
+            and name in order
+            and order.index(right) > order.index(name)
+        )
+        wrong = joint if later else other
+        here = f" for the one on line {wrong.place.line}" * (wrong is other)
+        fix = Fix("write the joint that is meant")
+        if right is not None:
+            edits = write_attribute(wrong.place, "name", name, right).edits
+            fix = Fix(f'write name="{right}"{here}', edits)
+        yield Problem.at(
+            joint.place,
+            "warning",
+            _CODE,
+            f"<ros2_control> has the joint {name} twice (see "
+            f"{where(other.place, joint.place)}): the hardware does not start",
+            fix,
+        )
