@@ -211,3 +211,20 @@ def test_a_ground_below_a_robot_may_be_large(tmp_path: Path) -> None:
     text = cart(1).replace('<link name="caster">', ground)
     assert found(tmp_path, text.format(0.001)) == []
     assert found(tmp_path, text.format(0.3)) != []
+
+
+def test_a_property_that_may_be_in_two_units_has_no_edit(tmp_path: Path) -> None:
+    text = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="width" value="{}"/>
+  <link name="a"><visual><geometry><box size="0.4 0.3 0.02"/></geometry></visual>
+    <visual><geometry><box size="0.05 0.1 0.06"/></geometry></visual></link>
+  <link name="b"><visual><geometry><cylinder radius="0.03" length="${{width}}"/>
+    </geometry></visual></link>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/>
+    <origin xyz="0.1 0 0"/></joint>
+</robot>"""
+    model = tmp_path / "r.urdf.xacro"
+    for value, number_of_edits in (("26", 0), ("250", 1)):
+        model.write_text(text.format(value))
+        (problem,) = (p for p in check(model) if p.code == "shape-size")
+        assert len(problem.edits) == number_of_edits, problem

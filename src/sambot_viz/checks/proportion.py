@@ -186,20 +186,15 @@ def _properties(
                 clues = _clues(subject.robot, used, abs(value), factor, small)
                 if _UNIT_IN_NAME.search(f"{name} {token.get('units') or ''}"):
                     clues = clues | {"name"}
-                yield _problem(
-                    token_place(source, file, token),
-                    f"the property {name} is {text} m",
-                    usual,
-                    unit,
-                    write_attribute(
-                        token_place(source, file, token),
-                        "value",
-                        text,
-                        number(value * factor),
-                        hint=f'write metres: value="{number(value * factor)}"',
-                    ),
-                    clues,
-                )
+                certain = _is_certain(clues, used, abs(value), usual, small)
+                place = token_place(source, file, token)
+                right = number(value * factor)
+                hint = f'write metres: value="{right}"'
+                fix = write_attribute(place, "value", text, right, hint=hint)
+                what = f"the property {name} is {text} m"
+                other = number(value * min(UNITS.values()))
+                fix = fix if certain else Fix(f"{hint}, or {other} if in millimetres")
+                yield _problem(place, what, usual, unit, fix, clues)
 
 
 def _names(files: SourceSet, place: Place | None, name: str) -> bool:
@@ -232,6 +227,7 @@ def _single(
         unit, factor = _unit(element, element.largest, usual)
         metres = (v * factor if abs(v) > usual else v for v in element.values)
         written = " ".join(map(number, element.values))
+        clues = _clues(robot, element, element.largest, factor, small)
         edits = _in_metres(subject, element, usual, factor)
         yield _problem(
             element.place,
@@ -241,7 +237,7 @@ def _single(
             Fix(
                 f"write metres: {' '.join(map(number, metres))}{element.advice}", edits
             ),
-            _clues(robot, element, element.largest, factor, small),
+            clues,
         )
 
 
@@ -278,6 +274,16 @@ def _unit(element: _Written, length: float, usual: float) -> tuple[str, float]:
     most = _CARRIES * usual if element.carries else usual
     units = list(UNITS.items())
     return next((unit for unit in units if length * unit[1] <= most), units[-1])
+
+
+def _is_certain(
+    clues: Clues, element: _Written, length: float, usual: float, small: Set[float]
+) -> bool:
+    """Tell whether only one unit gives a length like the others of the robot."""
+    most = _CARRIES * usual if element.carries else usual
+    least = min(small, default=0.0)
+    fitting = [f for f in UNITS.values() if least <= length * f <= most]
+    return len(fitting) < 2 or "same elsewhere" in clues
 
 
 def _problem(

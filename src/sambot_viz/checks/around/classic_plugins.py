@@ -65,7 +65,8 @@ def _elements(plugin: Plugin, known: tuple[str, ...]) -> Iterator[Problem]:
         if child.tag in known or len(near) != 1 or near[0] in present:
             continue
         # Names of ROS 1, in other letters, have most often the value of the default.
-        habit = re.sub("_", "", near[0]) == child.tag.lower() and "frame" not in near[0]
+        habit = re.sub("_", "", near[0]) == child.tag.lower()
+        habit &= "frame" not in near[0] or child.text.strip() == plugin.link
         yield Problem.at(
             child.place,
             "info" if habit else "warning",
