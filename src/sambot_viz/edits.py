@@ -253,6 +253,23 @@ def _is_bracketed(text: str) -> bool:
     return text[:1] == "(" and text[-1:] == ")" and "(" not in text[1:]
 
 
+def exchange_attributes(place: Place, one: str, other: str) -> tuple[Edit, ...]:
+    """Return the edits that exchange the values of two attributes, as they are written.
+
+    Args:
+        place: where the element begins.
+        one: an attribute.
+        other: another.
+    """
+    found = _tag_at(place)
+    if found is None or not {one, other} <= found[1].values.keys():
+        return ()
+    source, tag = found
+    here, there = tag.values[one], tag.values[other]
+    first, second = source.text[slice(*here)], source.text[slice(*there)]
+    return source.edit(place, here, second), source.edit(place, there, first)
+
+
 def exchange_parts(
     place: Place | None, name: str, one: int, other: int
 ) -> tuple[Edit, ...]:

@@ -44,6 +44,11 @@ INERTIA = '<inertial><mass value="1"/><inertia {}/></inertial>'
             "</visual></link>",
         ),
         ('<link name="a"/></link>', '<link name="a"/>'),
+        (
+            '<link name="a"><visual><sphere radius="1"/></geometry></visual></link>',
+            '<link name="a"><visual><geometry><sphere radius="1"/></geometry></visual>'
+            "</link>",
+        ),
         ('<link name="a"/></robot>\n<material name="m"/>', None),
         (
             f'<link name="a">{INERTIA}</link>'.format(

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.rule import Subject, number
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import exchange_attributes
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.parts import Cylinder, Inertial, Link, Shape
 
 _ALIKE = 1e-3
@@ -58,7 +59,10 @@ def _of_shapes(link: Link) -> Problem | None:
         f"{number(bad.radius)} and the length {number(bad.length)}, and its {names[1]} "
         f"({where(beside.geometry_place or beside.place, place)}) has the two numbers "
         "the other way round",
-        f"write {right}, as the inertia has it"
+        Fix(
+            f"write {right}, as the inertia has it",
+            exchange_attributes(place, "radius", "length") if place else (),
+        )
         if of_visual or of_other
         else "exchange radius and length in the one that is wrong",
     )

@@ -94,6 +94,7 @@ _CAUSES: tuple[Rule, ...] = (
     lengths_not_in_metres,
     wheels_across_their_axles,
     flat_wheels,
+    exchanged_lengths,
     unlike_twins,
     wheels_off_the_ground,
 )

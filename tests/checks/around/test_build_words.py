@@ -120,6 +120,9 @@ CASES = [
     (SETUP, "share/robot/launch", "share/robto/launch", "installed into share/robto"),
     (SETUP, "glob('launch/*.py')", "glob('launch/')", "launch, which is a folder"),
     (SETUP, "['package.xml']),", "['package.xml'])", "a comma is missing"),
+    (MANIFEST, "type>ament_cmake", "type>catkin", "is the build type of ROS 1"),
+    (SETUP, "    name='robot',\n", "", "setup( … ) is given no name"),
+    (SETUP, ", ['resource/robot'])", ")", "alone, and no list of files"),
     (SETUP, "'drive = ", "'drive ", "no = between a program and its function"),
     (SETUP, "robot.drive:main", "robot.drive.py:main", "has dots and no .py"),
     (SETUP, "robot.drive:main", "robot/drive:main", "has dots and no .py"),
@@ -168,6 +171,25 @@ def test_a_mistake_in_a_build_file_is_undone_by_its_edit(
     (problem,) = check(package)
     assert cause in problem.message
     assert undone(package, problem, file) == []
+
+
+def test_the_name_of_a_variable_in_quotation_marks(tmp_path: Path) -> None:
+    package = written(tmp_path / "robot", IN_PYTHON)
+    text = "package_name = 'robot'\n" + IN_PYTHON[SETUP].replace(
+        "'share/robot/launch'", "'share/' + 'package_name' + '/launch'"
+    )
+    (package / SETUP).write_text(text)
+    problem = next(p for p in check(package) if "quotation marks" in p.message)
+    assert undone(package, problem, SETUP) == []
+
+
+def test_a_name_that_only_package_xml_has_is_the_wrong_one(tmp_path: Path) -> None:
+    package = written(tmp_path / "robot", IN_PYTHON)
+    text = IN_PYTHON[MANIFEST].replace("<name>robot<", "<name>my-robot<")
+    (package / MANIFEST).write_text(text)
+    (problem,) = check(package)
+    assert (problem.code, problem.file) == ("setup-py-name", str(package / MANIFEST))
+    assert undone(package, problem, MANIFEST) == []
 
 
 def test_an_element_that_is_misspelt_is_not_missing_too(tmp_path: Path) -> None:

@@ -82,7 +82,11 @@ def built_wrongly(package: Package, robot: Robot | None) -> Iterator[Problem]:
     if package.setup is not None and not package.is_ros1:
         # The import is late: most packages have no setup.py.
         from sambot_viz.checks.around.in_setup import IN_SETUP
+        from sambot_viz.checks.around.own_names import setup_name
 
+        if any(setup_name(around)):
+            # What is installed under another name follows from that.
+            return
         for rule in IN_SETUP:
             yield from rule(package.setup, around)
 

@@ -83,7 +83,7 @@ def _of_ros(name: str) -> str | None:
         if is_one_slip(plain, known) or plain.replace("-", "_") == known
     ]
     is_digit = len(near) == 1 and any(c.isdigit() for c in {*name} ^ {*near[0]})
-    return near[0] if len(near) == 1 and not is_digit and len(name) > 4 else None
+    return near[0] if len(near) == 1 and not is_digit and len(name) > 3 else None
 
 
 def missing_dependencies(around: Surroundings) -> Iterator[Problem]:
@@ -163,7 +163,8 @@ def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
     found = {call.words[0].text for call in calls}
     for call in calls:
         name = call.words[0].text
-        near = _of_ros(name)
+        slips = [each for each in needed if is_one_slip(name.lower(), each)]
+        near = _of_ros(name) or (slips[0] if len(slips) == 1 else None)
         required = "REQUIRED" in (word.text for word in call.words)
         known = name in vocabulary("packages") or name in needed
         if known or near not in needed - found or not (required and call.certain):

@@ -16,9 +16,12 @@ from sambot_viz.checks.around.setup_files import (
     missing_marks,
 )
 from sambot_viz.checks.around.setup_words import (
+    loose_texts,
     malformed_entry_points,
     misspelt_arguments,
+    quoted_names,
     texts_for_lists,
+    without_name,
 )
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.errors import Problem
@@ -27,6 +30,9 @@ IN_SETUP: tuple[Callable[[SetupFile, Surroundings], Iterable[Problem]], ...] = (
     misspelt_arguments,
     joined_scripts,
     texts_for_lists,
+    loose_texts,
+    quoted_names,
+    without_name,
     malformed_entry_points,
     missing_data_files,
     missing_marks,

@@ -17,6 +17,7 @@ from sambot_viz.checks.around.files.cmake import CMakeCommand, CMakeFile, CMakeW
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.installs import Installed, Piece
 from sambot_viz.checks.around.files.launch_values import SHARE
+from sambot_viz.checks.around.own_names import setup_name
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
@@ -41,6 +42,8 @@ def not_installed(around: Surroundings) -> Iterator[Problem]:
     if any(folders_as_files(around)) or any(malformed_installs(around)):
         return
     if around.cmake is not None and around.cmake.fault is not None:
+        return
+    if around.setup is not None and any(setup_name(around)):
         return
     used: dict[str, Place] = {}
     for path, user in sorted(_used(around), key=lambda u: (u[1].file, u[1].line)):

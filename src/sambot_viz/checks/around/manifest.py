@@ -9,7 +9,7 @@ from sambot_viz import limits
 from sambot_viz.checks.around.files.manifest_repair import manifest_fault
 from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.edits import write
+from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
@@ -117,17 +117,23 @@ def _without_build_type(root: Element, around: Surroundings) -> Iterator[Problem
     if "catkin" in uses or not whole or not (by_ament or around.setup is not None):
         return
     export = root.find("export")
+    inner = export.children if export else []
+    misspelt = next((e for e in inner if is_one_slip(e.tag, "build_type")), None)
     added = f"<build_type>{kind}</build_type>"
     added = added if export else f"<export>{added}</export>"
-    here = (export or root).place
+    at = (misspelt or export or root).place
+    here = Place(around.files.shown(_FILE), at.line, at.column)
+    hint = f"add {added} inside it"
     yield Problem.at(
-        Place(around.files.shown(_FILE), here.line, here.column),
+        here,
         # A CMakeLists.txt catkin may get through, a setup.py it never does.
         "error" if cmake is None else "warning",
         "package-build-type",
         "package.xml has no <build_type>, so that colcon builds the package with "
         "catkin, the one of ROS 1" + (": colcon build stops" if cmake is None else ""),
-        f"add {added} inside it",
+        hint
+        if misspelt is None
+        else rename_element(here, misspelt.tag, "build_type", "write <build_type>"),
     )
 
 
@@ -137,7 +143,7 @@ def build_types(around: Surroundings) -> Iterator[Problem]:
     kinds = [e for e in root.iter() if e.tag == "build_type"] if root else []
     if root is not None and not kinds:
         yield from _without_build_type(root, around)
-    if len(kinds) != 1 or kinds[0].get("condition") is not None:
+    if root is None or len(kinds) != 1 or kinds[0].get("condition") is not None:
         return
     said, place = kinds[0].text.strip(), kinds[0].place
     here = Place(around.files.shown(_FILE), place.line, place.column)
@@ -147,7 +153,17 @@ def build_types(around: Surroundings) -> Iterator[Problem]:
         if around.files.text(file) is not None
     }
     near = [kind for kind in _BUILD_FILES if is_one_slip(said.lower(), kind)]
-    if near and said not in near:
+    depends = {e.text.strip() for e in root.children if e.tag.endswith("depend")}
+    if said == "catkin" and "ament_cmake" in depends - {"catkin"} and len(has) == 1:
+        yield Problem.at(
+            here,
+            "error",
+            "package-build-type",
+            "catkin is the build type of ROS 1, but the package depends on "
+            "ament_cmake: colcon build stops",
+            write(here, said, next(iter(has))),
+        )
+    elif near and said not in near:
         yield Problem.at(
             here,
             "error",

@@ -39,6 +39,9 @@ def setup_name(around: Surroundings) -> Iterator[Problem]:
         if named is None or named[0] == name:
             continue
         place = Place(around.files.shown("setup.py"), named[1])
+        if _is_right(named[0], around) and not _is_right(name or "", around):
+            yield _of_manifest(named[0], place, around)
+            return
         yield Problem.at(
             place,
             "error",
@@ -48,6 +51,28 @@ def setup_name(around: Surroundings) -> Iterator[Problem]:
             write(place, named[0], name, " here"),
         )
         return
+
+
+def _is_right(name: str, around: Surroundings) -> bool:
+    """Tell whether the files of a Python package are called after it."""
+    folder = around.files.folder
+    return (folder / f"resource/{name}").is_file() and bool(name)
+
+
+def _of_manifest(right: str, other: Place, around: Surroundings) -> Problem:
+    """Report a package.xml with another name than all other files of the package."""
+    root, name = around.manifest, around.files.name or ""
+    element = root.find("name") if root is not None else None
+    at = element.place if element is not None else Place("", 1)
+    here = Place(around.files.shown("package.xml"), at.line, at.column)
+    return Problem.at(
+        here,
+        "error",
+        "setup-py-name",
+        f"package.xml calls the package {name}, but setup.py (line {other.line}) and "
+        f"resource/{right} call it {right}: colcon and ros2 launch will not find it",
+        write(here, name, right, hint=f"write <name>{right}</name>"),
+    )
 
 
 def _assigned_name(node: ast.AST) -> tuple[str, int] | None:

@@ -32,6 +32,8 @@ _WRITING = frozenset(
     "open call check_call check_output copy copy2 copytree generate_distutils_setup "
     "makedirs mkdir Popen run symlink system touch write write_text".split()
 )
+INDEX = "share/ament_index/resource_index/packages"
+"""Where the mark of a package is installed."""
 _GLOBS = ("glob", "iglob")
 
 

@@ -9,13 +9,11 @@ from collections.abc import Iterator
 from sambot_viz.checks.around.launch_code import PREDEFINED, bound_names
 from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import rewritten, where
-from sambot_viz.checks.around.setup_file import DataFiles, EntryPoint, SetupFile
+from sambot_viz.checks.around.setup_file import INDEX, DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import parse_python
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
-
-_INDEX = "share/ament_index/resource_index/packages"
 
 
 def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
@@ -46,7 +44,7 @@ def missing_marks(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     }
     share = setup.share(name, "")
     for mark, line in (
-        (f"{_INDEX}/{name}", f"('{_INDEX}', ['resource/{name}'])"),
+        (f"{INDEX}/{name}", f"('{INDEX}', ['resource/{name}'])"),
         (f"share/{name}/package.xml", f"({share}, ['package.xml'])"),
     ):
         if mark in installed or around.cmake is not None:
@@ -92,7 +90,7 @@ def _of_folder(
 def _instead(path: str, entry: DataFiles, around: Surroundings) -> str:
     folder = posixpath.dirname(path)
     beside = [p for p in around.files.paths if posixpath.dirname(p) == folder]
-    if entry.target == _INDEX and path == f"resource/{around.files.name}":
+    if entry.target == INDEX and path == f"resource/{around.files.name}":
         if len(beside) == 1:
             return f"rename {beside[0]} to {path}"
         return f"make an empty file {path}"

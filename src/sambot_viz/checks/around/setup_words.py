@@ -9,10 +9,10 @@ from functools import partial
 
 from sambot_viz.checks.around.launching.python_parts import Listing, Table
 from sambot_viz.checks.around.place import rewritten
-from sambot_viz.checks.around.setup_file import SetupFile
+from sambot_viz.checks.around.setup_file import INDEX, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import WordKind, WrittenWord, misspelt
-from sambot_viz.edits import write
+from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem
 
 _CODE = "setup-py-code"
@@ -126,3 +126,67 @@ def _meant(text: str, around: Surroundings) -> tuple[str, str, str] | None:
             is_right = match["sign"] and match["function"] and path == each
             return None if is_right else (name, each, called)
     return None
+
+
+def quoted_names(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
+    """Report a text in data_files that is the name of a variable: 'package_name'."""
+    names = {
+        target.id
+        for step in setup.tree.body
+        if isinstance(step, ast.Assign)
+        for target in step.targets
+        if isinstance(target, ast.Name)
+    }
+    given = setup.given("data_files")
+    for node in ast.walk(given) if given is not None else ():
+        if isinstance(node, ast.Constant) and node.value in names:
+            yield Problem.at(
+                setup.place(node),
+                "error",
+                "install-destination",
+                f"{node.value} is in quotation marks, so that it is a text and not the "
+                "value of that name: nothing of it is found",
+                rewritten(node, setup.shown, str(node.value)),
+            )
+
+
+def loose_texts(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
+    """Report texts in data_files that are beside the pairs, and no files."""
+    for value, node in setup.values.items(setup.given("data_files")).items:
+        if not isinstance(value, str) or (around.files.folder / value).is_file():
+            continue
+        mark = f"resource/{around.files.name}"
+        is_index = value == INDEX and (around.files.folder / mark).is_file()
+        right = f"('{INDEX}', ['{mark}'])"
+        yield Problem.at(
+            setup.place(node),
+            "error",
+            "setup-file-missing",
+            f"data_files has {value} alone, and no list of files for it: colcon build "
+            "stops",
+            rewritten(node, setup.shown, right)
+            if is_index
+            else f"write ('{value}', [ … ]) with the files for that folder",
+        )
+
+
+def without_name(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
+    """Report a call of setup without the name of the package."""
+    call, config = setup.call, around.files.text("setup.cfg") or ""
+    if call is None or not setup.certain or not call.keywords or "name" in config:
+        return
+    if any(keyword.arg == "name" for keyword in call.keywords):
+        return
+    if (around.files.folder / "pyproject.toml").is_file():
+        return
+    first = call.keywords[0]
+    begin = Place(setup.shown, first.lineno, first.col_offset + 1)
+    written = f"name='{around.files.name}'"
+    blanks = " " * first.col_offset
+    yield Problem.at(
+        setup.place(call),
+        "error",
+        _CODE,
+        "setup( … ) is given no name: what colcon builds is not found as this package",
+        write_between(begin, begin, f"{written},\n{blanks}", f"add {written}"),
+    )

@@ -31,6 +31,12 @@ _BELONGS = {
 }
 """Element → what is in it and never beside it: then it was closed too early."""
 
+_CONTENT = {
+    "geometry": ("box", "cylinder", "sphere", "mesh"),
+    "inertial": ("mass", "inertia"),
+}
+"""Element → what is in it and in no other."""
+
 _MOST = 12
 """Most problems reported: further ones usually follow from the first."""
 
@@ -254,7 +260,21 @@ class _Walk:
             )
             message = f"</{token.name}> on line {line}{within} closes nothing"
             hint = f"delete it, or write the <{token.name}> that is missing before it"
+            content = self._content(token.name)
+            if content is not None:
+                opening = f"<{token.name}>"
+                hint = f"write {opening} before {content.shown} on line "
+                hint += str(self._line(content))
+                changes = [(content.start, content.start, opening)]
         self._add("xml-closing-tag-surplus", token.start, message, hint, *changes)
+
+    def _content(self, name: str) -> Token | None:
+        """Return the first tag that is only in an element of a name, and now is not."""
+        inner = self.stack[-1] if self.stack else None
+        own = _CONTENT.get(name, ())
+        if inner is None or inner.token.name == name:
+            return None
+        return next((child for child in inner.children if child.name in own), None)
 
     def _after_root(self, root: Token, root_end: Token, rest: list[Token]) -> None:
         """Report tags after the end of the root element."""
