@@ -121,7 +121,7 @@ CASES = [
     (SETUP, "glob('launch/*.py')", "glob('launch/')", "launch, which is a folder"),
     (SETUP, "['package.xml']),", "['package.xml'])", "a comma is missing"),
     (MANIFEST, "type>ament_cmake", "type>catkin", "is the build type of ROS 1"),
-    (SETUP, "    name='robot',\n", "", "setup( … ) is given no name"),
+    (SETUP, "name='robot'", "version='0.0.1'", "setup( … ) is given no name"),
     (SETUP, ", ['resource/robot'])", ")", "alone, and no list of files"),
     (SETUP, "'drive = ", "'drive ", "no = between a program and its function"),
     (SETUP, "robot.drive:main", "robot.drive.py:main", "has dots and no .py"),

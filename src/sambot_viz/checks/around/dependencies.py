@@ -163,7 +163,9 @@ def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
     found = {call.words[0].text for call in calls}
     for call in calls:
         name = call.words[0].text
-        slips = [each for each in needed if is_one_slip(name.lower(), each)]
+        # Packages that are not of ROS have other names there: eigen is Eigen3.
+        of_ros = [each for each in needed if "_" in each and "_" in name]
+        slips = [each for each in of_ros if is_one_slip(name, each)]
         near = _of_ros(name) or (slips[0] if len(slips) == 1 else None)
         required = "REQUIRED" in (word.text for word in call.words)
         known = name in vocabulary("packages") or name in needed

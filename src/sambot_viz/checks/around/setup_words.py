@@ -175,7 +175,8 @@ def without_name(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
     call, config = setup.call, around.files.text("setup.cfg") or ""
     if call is None or not setup.certain or not call.keywords or "name" in config:
         return
-    if any(keyword.arg == "name" for keyword in call.keywords):
+    given = {keyword.arg for keyword in call.keywords}
+    if "name" in given or "version" not in given or around.cmake is not None:
         return
     if (around.files.folder / "pyproject.toml").is_file():
         return
