@@ -12,7 +12,7 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
-from sambot_viz.errors import Fix, Problem
+from sambot_viz.errors import Fix, Place, Problem
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
@@ -96,3 +96,20 @@ def _may_publish(around: Surroundings, plugin: Plugin) -> bool:
     if plugin.is_drive:
         return drive_tf(around, plugin) is not None
     return plugin.generation != "gz" and "planar" in plugin.filename
+
+
+def frames_from_themselves(around: Surroundings) -> Iterator[Problem]:
+    """Report transforms from a frame to itself, by parameters that name it twice."""
+    done: set[Place] = set()
+    for node in around.running.started:
+        for one in node.transforms:
+            if one.parent == one.child and one.place not in done:
+                done.add(one.place)
+                yield Problem.at(
+                    one.place,
+                    "warning",
+                    "frame-two-parents",
+                    f"{node.path.strip('/')} publishes the transform from {one.parent} "
+                    "to itself, which tf refuses: two of its frames have one name",
+                    "write another frame for one of the two",
+                )

@@ -154,7 +154,10 @@ from sambot_viz.checks.around.node_parameters import (
     parameters_left_out,
     unread_parameters,
 )
-from sambot_viz.checks.around.odometry import unpublished_odometry
+from sambot_viz.checks.around.odometry import (
+    frames_from_themselves,
+    unpublished_odometry,
+)
 from sambot_viz.checks.around.own_names import (
     misspelt_shares,
     setup_name,
@@ -165,6 +168,12 @@ from sambot_viz.checks.around.parameter_names import (
     unknown_parameters,
     unknown_plugins,
     unknown_sections,
+)
+from sambot_viz.checks.around.parameter_slips import (
+    incomplete_entries,
+    maps_that_do_not_load,
+    parameters_of_nobody,
+    texts_for_values,
 )
 from sambot_viz.checks.around.parameter_values import wrong_values
 from sambot_viz.checks.around.read_topics import unknown_topics
@@ -225,6 +234,10 @@ OF_FILES: tuple[Check, ...] = (
     empty_parameters,
     missing_key,
     misspelt_key,
+    parameters_of_nobody,
+    texts_for_values,
+    incomplete_entries,
+    maps_that_do_not_load,
     wrong_values,
     unreadable_parameters,
     unknown_parameters,
@@ -283,6 +296,7 @@ OF_FILES: tuple[Check, ...] = (
     launched_parameters,
     spawned_topics,
     planes,
+    frames_from_themselves,
     inputs_without_config,
     unknown_bridge_types,
     different_clocks,

@@ -1,0 +1,158 @@
+"""Slips in parameter files that need no knowledge of the node."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import yaml
+
+from sambot_viz.checks.around.files.parameters import (
+    YamlFile,
+    pairs,
+    place_of,
+    read_yaml,
+)
+from sambot_viz.checks.around.node_parts import parts_by_node
+from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.edits import write
+from sambot_viz.errors import Place, Problem
+from sambot_viz.robot.slips.vocabulary import is_one_slip
+
+_KEY = "ros__parameters"
+_DECIMAL_COMMA = re.compile(r"-?\d+,\d+")
+_TRUTH = ("true", "false")
+_WORDS = frozenset({"rue", "tree", "tue"})
+"""Words of their own that are almost true or false."""
+_LONG = 4
+_MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
+_IMAGES = (".pgm", ".png", ".bmp", ".jpg")
+_MUX, _NEEDED = "twist_mux", ("topic", "timeout", "priority")
+"""A node with topics, and what each of them needs."""
+
+
+def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
+    """Report parameters above which the name of a node is missing."""
+    for file in around.yaml_files:
+        waiting: list[tuple[str, yaml.Node]] = [("", file.root)]
+        while waiting:
+            above, node = waiting.pop()
+            inner = list(pairs(node))
+            places = [place_of(k, file.shown) for k, _ in inner if k.value == _KEY]
+            if places and not above:
+                yield _nameless(places[0], "at the top, below no node")
+            elif len(places) > 1:
+                yield _nameless(places[1], f"below {above} a second time")
+            waiting += [(k.value, v) for k, v in inner if k.value != _KEY]
+
+
+def _nameless(place: Place, what: str) -> Problem:
+    return Problem.at(
+        place,
+        "error",
+        "parameters-key",
+        f"{_KEY} is {what}: the name of the node above it is missing, or not at the "
+        "level above; the node that the file is for stops, or has no parameters",
+        "write the name of the node and a colon above this line, two blanks further "
+        "to the left",
+    )
+
+
+def texts_for_values(around: Surroundings) -> Iterator[Problem]:
+    """Report texts that are almost true or false, or a number with a comma."""
+    parts = (part for each in parts_by_node(around) for part in each)
+    known = {id(parameter) for part in parts for parameter, _ in part.known()}
+    for parameter in around.parameters:
+        written: Any = parameter.written
+        plain = isinstance(written, yaml.ScalarNode) and not written.style
+        text = parameter.fact.value
+        if id(parameter) in known or not plain or text.lower() in (*_TRUTH, *_WORDS):
+            continue
+        near = [word for word in _TRUTH if is_one_slip(text.lower(), word)]
+        if _DECIMAL_COMMA.fullmatch(text):
+            near = [text.replace(",", ".")]
+        if near and len(text) >= min(_LONG, len(near[0])):
+            yield Problem.at(
+                parameter.value_place,
+                "warning",
+                "parameter-type",
+                f"{parameter.name} is the text {text}, but probably {near[0]} is "
+                "meant: a node that needs that stops with an error",
+                write(parameter.value_place, text, near[0]),
+            )
+
+
+def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
+    """Report maps without an image that is there, or without a value they need."""
+    for package in around.packages:
+        for path in package.ending(".yaml", ".yml"):
+            file = _map_file(package.text(path) or "", path, package.shown(path))
+            if file is None:
+                continue
+            values = {key.value: (key, value) for key, value in pairs(file.root)}
+            for name in _MAP:
+                if name not in values:
+                    yield _no_value(file, name, list(values))
+            _, image = values.get("image", (None, None))
+            said = image.value if isinstance(image, yaml.ScalarNode) else ""
+            below = path.rpartition("/")[0]
+            there = f"{below}/{said}".lstrip("/")
+            images = [p for p in package.paths if p.endswith(_IMAGES)]
+            if image is None or said[:1] == "/" or there in package.paths or not images:
+                continue
+            beside = [p for p in images if p.rpartition("/")[0] == below]
+            place = place_of(image, file.shown)
+            right = beside[0].rpartition("/")[2] if len(beside) == 1 else ""
+            if not (package.folder / there).exists():
+                yield Problem.at(
+                    place,
+                    "error",
+                    "parameter-value",
+                    f"this map has the image {said}, which is not beside it: "
+                    "map_server stops with an error",
+                    write(place, said, right) if right else "add that image",
+                )
+
+
+def _map_file(text: str, path: str, shown: str) -> YamlFile | None:
+    """Return a file that has most of what a map has."""
+    if sum(name in text for name in _MAP) < _LONG:
+        return None
+    file = read_yaml(text, path, shown)
+    keys = [key.value for key, _ in pairs(file.root)] if file is not None else []
+    return file if len({*keys}.intersection(_MAP)) >= _LONG else None
+
+
+def _no_value(file: YamlFile, name: str, given: list[str]) -> Problem:
+    near = next((g for g in given if g not in _MAP and is_one_slip(g, name)), "")
+    keys = {key.value: key for key, _ in pairs(file.root)}
+    place = place_of(keys[near], file.shown) if near else Place(file.shown, 1)
+    return Problem.at(
+        place,
+        "error",
+        "parameter-value",
+        f"this map has no {name}: map_server stops with an error",
+        write(place, near, name) if near else f"add {name}",
+    )
+
+
+def incomplete_entries(around: Surroundings) -> Iterator[Problem]:
+    """Report entries of twist_mux without one of the values that it needs."""
+    nodes = ((file, node) for file in around.yaml_files for node in file.nodes)
+    for file, node in nodes:
+        if node.rpartition("/")[2] != _MUX:
+            continue
+        given = file.of(node)
+        entries = {tuple(name.split(".")[:2]): p for name, p in given.items()}
+        for (group, *rest), parameter in entries.items():
+            for value in _NEEDED if group in ("topics", "locks") and rest else ():
+                if f"{group}.{rest[0]}.{value}" not in given:
+                    yield Problem.at(
+                        parameter.place,
+                        "error",
+                        "parameter-value",
+                        f"{rest[0]} has no {value}, which each of the {group} needs: "
+                        f"{_MUX} stops with an error",
+                        f"add {value} to {rest[0]}",
+                    )

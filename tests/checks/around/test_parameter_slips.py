@@ -1,0 +1,116 @@
+"""Slips in parameter files and maps are found at their lines, whatever the node."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from edited import edited_files
+
+from sambot_viz.checks import check
+from sambot_viz.errors import Problem
+
+PARAMETERS, MAP, SLAM = "config/params.yaml", "maps/map.yaml", "config/slam.yaml"
+FILES = {
+    "package.xml": """\
+<package format="3">
+  <name>robot</name>
+  <version>0.0.1</version>
+  <description>A robot.</description>
+  <maintainer email="me@example.org">me</maintainer>
+  <license>MIT</license>
+</package>
+""",
+    PARAMETERS: """\
+tracker:
+  ros__parameters:
+    debug: true
+    kind: tree
+    radius: 0.1
+twist_mux:
+  ros__parameters:
+    topics:
+      joystick:
+        topic: cmd_vel_joy
+        timeout: 0.5
+        priority: 10
+""",
+    SLAM: """\
+slam_toolbox:
+  ros__parameters:
+    odom_frame: odom
+    map_frame: map
+""",
+    MAP: """\
+image: map.pgm
+mode: trinary
+resolution: 0.05
+origin: [0.0, 0.0, 0.0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.25
+""",
+    "maps/map.pgm": "P5 1 1 255 0",
+}
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A right package with parameters and a map."""
+    for name, text in FILES.items():
+        path = tmp_path / "robot" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return tmp_path / "robot"
+
+
+def problems(package: Path) -> list[Problem]:
+    """Return what is found, without the note that there is no model."""
+    return [p for p in check(package) if p.code != "package-without-model"]
+
+
+def found(package: Path, file: str, right: str, wrong: str) -> Problem:
+    """Return the one problem after a change of one file."""
+    assert problems(package) == []
+    path = package / file
+    assert right in FILES[file]
+    path.write_text(FILES[file].replace(right, wrong, 1))
+    (problem,) = problems(package)
+    assert problem.file == str(path)
+    return problem
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong", "cause"),
+    [
+        (PARAMETERS, "debug: true", "debug: ture", "debug is the text ture"),
+        (PARAMETERS, "radius: 0.1", "radius: 0,1", "radius is the text 0,1"),
+        (MAP, "image: map", "image: maps", "has the image maps.pgm, which is not"),
+        (MAP, "negate:", "neagte:", "this map has no negate"),
+    ],
+)
+def test_a_slip_is_undone_by_its_edit(
+    package: Path, file: str, right: str, wrong: str, cause: str
+) -> None:
+    problem = found(package, file, right, wrong)
+    assert cause in problem.message
+    path = package / file
+    assert edited_files(problem.edits)[str(path)].decode() == FILES[file]
+
+
+@pytest.mark.parametrize(
+    ("file", "right", "wrong", "line", "cause"),
+    [
+        (PARAMETERS, "tracker:\n  ", "", 1, "ros__parameters is at the top"),
+        (PARAMETERS, "twist_mux:\n", "", 6, "ros__parameters is below tracker a sec"),
+        (PARAMETERS, "        priority: 10\n", "", 10, "joystick has no priority"),
+        (MAP, "resolution: 0.05\n", "", 1, "this map has no resolution"),
+        (SLAM, "map_frame: map", "map_frame: odom", 4, "from odom to itself"),
+    ],
+)
+def test_what_is_missing_has_the_line_where_it_is_needed(
+    package: Path, file: str, right: str, wrong: str, line: int, cause: str
+) -> None:
+    problem = found(package, file, right, wrong)
+    assert cause in problem.message
+    assert abs((problem.line or 0) - line) <= 1
