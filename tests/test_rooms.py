@@ -123,7 +123,7 @@ ROOMS: Mapping[str, Row] = {
     # From recordings and robots on the network to messages as bytes.
     "sources": Row(
         "_version messages",
-        "cyclonedds lz4 mcap msgspec numpy websockets yaml zenoh zstandard",
+        "cyclonedds lz4 mcap msgspec numpy requests websockets yaml zenoh zstandard",
     ),
     # What there is at a time, and why something is not seen.
     "topics": Row("frames joints meanings messages robot sources", "numpy"),

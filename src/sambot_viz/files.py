@@ -11,6 +11,7 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 _KEPT_SIZE = 1 << 20
 """Larger files are not kept by `each_file_once` [B]."""
@@ -174,17 +175,38 @@ def is_lfs_pointer(data: bytes) -> bool:
 RECORDING_ENDINGS = (".mcap", ".db3", ".bag")
 _MAGIC = (b"\x89MCAP0\r\n", b"SQLite format 3\0", b"#ROSBAG V")
 """What a recording of ROS begins with: MCAP, sqlite3, ROS 1."""
+_WEB = ("http://", "https://")
 LIVE_SOURCES = (
     "foxglove://HOST:8765, rosbridge://HOST:9090, zenoh://HOST:7447 or dds:?domain=0"
 )
 """What `--source` takes beside files: live robots, for help and messages."""
 
 
+def is_web_address(words: object) -> bool:
+    """Return whether something is the address of a file on a web server."""
+    if not isinstance(words, str) or not words.lower().startswith(_WEB):
+        return False
+    try:
+        return len(urlsplit(words).path) > 1
+    except ValueError:
+        return False
+
+
+def name_of_address(address: str) -> str:
+    """Return the name of a file on a web server; without one, the server's."""
+    parts = urlsplit(address)
+    name = unquote(parts.path.rstrip("/").rpartition("/")[2])
+    return name or parts.netloc.rpartition("@")[2]
+
+
 def is_recording(path: Path | str) -> bool:
     """Return whether a file or folder is a recording of ROS, by its bytes or name.
 
-    A folder is one when it has such files or their metadata.yaml, and no package.
+    A folder is one when it has such files or their metadata.yaml, and no package; what
+    is on a web server is not asked for.
     """
+    if is_web_address(path):
+        return urlsplit(str(path)).path.lower().endswith(RECORDING_ENDINGS)
     path = Path(path)
     try:
         if path.is_dir():

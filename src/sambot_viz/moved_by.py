@@ -127,13 +127,13 @@ def _recordings(given: Sequence[GivenSource]) -> Source:
     from sambot_viz.sources.bag.beside import Beside, beside_each_other
     from sambot_viz.sources.playback import RecordingPlayback
 
-    groups: dict[tuple[str, str], list[Path]] = {}
+    groups: dict[tuple[str, str], list[GivenSource]] = {}
     for one in given:
-        groups.setdefault((one.name, one.prefix), []).append(Path(one.path))
+        groups.setdefault((one.name, one.prefix), []).append(one)
     opened: list[Beside] = []
-    for (name, prefix), paths in groups.items():
-        called = paths[0].name if len(paths) == 1 else f"{len(paths)} recordings"
-        recording = open_recording(paths)
+    for (name, prefix), parts in groups.items():
+        called = parts[0].label if len(parts) == 1 else f"{len(parts)} recordings"
+        recording = open_recording([part.path for part in parts])
         # What is large and has no index is looked through now: a second or two a GB.
         while not recording.index_more():
             pass

@@ -132,7 +132,8 @@ class Options:
     source: Sequence[str] | str = option(
         (),
         "what moves the robot: a recording (an mcap, db3 or bag file, or a folder with "
-        f"them{AGAIN}), {LIVE_SOURCES} of a live robot; NAME=URI gives it a name",
+        f"them{AGAIN}), https://…/run.mcap on a web server, {LIVE_SOURCES} of a live "
+        "robot; NAME=URI gives it a name",
         "--source",
         group="source",
         metavar="[NAME=]URI",

@@ -28,7 +28,7 @@ def test_a_recording_is_taken_however_it_is_written(
     name = "lab" if "lab" in form else ""
     given = given_source(form.format(file))
     assert given == GivenSource(f"bag:{file}", name)
-    assert (given.is_live, given.path) == (False, file)
+    assert (given.is_live, str(given.path)) == (False, file)
     (taken,) = Options(source=form.format(file)).sources
     assert taken == given
 
@@ -70,5 +70,5 @@ def test_commands_take_a_source_as_the_page_does(command: str) -> None:
     words = ["--source", "lab=run.mcap", "--source", "robot=foxglove://robot"]
     _, options = parse(parser, words)
     recording, robot = options.sources
-    assert (recording.name, recording.path) == ("lab", "run.mcap")
+    assert (recording.name, str(recording.path)) == ("lab", "run.mcap")
     assert options.live_sources == (robot,)

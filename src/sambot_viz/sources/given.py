@@ -6,9 +6,10 @@ import os.path
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from sambot_viz.errors import UsageError
-from sambot_viz.files import RECORDING_ENDINGS
+from sambot_viz.files import RECORDING_ENDINGS, is_web_address, name_of_address
 from sambot_viz.sources.prefix import NO_NAMES
 from sambot_viz.sources.registry import KNOWN, live_address
 from sambot_viz.text import text
@@ -47,9 +48,16 @@ class GivenSource:
         return not self.uri.startswith(_RECORDING)
 
     @property
-    def path(self) -> str:
-        """The file or folder of a recording."""
-        return self.uri.removeprefix(_RECORDING)
+    def path(self) -> Path | str:
+        """The file or folder of a recording; its address on a web server."""
+        place = self.uri.removeprefix(_RECORDING)
+        return place if is_web_address(place) else Path(place)
+
+    @property
+    def label(self) -> str:
+        """What a recording without a name is called."""
+        place = self.path
+        return name_of_address(place) if isinstance(place, str) else place.name
 
 
 def given_source(words: str) -> GivenSource:
@@ -62,6 +70,8 @@ def given_source(words: str) -> GivenSource:
     name, uri = (named[1], named[2]) if named else ("", words)
     if uri.startswith(_RECORDING):
         return GivenSource(uri, name)
+    if is_web_address(uri):
+        return GivenSource(f"{_RECORDING}{uri}", name)
     # That a recording does not exist is said where it is opened.
     is_named_so = ":" not in uri and uri.lower().endswith(RECORDING_ENDINGS)
     if uri and (is_named_so or os.path.exists(uri)):

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from sambot_viz.errors import Problem, SourceError
-from sambot_viz.files import is_lfs_pointer
+from sambot_viz.files import is_lfs_pointer, is_web_address, name_of_address
 from sambot_viz.sources.bag import db3_file, mcap_records, ros1
 from sambot_viz.sources.bag.bag import Bag
 from sambot_viz.sources.bag.block_bag import OPENING, BlockBag
@@ -30,11 +30,14 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
     """Open a file of a recording.
 
     Args:
-        path: an MCAP file, rosbag2's sqlite3 file or a ROS 1 bag.
+        path: an MCAP file, rosbag2's sqlite3 file or a ROS 1 bag; or the address of
+            the first or the last on a web server.
 
     Raises:
         SourceError: it is not there, or is no recording.
     """
+    if isinstance(path, str) and is_web_address(path):
+        return _opened(_on_the_web(path))
     path = Path(path)
     try:
         if not stat.S_ISREG(path.stat().st_mode):
@@ -42,6 +45,20 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
         file = FileBytes(path)
     except (OSError, ValueError) as error:
         raise unreadable(path, error) from error
+    return _opened(file)
+
+
+def _on_the_web(address: str) -> FileBytes:
+    # It takes 0.1 s to import.
+    from sambot_viz.sources.bag.web_bytes import WebBytes
+
+    try:
+        return WebBytes(address)
+    except (OSError, ValueError) as error:
+        raise unreadable(Path(name_of_address(address)), error) from error
+
+
+def _opened(file: FileBytes) -> Bag:
     try:
         return _open(file)
     except BaseException:
@@ -65,8 +82,8 @@ def open_recording(
     bags: list[Bag] = []
     problems: list[Problem] = []
     try:
-        for path in map(Path, paths):
-            if path.is_dir():
+        for path in paths:
+            if not is_web_address(path) and (path := Path(path)).is_dir():
                 opened, found = _open_folder(path)
                 bags += opened
                 problems += found

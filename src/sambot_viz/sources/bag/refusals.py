@@ -14,9 +14,10 @@ def refused(path: Path, code: str, message: str, hint: str) -> SourceError:
 
 
 def unreadable(path: Path, error: OSError | ValueError) -> SourceError:
-    """Say that the disk does not give a file."""
+    """Say that the disk, or a web server, does not give a file."""
     message = f"{path.name} cannot be read: {reason_of(error)}"
-    hint = "see whether the name is right, the disk is there and you may read the file"
+    usual = "see whether the name is right, the disk is there and you may read the file"
+    hint = str(getattr(error, "hint", usual))
     return refused(path, "file-unreadable", message, hint)
 
 
