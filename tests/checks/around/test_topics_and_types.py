@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from edited import edited_files
 
 from sambot_viz.checks import check
 
@@ -138,3 +139,15 @@ def test_what_may_be_meant_has_no_finding_of_its_type(
     assert codes.isdisjoint({"topic-type", "bridge-types", "ekf-config"})
     if "dog" in new:
         assert codes == set()
+
+
+def test_exchanged_types_of_a_bridge_are_undone_by_their_edit(copied: Copied) -> None:
+    package = copied("gz")
+    text = (package / BRIDGE).read_text()
+    ros, gz = '"geometry_msgs/msg/TwistStamped"', '"gz.msgs.Twist"'
+    both = "ros_type_name: {}\n  gz_type_name: {}"
+    edit(package, BRIDGE, both.format(ros, gz), both.format(gz, ros))
+    (problem,) = check(package / MODEL)
+    assert problem.code == "bridge-type-unknown"
+    path = str(package / BRIDGE)
+    assert edited_files(problem.edits)[path].decode() == text

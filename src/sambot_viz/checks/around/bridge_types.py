@@ -40,6 +40,21 @@ def counterpart(written: str) -> str | None:
 def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
     """Report types that are almost one that a bridge knows."""
     for entry in around.bridged:
+        ros, gz = entry.ros_type, entry.gz_type
+        if ros.value.rpartition(".")[0] in _GZ_PACKAGES and gz.value in _PAIRS:
+            yield Problem.at(
+                ros.place,
+                "warning",
+                "bridge-type-unknown",
+                f"the types of {entry.ros.value} in ROS and in Gazebo are exchanged "
+                f"({where(gz.place, ros.place)}): nothing arrives on it",
+                together(
+                    f"write {gz.value}, and {ros.value} in Gazebo",
+                    write(ros.place, ros.value, gz.value),
+                    write(gz.place, gz.value, ros.value),
+                ),
+            )
+            continue
         for fact, near in (
             (entry.ros_type, _near_ros_type(entry.ros_type.value)),
             (entry.gz_type, _near_gz_type(entry.gz_type.value)),

@@ -98,10 +98,12 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
             said = image.value if isinstance(image, yaml.ScalarNode) else ""
             below = path.rpartition("/")[0]
             there = f"{below}/{said}".lstrip("/")
-            images = [p for p in package.paths if p.endswith(_IMAGES)]
-            if image is None or said[:1] == "/" or there in package.paths or not images:
+            beside = [
+                p for p in package.ending(*_IMAGES) if p.rpartition("/")[0] == below
+            ]
+            # Without any image, all of them may come from elsewhere.
+            if image is None or said[:1] == "/" or not beside:
                 continue
-            beside = [p for p in images if p.rpartition("/")[0] == below]
             place = place_of(image, file.shown)
             right = beside[0].rpartition("/")[2] if len(beside) == 1 else ""
             if not (package.folder / there).exists():

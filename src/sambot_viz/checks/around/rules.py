@@ -187,6 +187,7 @@ from sambot_viz.checks.around.unreadable import (
     unreadable_models,
     unreadable_python,
     unreadable_yaml,
+    unreadable_yaml_launches,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes_of_controllers
 from sambot_viz.checks.around.world_systems import (
@@ -248,6 +249,7 @@ OF_FILES: tuple[Check, ...] = (
     odd_clocks,
     unreadable_python,
     unreadable_launch_files,
+    unreadable_yaml_launches,
     empty_launch_files,
     missing_entries,
     wrong_imports,

@@ -22,6 +22,7 @@ _KNOWN = re.compile(
     r"[^/]*\.ya?ml"
 )
 _TEMPLATE = re.compile(r"\{\{|\{%|<%")
+_ROOT = "launch"
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TAG = re.compile(r"<(/?)([\w:.-]+)(?:[^<>\"']|\"[^\"]*\"|'[^']*')*?(/?)>")
 _KEY, _LIKENESS = "ros__parameters", 0.84
@@ -33,7 +34,8 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
     for package, path, user in parameter_files(around):
         shown = package.shown(path)
         text = package.text(path) if shown not in read else None
-        if text is None or _TEMPLATE.search(text):
+        is_launch = path.endswith((".launch.yaml", ".launch.yml"))
+        if text is None or is_launch or _TEMPLATE.search(text):
             continue
         # The import is late, as below: most files can be read.
         from sambot_viz.checks.around.files.yaml_repair import fault_in
@@ -207,6 +209,41 @@ def unreadable_launch_files(around: Surroundings) -> Iterator[Problem]:
                     explain_xml(text, shown, fault)
                     if open_ is None
                     else [_unclosed(shown, *open_)]
+                )
+
+
+def unreadable_yaml_launches(around: Surroundings) -> Iterator[Problem]:
+    """Report launch files in YAML that are none, or have no launch at the top."""
+    for package in around.packages:
+        for path in package.ending(".launch.yaml", ".launch.yml"):
+            text, shown = package.text(path) or "", package.shown(path)
+            file = next((f for f in package.yaml_files if f.path == path), None)
+            if file is not None:
+                keys = [key for key, _ in pairs(file.root)]
+                if keys and all(key.value != _ROOT for key in keys):
+                    place, wrong = place_of(keys[0], shown), keys[0].value
+                    near = nearest(wrong, [_ROOT], 0.7) is not None
+                    yield Problem.at(
+                        place,
+                        "error",
+                        "launch-code",
+                        f"the first key of a launch file is {_ROOT}, and this is "
+                        f"{wrong}: ros2 launch stops with it",
+                        write(place, wrong, _ROOT) if near else f"write {_ROOT}: above",
+                    )
+                continue
+            # The import is late, as above.
+            from sambot_viz.checks.around.files.yaml_repair import fault_in
+
+            fault = fault_in(text) if text else None
+            if fault is not None:
+                place = Place(shown, fault.line)
+                yield Problem.at(
+                    place,
+                    "error",
+                    "launch-code",
+                    f"this file is no YAML: {fault.cause}; ros2 launch stops with it",
+                    line_fix(fault, place, text),
                 )
 
 
