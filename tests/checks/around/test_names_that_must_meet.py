@@ -733,10 +733,10 @@ MISTAKES = [
             (CMAKE, at),
             ("", ""),
             advice,
-            fixed=((CMAKE, new, better or old),),
+            fixed=((CMAKE, new, old),) if advice == "delete it" else (),
             name=name,
         )
-        for name, old, new, at, advice, better in (
+        for name, old, new, at, advice, _ in (
             (
                 "project",
                 "project(cart_description)",
