@@ -240,7 +240,6 @@ INTERFACE, PLUGIN = "control-interface", "gazebo-plugin"
         (CLASSIC, "_ray_sensor.so", "_raysensor.so", PLUGIN),
         (CLASSIC, "sensor_msgs/", "sensor_msgs/msg/", PLUGIN),
         (CLASSIC, "frame_name>base", "frameName>base", "gazebo-element-unknown"),
-        (CLASSIC, "name>base_link", "name>link_base", "frame-unknown"),
     ],
 )
 def test_the_edit_brings_parts_for_the_simulator_back(

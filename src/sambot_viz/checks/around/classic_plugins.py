@@ -1,4 +1,4 @@
-"""Plugins of Gazebo Classic: their libraries, elements, frames and messages."""
+"""Plugins of Gazebo Classic: their libraries, elements and messages."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from sambot_viz.robot.slips.vocabulary import is_one_slip
 _TABLE = "classic_plugins"
 _CODE = "gazebo-plugin"
 _LIKENESS = 0.75
-_LIKE_FRAME = 0.85
 _MESSAGES = tuple(
     f"sensor_msgs/{name}"
     for name in ("LaserScan", "PointCloud", "PointCloud2", "Range")
@@ -49,12 +48,11 @@ def _same_or_slip(written: str, name: str) -> bool:
 
 
 def words_of_plugins(robot: Robot) -> Iterator[Problem]:
-    """Report elements, frames and messages of these plugins that are misspelt."""
+    """Report elements and messages of these plugins that are misspelt."""
     for plugin in plugins(robot.gazebo):
         known = vocabulary(_TABLE).get(plugin.filename, ())
         if known:
             yield from _elements(plugin, known)
-            yield from _frames(plugin, robot)
             yield from _messages(plugin)
 
 
@@ -75,32 +73,6 @@ def _elements(plugin: Plugin, known: tuple[str, ...]) -> Iterator[Problem]:
             "its own default",
             rename_element(child.place, child.tag, near[0], f"write <{near[0]}>"),
         )
-
-
-def _frames(plugin: Plugin, robot: Robot) -> Iterator[Problem]:
-    for fact in plugin.all("frame_name"):
-        near = _meant_link(fact.value, plugin.link, list(robot.links))
-        if fact.value.lstrip("/") in robot.links or near is None:
-            continue
-        if fact.value == "world" or "::" in fact.value:
-            continue
-        yield Problem.at(
-            fact.place,
-            "warning",
-            "frame-unknown",
-            f"{plugin.filename} publishes in the frame {fact.value}, which does not "
-            f"exist; the model has {near}: RViz cannot show what the sensor sees",
-            write(fact.place, fact.value, near),
-        )
-
-
-def _meant_link(frame: str, own: str, links: list[str]) -> str | None:
-    """Return the link that was meant: with the same words, like it, or its own."""
-    words = set(frame.lower().split("_"))
-    same = [link for link in links if set(link.lower().split("_")) == words]
-    near = same[0] if len(same) == 1 else nearest(frame, links, _LIKE_FRAME)
-    shared = words & set(own.lower().split("_")) - {"link", "frame"}
-    return near or (own if shared and own in links else None)
 
 
 def _messages(plugin: Plugin) -> Iterator[Problem]:
