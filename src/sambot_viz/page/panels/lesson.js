@@ -49,8 +49,8 @@ export function LessonPanel() {
       <${Blocks} blocks=${text.blocks} />
       ${
         text.other_model &&
-        html`<p class="l-warn">This step is about ${text.other_model}, and the view shows the file
-          of another one. Call the program again to begin with this one.</p>`
+        html`<p class="l-warn">This step is about ${text.other_model}: open its tab in Model. The
+          view shows the file of another step.</p>`
       }
       <${Conditions} />
       <${Hints} />
