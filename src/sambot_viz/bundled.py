@@ -34,7 +34,7 @@ DEFAULT_CONFIG = "urdf_config.rviz"
 """The config that is used when none is given."""
 
 _NAMED = 2
-"""So many recordings are named as examples."""
+"""Number of recordings named as examples."""
 _CONFIG_ENDING = ".rviz"
 _CONFIG_FOLDERS = ("rviz", "config", "launch", ".")
 

@@ -27,7 +27,7 @@ those that draw another one beside it, and the one that serves a page."""
 AGAIN = "; may be given several times"
 
 SHORTEST_TOKEN = 8
-"""A token that a user has chosen has at least so many characters."""
+"""Minimum length of a token that a user has chosen."""
 
 _KEY = "option"
 _BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")

@@ -178,21 +178,21 @@ class Options:
     )
     record: PathLike | None = option(
         None,
-        "record all topics of a live robot to this mcap file; a file that is there is "
+        "record all topics of a live robot to this mcap file; an existing file is "
         "never overwritten",
         "--record",
         metavar="FILE",
     )
     record_dir: PathLike | None = option(
         None,
-        "offer a button in the page to whoever has control: it records all topics of a "
-        "live robot to a new mcap file in this folder, with date and time as its name",
+        "offer the user in control a button that records all topics of a live robot to "
+        "a new mcap file in this folder, named after date and time",
         "--record-dir",
         metavar="DIR",
     )
     publish: str | None = option(
         None,
-        "what may be sent to a live robot by those in control: goal, pose (an estimate "
+        "what users in control may send to a live robot: goal, pose (an estimate "
         "of where it is), point, drive, joints (of the sliders), markers (interactive "
         "ones), description (the model when it is saved), or several with commas; "
         "without a value all of them",
@@ -208,20 +208,20 @@ class Options:
     )
     cmd_vel: str = option(
         "/cmd_vel",
-        "the topic on which velocities are sent to a live robot",
+        "the topic for velocities of a live robot",
         "--cmd-vel",
         metavar="TOPIC",
     )
     max_linear: float = option(
         0.2,
-        "the highest speed at which a live robot is driven by hand [m/s]",
+        "maximum speed of a live robot driven by hand [m/s]",
         "--max-linear",
         type=float,
         metavar="SPEED",
     )
     max_angular: float = option(
         0.5,
-        "the highest speed at which it is turned by hand [rad/s]",
+        "maximum turn rate of a live robot driven by hand [rad/s]",
         "--max-angular",
         type=float,
         metavar="SPEED",
@@ -244,8 +244,8 @@ class Options:
     )
     look: Look | None = option(
         None,
-        "how the 3D view is drawn: as RViz draws it, or with soft light and round "
-        "shapes; by default rviz with a config of yours or the model's, else studio; "
+        "look of the 3D view: as RViz draws it, or with soft light and round shapes; "
+        "by default rviz with a config of yours or the model's, else studio; "
         "the menu View changes it for one browser",
         "--look",
         group="view",
@@ -271,7 +271,7 @@ class Options:
     )
     joint_state: PathLike | None = option(
         None,
-        "a yaml file with joint positions, such as ros2 topic echo prints them",
+        "a yaml file with joint positions, as printed by ros2 topic echo",
         "--joint-state",
         group="pose",
         metavar="FILE",
@@ -361,7 +361,7 @@ class Options:
     )
     trust_user_header: str | None = option(
         None,
-        "call viewers as this header of a request says, such as X-Remote-User; only "
+        "name viewers after this request header, such as X-Remote-User; only "
         "behind a proxy that sets it and that alone can reach the port: others could "
         "send any name",
         "--trust-user-header",
@@ -369,7 +369,7 @@ class Options:
     )
     session: SessionMode = option(
         "shared",
-        "one robot for all pages that are open, or one for each",
+        "one robot for all open pages, or one for each",
         "--session",
         choices=("shared", "private"),
     )

@@ -26,7 +26,7 @@ SEVERITIES: tuple[Severity, ...] = ("error", "warning", "info")
 """The order in which problems are shown."""
 
 MOST = 10
-"""A terminal gets at most so many groups; ``sambot-viz check`` prints all of them."""
+"""Maximum number of groups in a terminal; ``sambot-viz check`` prints all of them."""
 
 _LONGEST_LINE = 160
 _LINE_BREAK = re.compile("\n")

@@ -38,7 +38,7 @@ WRONG = [
     ("[0, 0, 1]", "[0, 0, .inf]", "lesson-value", 9, "'xyz' is", "3 numbers"),
     ("after: 2", "after: two", "lesson-value", 12, "'after' is 'two'", "whole number"),
     ("after: 2", "after: -1", "lesson-value", 12, "'after' is '-1'", "from 0 on"),
-    ("true", "perhaps", "lesson-value", 10, "'hidden' is no flag", "write true"),
+    ("true", "perhaps", "lesson-value", 10, "'hidden' is not a flag", "write true"),
     ("title: One", "title:", "lesson-value", 6, "'title' is empty", "a text"),
     ("title: One", "title: a\n    title: b", "lesson-value", 7, "twice", "delete one"),
     ("Do it.", "Do <b>it</b>.", "lesson-text", 7, "has <b>", "`<b>`"),

@@ -97,7 +97,7 @@ def test_a_robot_that_has_just_moved_is_removed(
 def test_what_is_wrong_is_said(viz: Visualizer) -> None:
     viz.add_robot(ARM, "arm")
     for name in ("", "arm", "/arm", "arm/"):
-        with pytest.raises(UsageError, match="is no name, or another robot has it"):
+        with pytest.raises(UsageError, match="is not a name, or another robot has it"):
             viz.add_robot(ARM, name)
     with pytest.raises(UsageError, match="did you mean 'base_link'"):
         viz.add_robot(ARM, "b", parent="bse_link")

@@ -16,7 +16,7 @@ from sambot_viz.edits import apply_edits, by_file, source_of
 from sambot_viz.errors import Edit, Problem, RobotError
 
 _MOST = 3
-"""A model is read again so many times at most."""
+"""Maximum number of times that a model is read again."""
 
 Look = Callable[[Subject], list[Problem]]
 """Finds the problems of a robot."""

@@ -38,9 +38,9 @@ _NEAR = 0.05
 _THINNEST = 0.001
 """No part is thinner [m]."""
 _BESIDE = 2.0
-"""A shape is so many times larger than the whole robot only in another unit."""
+"""A shape larger than the whole robot by this factor is in another unit."""
 _APART = 5.0
-"""Joints are so many times farther from each other only in another unit."""
+"""Joints farther from each other by this factor are in another unit."""
 
 
 class _Lengths(NamedTuple):

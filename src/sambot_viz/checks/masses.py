@@ -14,7 +14,7 @@ from sambot_viz.robot.parts import Link
 _DENSEST = 25_000.0
 """More than osmium, 22,600 kg/m³, the densest metal."""
 _TIMES = 2.0
-"""So many times the mass of all other links; small shapes stand for large parts."""
+"""Factor over the mass of all other links; small shapes may represent large parts."""
 _TINY = 0.02
 """A shape of such a size may stand for a part that nobody has measured [m]."""
 _WHOLE = 50.0

@@ -26,7 +26,7 @@ _NONSENSE = 1e6
 """Nothing that was drawn in a smaller unit is so large [m]."""
 _TOO_SMALL = 0.0005
 _BESIDE = 5.0
-"""So many times larger than the places of all joints is no part of a robot."""
+"""A mesh larger than the places of all joints by this factor is not a robot's part."""
 _FLAT = 0.002
 """A mesh that is thinner than this share of its size is a floor or a wall."""
 

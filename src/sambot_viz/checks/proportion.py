@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sambot_viz.robot.xacro.diagnose.source_files import SourceSet
 
 _TIMES, _TIMES_WITH_MESHES = 4.5, 8.0
-"""So many times larger than all others; the sizes of meshes are not known here."""
+"""Factor over the size of all others; the sizes of meshes are not known here."""
 _LARGE = 1.5
 """What is smaller may be right [m]."""
 _THIN = 0.001
@@ -36,7 +36,7 @@ _LEAST, _SHARE = 8, 0.25
 _MOST = 4
 """More elements than these are not one slip."""
 _CARRIES = 2.5
-"""A part that carries the others may be so many times larger than these."""
+"""Factor by which a part that carries the others may be larger than these."""
 _WHOLE = 10.0
 """Whole numbers from there on are seldom metres [m]."""
 _UNIT_IN_NAME = re.compile(r"(?<![a-z])[cm]m(?![a-z])|milli|centi", re.IGNORECASE)

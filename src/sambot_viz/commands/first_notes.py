@@ -15,7 +15,7 @@ from sambot_viz.sources.source import Source
 PERIOD = 0.5
 """So often it is looked [s]; an attempt to connect takes longer."""
 SETTLED = 10
-"""A live robot has told of its frames after so many looks."""
+"""Number of looks after which a live robot has published its frames."""
 
 
 def write_notes(stop: threading.Event, inputs: Inputs, sessions: Sessions) -> None:

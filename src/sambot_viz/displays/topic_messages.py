@@ -94,7 +94,7 @@ class TopicMessages(Protocol):
             topics: their names.
             came: called when there are some.
             depth_s: how far back messages count.
-            size: so many wait at most.
+            size: maximum number of waiting messages.
             base: what changes are made to.
             minds_older: whether older ones matter.
             rests: whether they are left alone while nobody looks.

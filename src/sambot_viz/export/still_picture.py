@@ -28,7 +28,7 @@ from sambot_viz.views.camera import Camera
 SIZE = (800, 500)
 """Of the picture [pixels]; with the shapes of a robot that is 10 to 50 kB."""
 FINER = 2
-"""Each side is drawn so many times as large, for smooth edges."""
+"""Factor by which each side is drawn larger, for smooth edges."""
 FACING, ASIDE = 1.0, 0.35
 """How bright a surface is that faces the camera, and one seen from its side."""
 

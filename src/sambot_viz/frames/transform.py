@@ -125,7 +125,7 @@ class Transform:
             try:
                 array = np.asarray(pose, np.float64)
             except (TypeError, ValueError) as error:
-                raise FrameError(f"{pose!r} is no pose") from error
+                raise FrameError(f"{pose!r} is not a pose") from error
         if array.ndim != 2:
             make = cls.from_xyz_xyzw if len(rpy) == 4 else cls.from_xyz_rpy
             return make(array.tolist(), rpy)

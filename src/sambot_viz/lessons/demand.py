@@ -103,7 +103,7 @@ def _read_demand(node: yaml.Node, report: LessonReport) -> Demand | None:
     }
     hidden = flag(texts.get("hidden", "no"))
     if hidden is None:
-        report.wrong_value(common["hidden"], "'hidden' is no flag", "write true")
+        report.wrong_value(common["hidden"], "'hidden' is not a flag", "write true")
         return None
     if not conditions:
         return None

@@ -52,7 +52,7 @@ class Hint:
     """A help that comes after some tries.
 
     Attributes:
-        after: so many tries that failed.
+        after: number of failed tries.
         text: Markdown.
         only: the track that it is for; empty for all.
     """
@@ -117,7 +117,7 @@ class LessonStep:
         return [one for one in self.conditions if one.only in ("", track)]
 
     def shown_hints(self, track: str, tries: int) -> Sequence[Hint]:
-        """Return the hints of a track after so many tries that failed."""
+        """Return the hints of a track after a number of failed tries."""
         return [h for h in self._hints(track) if h.after <= tries]
 
     def is_exhausted(self, track: str, tries: int) -> bool:

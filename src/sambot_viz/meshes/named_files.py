@@ -18,7 +18,7 @@ from sambot_viz.files import is_below, is_lfs_pointer, read_limited, reason_of
 _FOLDERS = ("", "textures", "../materials/textures", "../textures")
 _OF_PACKAGES = re.compile("(?:model|package)://([^/].*)")
 _MAX_UP = 6
-"""Packages are looked for in so many folders above the mesh."""
+"""Number of folders above the mesh to search for packages."""
 
 
 class NamedFileError(SambotVizError):

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 from sambot_viz.errors import DecodeError
 
 MOST_BYTES = 16_000_000
-"""Elements hold on to their messages: after so many bytes all are read again."""
+"""Elements hold their messages: after this amount all are read again [bytes]."""
 _WIDEST = 8
 """No field is aligned to more bytes, so that it matters where a part begins."""
 Read = Callable[[memoryview, int, Callable[..., Any], Any], tuple[Any, int]]

@@ -26,7 +26,7 @@ class Templates(Generic[K, T]):
         self._bytes = 0
 
     def __len__(self) -> int:
-        """So many keys have templates."""
+        """Maximum number of keys with templates."""
         return len(self._known)
 
     def of(self, key: K) -> Sequence[T]:

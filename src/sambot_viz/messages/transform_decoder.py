@@ -24,7 +24,7 @@ from sambot_viz.messages.templates import Templates
 Transforms = tuple[int, Edges, NDArray[np.float64]]
 """Stamp [ns], the frames, and their (N, 7) poses: x, y, z and quaternion x, y, z, w."""
 _MOST_KEPT = 20_000
-"""So many transforms are kept in lists of frames; each publisher has one or two."""
+"""Maximum number of cached transform lists; each publisher has one or two."""
 _FEWEST_ROWS = 6
 """Fewer transforms are read field by field in less time."""
 _LARGEST_TEMPLATE = 1 << 21

@@ -257,7 +257,7 @@ class OwnRolePanel(Panel):
 
 
 _FEW = 3
-"""So many of those who have left are named; a whole class leaves at once."""
+"""Maximum number of names of users who left; a whole class leaves at once."""
 
 
 def _left(names: Sequence[str]) -> str:

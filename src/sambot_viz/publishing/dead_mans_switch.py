@@ -21,7 +21,7 @@ SILENCE = 0.3
 PERIOD = 0.05
 """Between two velocities [s]."""
 ZEROS = 3
-"""So many zero velocities end each motion: one could be lost."""
+"""Number of zero velocities that end each motion: one could be lost."""
 RAMP = 0.5
 """From rest to the highest speed takes so long [s]; stopping is not put off."""
 LONGEST_STOP = 5.0

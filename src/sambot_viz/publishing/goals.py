@@ -26,7 +26,7 @@ from sambot_viz.text import text
 from sambot_viz.topics.source_robot import SourceRobot
 
 _TOPICS = 8
-"""The goals of so many topics are followed at a time."""
+"""Maximum number of topics whose goals are followed at a time."""
 _NOT_CANCELLED = "not cancelled: "
 _SENT = Outcome("sent", False, True)
 

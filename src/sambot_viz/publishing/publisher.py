@@ -52,7 +52,7 @@ DESCRIPTION_TOPIC, DESCRIPTION_NODE = "/robot_description", "/robot_state_publis
 """Where a robot is described, and the node that has it as a parameter."""
 _LOOKS = 0.05
 _TOPICS = 8
-"""So many topics are published at a time: more than there are tools."""
+"""Maximum number of published topics at a time: more than there are tools."""
 FASTEST = 0.05
 """Messages go at least so long after one another [s]; a hand is slower."""
 

@@ -10,7 +10,7 @@ from sambot_viz.publishing.sent_message import SentMessage
 from sambot_viz.text import text
 
 LINES = 50
-"""So many are kept."""
+"""Maximum number of lines kept."""
 _VALUES = 160
 _STREAMS = ("/Twist", "/TwistStamped", "/JointState", "/InteractiveMarkerFeedback")
 """Messages that come again and again while a hand moves something."""

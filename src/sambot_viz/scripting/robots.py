@@ -114,7 +114,7 @@ class Robots:
         if shown is None:
             raise UsageError("there is no robot yet beside which another could be")
         if not name or name != name.strip("/ ") or name in self._hung:
-            raise UsageError(f"'{name}' is no name, or another robot has it")
+            raise UsageError(f"'{name}' is not a name, or another robot has it")
         parent = shown.root if parent is None else parent
         if parent not in shown.links:
             near = did_you_mean(parent, shown.links)

@@ -38,7 +38,7 @@ PAGE_LEFT = 4002
 REMOVED = 4003
 """The presenter has closed the page, which is not to come back by itself."""
 _MOST_REMOVED = 1000
-"""So many pages that were removed are remembered."""
+"""Maximum number of removed pages remembered."""
 
 
 class Channels:

@@ -18,7 +18,7 @@ class ListedFiles:
     Args:
         folder: whose files they are; those of folders in it are not listed.
         fits: tells whether a file or folder is of the wanted kind.
-        most: so many are listed, the first ones by their names.
+        most: maximum number of listed files, the first ones by their names.
         opened: paths in the folder that are neither hidden nor elsewhere.
         beside: further resolved folders into which links may lead.
     """

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _CHUNK_HEAD = 64
 """More than a chunk has in front of its records [bytes]."""
 _MOST_GIVEN_UP = 8
-"""So many whole chunks make room for the index at most."""
+"""Maximum number of whole chunks dropped to make room for the index."""
 
 
 @dataclass(slots=True)

@@ -15,7 +15,7 @@ from sambot_viz.text import text
 from sambot_viz.topics.reasons import qos_words, weaker_policy
 
 MOST_ENDS = 50
-"""So many publishers of a topic are told, and as many subscribers."""
+"""Maximum number of listed publishers of a topic, and of its subscribers."""
 _WIDEST = 80
 
 

@@ -17,9 +17,9 @@ from sambot_viz.topics.looked import Looked
 WINDOW_NS = 5_000_000_000
 """The rate is that of the last seconds [ns]."""
 _MOST_TIMES = 512
-"""So many of the last messages count at most: half a second at 1 kHz."""
+"""Maximum number of recent messages that count: half a second at 1 kHz."""
 _SILENCE = 3
-"""So many periods without a message, and a topic is slower than it was."""
+"""Number of periods without a message after which a topic has slowed down."""
 
 
 class Heard:
@@ -30,7 +30,7 @@ class Heard:
 
     Attributes:
         since: as given.
-        count: so many messages have come.
+        count: number of received messages.
         last: the newest message, None before the first one.
     """
 

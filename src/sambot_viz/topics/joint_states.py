@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sambot_viz.sources.bag import Bag
 
 _MOST_TEMPLATES = 8
-"""So many parts of a robot are known by their names, in each channel."""
+"""Maximum number of cached names of a robot's parts, in each channel."""
 
 
 class JointNames:

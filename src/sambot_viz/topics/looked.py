@@ -19,11 +19,11 @@ class Looked:
     """What was seen of a topic.
 
     Attributes:
-        seen: so many messages were met.
+        seen: number of messages met.
         first_ns: log time of the first one [ns]; None when none was met.
         last_ns: log time of the last one that was met [ns].
         decoded: it was tried with so many.
-        undecoded: so many of them cannot be decoded.
+        undecoded: number of those that cannot be decoded.
         cause: why the first of them cannot.
         frame: of the headers; empty when they have none.
         stamps: the least and the greatest of the headers [ns]; None without.

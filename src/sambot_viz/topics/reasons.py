@@ -56,7 +56,7 @@ QOS_WORDS = {
 }
 """RViz's words for what ROS offers."""
 STALE, PERIODS = 5.0, 3
-"""A topic that was silent for so long [s], and so many of its periods, is stale."""
+"""A topic that was silent for this time [s], and this number of periods, is stale."""
 _FIELDS = 6
 _NAMES = 3
 _LOOK = "look at what publishes it"
@@ -349,8 +349,8 @@ def not_decodable(bad: int, looked: int, cause: str, is_all: bool) -> TopicReaso
     """Say how many messages cannot be decoded.
 
     Args:
-        bad: so many of those that were looked at.
-        looked: so many were looked at.
+        bad: number of bad messages among them.
+        looked: number of messages looked at.
         cause: why, of the first of them.
         is_all: there are no more messages.
     """

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 BLOCK = 1_000_000_000
 """The length of a block of log time [ns]."""
 FEW = 5_000
-"""So many messages are looked at in any case, before the time that is asked for."""
+"""Minimum number of messages looked at, before the requested time."""
 Seen = TypeVar("Seen")
 
 

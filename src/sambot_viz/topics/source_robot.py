@@ -56,10 +56,10 @@ if TYPE_CHECKING:
 FIRST_SECONDS = 2.0
 """The frames that move are learnt from the beginning of a recording [s]."""
 ENOUGH = 300
-"""After so many messages of a live robot the frames that there are have been seen."""
+"""Number of messages of a live robot after which its frames are known."""
 
 _NAMED = 5
-"""So many topics are named where one is missing."""
+"""Number of topics named where one is missing."""
 
 
 class Lease:

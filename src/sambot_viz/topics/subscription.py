@@ -30,7 +30,7 @@ class Subscription:
         came: called in the worker when messages wait, and when a jump has made those
             that were drawn outdated.
         depth_s: how far back messages count after a jump [s].
-        size: so many messages wait at most.
+        size: maximum number of waiting messages.
         base: the topic whose last message changes are made to: after a jump all that
             has come since counts; "" for none.
         minds_older: whether to find out if there are older messages than those that

@@ -19,7 +19,7 @@ Points = npt.NDArray[np.float64]
 LOOKS = 8
 """So often it is looked into a recording, from its beginning to its end."""
 _MESSAGES = 50
-"""So many messages are taken at each look: a recording of any length costs the same."""
+"""Messages taken at each look: a recording of any length costs the same."""
 _APART = 0.001
 """Frames nearer than this are at one place [m]."""
 

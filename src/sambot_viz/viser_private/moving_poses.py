@@ -38,7 +38,7 @@ _pairs = itertools.count(1)
 """Rotations have even numbers, positions odd ones; each number has one meaning as long
 as the program runs, so a node that is made again with the same name has others."""
 _SWEEP = 1000
-"""Nodes that are gone are forgotten when there are so many more tracks."""
+"""Number of surplus tracks at which nodes that are gone are forgotten."""
 
 Value = tuple[float, ...]
 Move = tuple[Any, str, Value]

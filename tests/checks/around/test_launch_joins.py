@@ -104,7 +104,7 @@ def test_what_is_right_is_left_alone(package: Path) -> None:
         ("' sim:='", "'sim:='", "becomes a part of the word before it"),
         ("'-r '", "'-r'", "without a blank: -r and what follows"),
         ("'/launch', '/gz_sim", "'launch', 'gz_sim", "without a slash"),
-        ("5.0", "'5s'", "the period '5s' is no number of seconds"),
+        ("5.0", "'5s'", "the period '5s' is not a number of seconds"),
         ("target_action=spawn", "target_action='spawn'", "not the text 'spawn'"),
         (
             "RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[first]))",

@@ -149,7 +149,7 @@ def periods(around: Surroundings) -> Iterator[Problem]:
                     launch.place(given),
                     "error",
                     _CODE,
-                    f"the period '{text}' is no number of seconds: {_STOPS}",
+                    f"the period '{text}' is not a number of seconds: {_STOPS}",
                     rewritten(given, launch.shown, str(float(number)))
                     if known
                     else "write a number of seconds, such as 5.0",

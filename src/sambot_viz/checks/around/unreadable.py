@@ -48,7 +48,7 @@ def unreadable_yaml(around: Surroundings) -> Iterator[Problem]:
                 place,
                 "error",
                 "parameters-yaml",
-                f"this file is no YAML: {fault.cause}; the node that it is for{named} "
+                f"this file is not YAML: {fault.cause}; the node that it is for{named} "
                 "does not start",
                 line_fix(fault, place, text),
             )
@@ -188,7 +188,7 @@ def unreadable_python(around: Surroundings) -> Iterator[Problem]:
                     place,
                     "error",
                     "python-syntax",
-                    f"this file is no Python: {fault.cause}; {stops} stops with it",
+                    f"this file is not Python: {fault.cause}; {stops} stops with it",
                     line_fix(fault, place, text),
                 )
 
@@ -242,7 +242,7 @@ def unreadable_yaml_launches(around: Surroundings) -> Iterator[Problem]:
                     place,
                     "error",
                     "launch-code",
-                    f"this file is no YAML: {fault.cause}; ros2 launch stops with it",
+                    f"this file is not YAML: {fault.cause}; ros2 launch stops with it",
                     line_fix(fault, place, text),
                 )
 

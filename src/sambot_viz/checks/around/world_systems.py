@@ -126,7 +126,7 @@ def unreadable_worlds(around: Surroundings) -> Iterator[Problem]:
                 Place(shown, world.line),
                 "error",
                 "world-xml",
-                f"this world is no XML ({world.message}): Gazebo stops with it",
+                f"this world is not XML ({world.message}): Gazebo stops with it",
                 "correct this line or the one above it: each <tag> needs its </tag>",
             )
 

@@ -83,7 +83,7 @@ class HeldMessages:
         """Keep what waits, and return what has no room.
 
         Args:
-            most: so many wait.
+            most: number of waiting messages.
             last_only: whether what is older than the newest that is drawn does not.
         """
         kept: list[Held] = []

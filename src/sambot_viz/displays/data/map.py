@@ -104,7 +104,7 @@ class MapDisplay(TopicDisplay):
 
     @property
     def most_waiting(self) -> int:
-        """So many messages wait at most between two pictures."""
+        """Maximum number of waiting messages between two pictures."""
         return limits.MAP_UPDATES.value
 
     def messages_came(self) -> None:

@@ -81,7 +81,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
 
     @property
     def most(self) -> int:
-        """So many messages are shown."""
+        """Number of messages shown."""
         return int(self.config.acting(self.length)) if self.length else 1
 
     @property
@@ -101,7 +101,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
 
     @property
     def most_held(self) -> int:
-        """So many messages are held at most."""
+        """Maximum number of messages held."""
         return int(self.config.get(f"{TOPIC}/Filter size"))
 
     def wanted(self, came: Sequence[Recorded]) -> Sequence[Recorded]:

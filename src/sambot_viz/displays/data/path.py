@@ -92,8 +92,7 @@ class PathDisplay(MessageFilterDisplay[Poses]):
             "Buffer Length",
             default=1,
             minimum=1,
-            help="So many of the newest paths are shown, up to "
-            f"{limits.PATHS.value:,}.",
+            help=f"Number of newest paths to show, up to {limits.PATHS.value:,}.",
             acts_up_to=limits.PATHS.value,
         ),
         VectorProperty(

@@ -39,7 +39,7 @@ class PointStampedDisplay(MessageFilterDisplay[Vector3]):
             minimum=1,
             maximum=100_000,
             acts_up_to=limits.STAMPED_POINTS.value,
-            help=f"So many points stay; here up to {limits.STAMPED_POINTS.value:,}.",
+            help=f"Number of points to show, up to {limits.STAMPED_POINTS.value:,}.",
         ),
     )
     _node = DisplayNode(SolidsNode, "")

@@ -47,7 +47,7 @@ class RangeDisplay(MessageFilterDisplay[Reading]):
             default=1,
             minimum=1,
             acts_up_to=limits.RANGE_CONES.value,
-            help="So many of the newest readings are shown, up to "
+            help="Number of newest readings to show, up to "
             f"{limits.RANGE_CONES.value:,}.",
         ),
     )

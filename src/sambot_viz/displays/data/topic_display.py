@@ -140,7 +140,7 @@ class TopicDisplay(Display):
 
     @property
     def most_waiting(self) -> int:
-        """So many messages wait at most between two pictures."""
+        """Maximum number of waiting messages between two pictures."""
         return limits.DISPLAY_WAITING.value
 
     @property

@@ -97,8 +97,7 @@ def vector_properties(along: str, about: str) -> tuple[Property, ...]:
             minimum=1,
             maximum=100_000,
             acts_up_to=limits.VECTORS.value,
-            help="So many of the newest messages are shown, up to "
-            f"{limits.VECTORS.value:,}.",
+            help=f"Number of newest messages to show, up to {limits.VECTORS.value:,}.",
         ),
     )
 

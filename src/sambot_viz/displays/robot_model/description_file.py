@@ -11,9 +11,9 @@ from sambot_viz.robot.model import Robot
 from sambot_viz.robot.packages.package_index import PackageIndex
 
 MOST_LEVELS = 5
-"""So many folders, from a given one upwards, are looked in."""
+"""Number of folders to search, from a given one upwards."""
 MOST_PARTS = 40
-"""Of a longer path only the last so many parts are looked for."""
+"""Maximum number of parts of a path to look for, counted from its end."""
 
 
 def find_description(name: str, near: Sequence[Path]) -> Path | None:

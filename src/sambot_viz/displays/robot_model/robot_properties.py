@@ -33,7 +33,7 @@ ALL_LINKS_ENABLED = BoolProperty(
 LINK_TREE_PROPERTIES: tuple[Property, ...] = (
     GroupProperty(
         "Links",
-        help="The links of the robot, each with settings of its own.",
+        help="The links of the robot, each with its own settings.",
         open_keys=True,
         children=(
             EnumProperty(
@@ -144,7 +144,7 @@ ROBOT_MODEL_PROPERTIES: tuple[Property, ...] = (
         "Description Source",
         default="Topic",
         options=("Topic", "File"),
-        help="The robot of a topic, or a model file of its own.",
+        help="The robot of a topic, or of a model file.",
     ),
     FileProperty(
         FILE,

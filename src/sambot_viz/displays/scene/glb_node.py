@@ -32,7 +32,7 @@ ONE_PIXEL = base64.b64decode(
 """A PNG file: with it a part has a texture, whose picture the page makes."""
 WHITE: Array = np.full(4, 255, np.uint8)
 _LONG = 65_536
-"""A file of so many bytes is sent as it is."""
+"""Files up to this size are sent uncompressed [bytes]."""
 _TOGETHER = 16
 _NO_LIMITS = {"min": [-1e9] * 3, "max": [1e9] * 3}
 """A file has to have some."""

@@ -18,7 +18,7 @@ from sambot_viz.geometry import Matrix
 
 Floats = npt.NDArray[np.float64]
 _WHOLE = 32
-"""A whole circle has so many lines."""
+"""Number of lines of a whole circle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

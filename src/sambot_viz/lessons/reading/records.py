@@ -54,7 +54,7 @@ def read_record(
         None after a problem was reported.
     """
     if not isinstance(node, yaml.MappingNode):
-        report.wrong_value(node, f"{of} is no map of keys", "write key: value")
+        report.wrong_value(node, f"{of} is not a map of keys", "write key: value")
         return None
     keys, values, good = keys_of(record), dict(known), True
     for key, value in pairs(node):

@@ -111,7 +111,7 @@ VALUES = map_of(TEXTS, "a map of names to values")
 
 
 def numbers(count: int) -> ValueKind:
-    """Return the kind of a list of so many numbers."""
+    """Return the kind of a list of a given length."""
 
     def read(node: yaml.Node, report: LessonReport) -> tuple[float, ...] | None:
         items: list[yaml.Node] = (

@@ -30,7 +30,7 @@ _LINE_LOOP, _PAIRS = 1, 2
 _NAMELESS = "(no id)"
 """The namespace of entities with an empty id: none would mean all of them."""
 _PIXEL = 0.005
-"""Sizes in pixels are drawn as so many metres each: markers have no pixels."""
+"""Size in metres drawn for each pixel, because markers have no pixels."""
 _SIDES = 24
 
 

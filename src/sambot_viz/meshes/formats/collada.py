@@ -26,7 +26,7 @@ from sambot_viz.meshes.formats.collada_xml import ColladaDocument, parse_documen
 from sambot_viz.meshes.mesh_source import MeshSource
 
 FEW_CHILDREN = 20
-"""A node with so many transforms and parts counts as two."""
+"""Number of transforms and parts with which a node counts as two."""
 
 
 def read_collada(source: MeshSource) -> list[Submesh]:

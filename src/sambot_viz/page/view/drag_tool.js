@@ -10,7 +10,7 @@
 import { act, DRAG, HOVER, newGesture, rows, send } from "../wire/channel.js";
 import { focusView, placeIn } from "./pointer.js";
 
-/** At most so many places are sent in a second. */
+/** Maximum number of places sent in a second. */
 const PLACES = 20;
 /** So near to a place that was asked about a press is there, by the size of the view. */
 const NEAR = 0.003;

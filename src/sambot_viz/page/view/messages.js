@@ -20,7 +20,7 @@ const POSES = new Set([
 const MORE = "~more";
 /** What takes longer, such as the file of a mesh, comes into a later picture [ms]. */
 const LONGEST = 200;
-/** So many pictures wait at least, on a machine that draws seldom. */
+/** Minimum number of waiting pictures, on a machine that draws seldom. */
 const PICTURES = 3;
 /** Before viser takes messages (-100000), and right after it. */
 const FIRST = -200000,
@@ -29,7 +29,7 @@ const FIRST = -200000,
 /** @type {Set<(messages: any[]) => void>} */
 const listeners = new Set();
 
-/** So many messages at the front of viser's queue are poses that wait for the rest. */
+/** Number of poses at the front of viser's queue that wait for the rest. */
 let held = 0;
 /** Whether there is a rest that no picture shows yet, and the nodes whose files are read for it. */
 let isComing = false;

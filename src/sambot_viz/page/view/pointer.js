@@ -1,7 +1,7 @@
 // @ts-check
 /* The mouse over the 3D view: where it is, and that the view has the focus after a click. */
 
-/** At most so many places of the mouse are sent in a second. */
+/** Maximum number of places of the mouse sent in a second. */
 const HOVERS = 20;
 
 /** What has the mouse and the focus of the view; of a page without one, its empty place.

@@ -3,7 +3,7 @@
  * the axes of their frames. viser keeps the place of each name in a texture that it writes for
  * every picture: here it is changed before it is drawn. */
 
-/** A name does not go farther from its frame than so many of its own heights. */
+/** Maximum distance of a name from its frame, in heights of the name. */
 const FARTHEST = 8;
 /** The part of a name's box that must not be covered. */
 const HIGH = 0.85;

@@ -19,7 +19,7 @@ import { toggleFullScreen } from "./toolbar.js";
 /** @typedef {{kind: string, icon: string, name: string, where: string, keys?: string,
  *   words?: string, does: () => void}} Target words: more by which it is found */
 
-/** So many are listed; more letters find the others. */
+/** Maximum number of listed results; more letters find the others. */
 const MOST = 60;
 /** What PageUp and PageDown pass over. */
 const FAR = 8;

@@ -13,16 +13,16 @@ from sambot_viz.robot.parts import Joint
 STEP_ANGLE, STEP_LENGTH = 0.01, 0.001
 """Added by an arrow key [rad] and [m]."""
 FEWEST_STEPS = 20
-"""A joint with a short range has smaller steps, at least so many."""
+"""Minimum number of steps of a joint with a short range."""
 FOLLOWERS, SKIPPED = "joints/followers", "joints/skipped"
 ID_PREFIX = "j/"
 _FEW = 12
 UNGROUPED = 30
-"""So many joints are shown in one list."""
+"""Maximum number of joints in one list."""
 LARGEST_GROUP = 8
 """A larger group is divided, where the names say how."""
 _RUN = 25
-"""Joints that only a number tells apart are divided into groups of so many."""
+"""Size of groups of joints whose names differ only by a number."""
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+|[^\W\d_A-Za-z]+")
 
 

@@ -13,7 +13,7 @@ from sambot_viz.text import text
 
 VERSION = "1"
 MOST_NAMED = 4
-"""At most so many names that this robot does not have are listed."""
+"""Maximum number of listed names that this robot does not have."""
 ON, OFF = "1", "0"
 
 Pair = tuple[str, str]

@@ -18,7 +18,7 @@ from sambot_viz.session.signals import Signal
 SHOWN = 30
 """At most this many selected items are listed."""
 SHORT = 3
-"""The rows of so many items, or more, come folded."""
+"""Number of items from which their rows begin folded."""
 IN_TABLE = 10
 """At most this many items are in the table of distances; more points have none."""
 _GAP = 2

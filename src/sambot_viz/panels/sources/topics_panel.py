@@ -18,7 +18,7 @@ from sambot_viz.topics import reasons
 from sambot_viz.topics.account import Account
 
 AGES = 50
-"""Of so many topics the age is looked up at a time."""
+"""Number of topics whose age is looked up at a time."""
 _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "info"}
 
 

@@ -14,7 +14,7 @@ ROUND = 0.95
 _UPRIGHT = 0.5
 """A cylinder whose axis is steeper (sine of the slope) stands on its end."""
 _SIDES = 32
-"""A round end of a cylinder is taken for a polygon of so many corners."""
+"""Corners of the polygon that represents a round end of a cylinder."""
 _ANGLES = [2.0 * math.pi * side / _SIDES for side in range(_SIDES)]
 CIRCLE = tuple((math.cos(angle), math.sin(angle)) for angle in _ANGLES)
 """The corners of that polygon, of radius 1."""

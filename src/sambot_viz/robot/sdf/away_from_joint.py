@@ -13,7 +13,7 @@ from sambot_viz.robot.sdf.values import trimmed
 from sambot_viz.robot.xml.element import Element
 
 _FEWEST = 2
-"""So many links must count from their own joints for that to be a habit."""
+"""Number of links with poses from their own joints that make it a habit."""
 
 
 def warn_of_links_away_from_joints(

@@ -158,8 +158,8 @@ def _refuse_frame(
     better = frame.name if frame is not None and frame.kind == "link" else ""
     findings.reject(
         "sdf-joint-to-frame",
-        f"joint {joint.name} has {name} as its {tag}, which is no link; SDF allows it, "
-        f"but {REFUSED}",
+        f"joint {joint.name} has {name} as its {tag}, which is not a link; SDF allows "
+        f"it, but {REFUSED}",
         # It may be meant as a link, or be at another place than its link.
         _as_link(joint, named)
         if named is not None and better in _ends_of(joint)

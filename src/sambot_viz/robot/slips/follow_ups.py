@@ -19,7 +19,7 @@ Read = Callable[[Element, ModelFindings], object]
 """Reads a document again, without looking for files."""
 
 _MOST = 20
-"""After so many corrections all others are made at once."""
+"""Number of corrections after which all others are made at once."""
 
 _Key = tuple[str, str | None, int | None]
 

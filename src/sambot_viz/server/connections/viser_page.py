@@ -29,7 +29,7 @@ if(document.readyState==="loading"){document.addEventListener("DOMContentLoaded"
 else{run();}
 })();"""
 _DIGITS = 5
-"""So many digits are four bytes."""
+"""Number of digits of four bytes."""
 
 
 @dataclass(frozen=True)

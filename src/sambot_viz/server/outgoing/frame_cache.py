@@ -18,7 +18,7 @@ from sambot_viz import viser_private
 HEAVY = 256 * 1024
 """More than that is packed in a thread, and is not kept once it is sent [bytes]."""
 RECENT = 32
-"""So many light frames are kept for the clients that are a little behind."""
+"""Number of small frames kept for clients that lag a little."""
 MARKER, MORE = -1, -2
 """The numbers of messages that are in no buffer: viser's marker, and that more of what
 belongs together follows."""

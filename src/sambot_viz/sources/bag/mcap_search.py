@@ -21,7 +21,7 @@ _LIKELY = re.compile(rb"(?=[\x03-\x07].{4}\x00{4})", re.DOTALL)
 """A schema, channel, message, chunk or message index of less than 4 GB."""
 
 _IN_A_ROW = 3
-"""So many records that follow each other are no chance."""
+"""Number of consecutive valid records that rule out chance."""
 
 
 def find_record(file: FileBytes, at: int, end: int) -> Iterator[int | None]:

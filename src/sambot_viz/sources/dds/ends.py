@@ -13,7 +13,7 @@ from sambot_viz.sources.qos import Qos
 _LONGEST_WRITE = 10_000_000
 """A writer whose readers are slow waits this long, with all threads of Python [ns]."""
 DEPTH = 10
-"""So many messages are kept for a reader that is slow, or not found yet."""
+"""Number of messages kept for a reader that is slow, or not found yet."""
 _LOOK = 0.02
 """Between two looks whether a reader is found [s]."""
 SETTLED = 0.1

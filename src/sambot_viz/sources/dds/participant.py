@@ -33,7 +33,7 @@ LONGEST_STOP = 5.0
 _MOST_KEPT = 1000
 """Messages of a topic that have come and were not taken; what is older gives way."""
 _MOST_ENDPOINTS = 1000
-"""So many are taken at once."""
+"""Maximum number taken at once."""
 _NUMBERS = count(1000)
 """Of domains in this process, where each source has one; the real one is a setting."""
 

@@ -399,7 +399,7 @@ class LiveSource(ABC):
 
 
 def next_pause(attempt: int) -> float:
-    """Return the pause before the next attempt [s], after so many that failed."""
+    """Return the pause before the next attempt [s], after a number of failed ones."""
     grown = FIRST_PAUSE * GROWTH ** min(attempt, 20)
     return min(LONGEST_PAUSE, grown * random.uniform(1.0, 1.5))
 

@@ -14,7 +14,7 @@ from sambot_viz.sources.websocket.large_frames import LargeFrames, OnLarge
 PACE = 0.010
 """After a read that emptied the socket the next one comes so much later [s]."""
 _MUCH = 65_536
-"""A read of so many bytes has perhaps not emptied the socket."""
+"""Size of a read that may not have emptied the socket [bytes]."""
 _ACKNOWLEDGE = getattr(socket, "TCP_QUICKACK", None)
 
 

@@ -23,7 +23,7 @@ from sambot_viz.views.view import Name
 LETTER_WIDTH, LINE_HEIGHT = 0.55, 1.5
 """Of a usual letter and of a line, by the size of letters."""
 AROUND = 4.0
-"""A robot is seen with so many of its lengths around it, whatever is farther."""
+"""Distance shown around a robot, in lengths of the robot."""
 BESIDE = 0.05
 """What is this near to a box, by its diagonal, counts as in it."""
 

@@ -79,7 +79,7 @@ def _word(lines: list[str], n: int) -> Iterator[Repair]:
     right = _OTHER_LANGUAGES.get(first[2]) or meant(first[2], _WORDS)
     if right is not None:
         rest = lines[n - 1][first.end() :]
-        yield n, f"{first[1]}{right}{rest}", f"{first[2]} is no word of Python"
+        yield n, f"{first[1]}{right}{rest}", f"{first[2]} is not a word of Python"
 
 
 def _indents(lines: list[str], at: int, before: int) -> Iterator[Repair]:

@@ -15,7 +15,7 @@ from sambot_viz.errors import Place
 
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MOST_NAMES = 3
-"""Namespaces and the name of a node are so many keys at most."""
+"""Maximum number of keys for namespaces and the name of a node."""
 
 _TRUE, _FALSE = frozenset({"true", "yes", "on"}), frozenset({"false", "no", "off"})
 

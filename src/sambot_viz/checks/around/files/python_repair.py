@@ -17,7 +17,7 @@ _NEWER = re.compile(
 
 _NAME_AT_END = re.compile(r"[A-Za-z_][\w.]*$")
 _FURTHER = 2
-"""Another error so many lines further on is another one."""
+"""An error this number of lines further on is a separate one."""
 _MOST_LINES = 200
 _COMMA = "a comma is missing at the end of this line"
 

@@ -57,7 +57,7 @@ class ColorOptions:
 
 
 _STEPS = 5 * 255
-"""The rainbow has so many colours, and one more: 255 from each corner to the next."""
+"""Number of colours of the rainbow less one: 255 from each corner to the next."""
 
 
 @cache

@@ -104,12 +104,12 @@ class DepthCloudDisplay(CloudDisplay):
 
     @property
     def most_held(self) -> int:
-        """So many messages are held at most."""
+        """Maximum number of messages held."""
         return int(self.config.acting(QUEUE_SIZE))
 
     @property
     def most_waiting(self) -> int:
-        """So many messages wait at most between two pictures, of the three topics."""
+        """Maximum number of waiting messages, of the three topics together."""
         return 3 * limits.DISPLAY_WAITING.value
 
     def options(self) -> Mapping[str, Sequence[str]]:

@@ -84,7 +84,7 @@ class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
             minimum=1,
             maximum=100_000,
             acts_up_to=limits.EFFORT_CIRCLES.value,
-            help="So many of the newest messages are shown, with up to "
+            help="Number of newest messages to show, up to "
             f"{limits.EFFORT_CIRCLES.value} circles in all.",
         ),
         StringProperty(
@@ -153,7 +153,7 @@ class EffortDisplay(MessageFilterDisplay[Sequence[JointEffort]]):
 
     @property
     def most(self) -> int:
-        """So many messages are shown: what is drawn is sent again with each one."""
+        """Number of messages shown: the drawing is sent again with each one."""
         count = 0 if self._joints is None else len(self._joints.joints)
         return min(super().most, max(1, limits.EFFORT_CIRCLES.value // max(1, count)))
 

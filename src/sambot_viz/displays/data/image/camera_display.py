@@ -55,7 +55,7 @@ _BACK, _OVER = "background", "overlay"
 _BOTH = f"{_BACK} and {_OVER}"
 RENDERING = "Image Rendering"
 MEDIAN = 5
-"""The range of 16-bit and float values is the median over so many pictures."""
+"""Number of pictures over which the range of 16-bit and float values is the median."""
 
 
 class CameraDisplay(MessageFilterDisplay[Any]):
@@ -129,12 +129,12 @@ class CameraDisplay(MessageFilterDisplay[Any]):
 
     @property
     def most_held(self) -> int:
-        """So many pictures are held at most."""
+        """Maximum number of pictures held."""
         return limits.IMAGES_WAITING.value
 
     @property
     def most_waiting(self) -> int:
-        """So many messages wait at most between two pictures, of both topics."""
+        """Maximum number of waiting messages between two pictures, of both topics."""
         return 2 * limits.DISPLAY_WAITING.value
 
     def begin(self) -> None:

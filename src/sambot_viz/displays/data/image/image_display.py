@@ -76,7 +76,7 @@ class ImageDisplay(TopicDisplay):
             default=5,
             minimum=1,
             maximum=limits.IMAGE_MEDIAN.value,
-            help="The range is the median over so many pictures.",
+            help="Number of pictures over which the range is the median.",
             hidden_unless=(NORMALIZE, True),
         ),
     )

@@ -29,7 +29,7 @@ from sambot_viz.topics.contents.pictures import (
 )
 
 FEW_PIXELS = 100_000
-"""Up to so many the pixels are kept exactly; a larger picture becomes a JPEG."""
+"""Maximum number of pixels kept exactly; a larger picture becomes a JPEG."""
 QUALITY = 90
 _TYPES = {"JPEG": "image/jpeg", "PNG": "image/png", "WEBP": "image/webp"}
 

@@ -25,7 +25,7 @@ from sambot_viz.geometry import Wxyz, wxyz_rotated
 
 ALPHA = 0.5
 STEPS = 36
-"""A ring has so many parts."""
+"""Number of parts of a ring."""
 INNER, OUTER = 0.5, 0.65
 """Radii of a ring, by the scale of its marker."""
 DARK = 0.6

@@ -45,7 +45,7 @@ KEEP_ALIVE = 0
 FEEDBACK = "/feedback"
 """What the name of the topic ends with where the program hears of what is done."""
 _PATIENCE = 5
-"""A service that was not there is asked for again after so many seconds."""
+"""Pause before a missing service is called again [s]."""
 WHOLE_S = 1e8
 """How far back updates count where there is no full set [s]: three years."""
 
@@ -136,7 +136,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
 
     @property
     def most_waiting(self) -> int:
-        """So many messages wait at most between two pictures."""
+        """Maximum number of waiting messages between two pictures."""
         return limits.INTERACTIVE_UPDATES.value
 
     @property

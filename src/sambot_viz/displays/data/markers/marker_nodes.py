@@ -36,9 +36,9 @@ from sambot_viz.meshes.glb import OPAQUE_FROM
 Key = tuple[str, int]
 """Namespace and id."""
 BATCH = 500
-"""So many solids are in one batch: more are sent when one of them changes."""
+"""Solids in one batch: all of them are sent when one changes."""
 ALONE = 100
-"""So many that can be seen through have nodes of their own, which browsers sort."""
+"""Maximum number of translucent solids with separate nodes, which browsers sort."""
 
 
 @dataclass(slots=True, eq=False)

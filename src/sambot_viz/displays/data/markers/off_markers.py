@@ -10,7 +10,7 @@ from sambot_viz import limits
 from sambot_viz.displays.data.markers.marker_fields import MarkerPose
 from sambot_viz.displays.data.markers.marker_nodes import Key
 
-"""So many markers, with so many points together, are kept."""
+"""Maximum number of markers kept, and of their points together."""
 
 
 @dataclass(slots=True, eq=False)

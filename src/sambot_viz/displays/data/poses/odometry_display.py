@@ -115,7 +115,7 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
             "Keep",
             default=100,
             minimum=0,
-            help="So many poses stay; 0 for all, here up to "
+            help="Number of poses to show; 0 shows all, up to "
             f"{limits.ODOMETRY_POSES.value:,}.",
         ),
         EnumProperty(
@@ -142,7 +142,7 @@ class OdometryDisplay(MessageFilterDisplay[_PastPose]):
 
     @property
     def most(self) -> int:
-        """So many poses are shown."""
+        """Number of poses shown."""
         most = limits.ODOMETRY_POSES.value
         return min(int(self.config.get("Keep")) or most, most)
 

@@ -31,7 +31,7 @@ LexicalErrorKind = Literal[
 
 CURLY = "“”„‟″‘’‚‛′«»"
 MOST_ERRORS = 50
-"""Reading ends after so many errors, because such a text is not XML at all."""
+"""Number of errors after which reading ends, because such a text is not XML at all."""
 
 _NAME_PATTERN = r"[^\W\d][\w.\-]*(?::[^\W\d][\w.\-]*)?"
 _NAME = re.compile(_NAME_PATTERN)
