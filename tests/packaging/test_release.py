@@ -24,6 +24,8 @@ def test_the_changelog_has_this_version_and_what_comes_next(repository: Path) ->
     text = (repository / "CHANGELOG.md").read_text("utf-8")
     headings = re.findall(r"^## (.*)$", text, re.MULTILINE)
     assert headings[0] == "Unreleased"
+    assert headings[1].split()[0] == __version__
+    assert text.partition(f"## {__version__} ")[2].count("\n") <= 120
 
 
 def test_workflows_pin_their_actions_and_give_few_rights(repository: Path) -> None:

@@ -56,13 +56,13 @@ def manifest_fault(text: str, name: str) -> Fault | None:
         for better, cause, hint in _repairs(line, n, lines):
             root = _parsed("\n".join([*lines[:n], better, *lines[n + 1 :]]))
             if isinstance(root, Element) and root.tag == _ROOT:
-                return Fault(n + 1, f"this file is no XML: {cause}", hint, better)
+                return Fault(n + 1, f"this file is not XML: {cause}", hint, better)
     fault = _parsed(text)
     if isinstance(fault, Element):
         return None
     return Fault(
         fault.line,
-        f"this file is no XML ({fault.message})",
+        f"this file is not XML ({fault.message})",
         "correct this line or the one above it: each <tag> needs its </tag>",
     )
 
