@@ -87,7 +87,7 @@ def config_names() -> list[str]:
 
 
 def is_bundled(config: str | None) -> bool:
-    """Tell if a config file is one that comes with the program."""
+    """Return whether a config file is one that comes with the program."""
     return config is not None and _is_bundled(Path(config).absolute())
 
 

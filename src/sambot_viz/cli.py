@@ -89,7 +89,7 @@ def _run(words: list[str], notes: Sequence[Problem]) -> int:
 
 
 def _refuse_mistyped(word: str) -> None:
-    """Raise UsageError for a word that is no file, and nearly a command."""
+    """Raise UsageError for a word that is not a file, and nearly a command."""
     near = nearest(word, COMMANDS, likeness=0.7)
     if near is not None and not os.path.exists(word):
         raise UsageError(

@@ -150,7 +150,7 @@ def read_limited(path: Path, largest: int, *, pipe: bool = False) -> bytes:
 
 
 def is_below(path: Path, folders: Iterable[Path]) -> bool:
-    """Tell if a path, with its links followed, leads into one of these folders.
+    """Return whether a path, with its links followed, leads into one of these folders.
 
     Args:
         path: may or may not exist.
@@ -165,7 +165,7 @@ def is_below(path: Path, folders: Iterable[Path]) -> bool:
 
 
 def is_lfs_pointer(data: bytes) -> bool:
-    """Tell if the first bytes of a file are those of a git-LFS pointer.
+    """Return whether the first bytes of a file are those of a git-LFS pointer.
 
     A clone without git-LFS has such a text of three lines in place of each large file.
     """

@@ -136,7 +136,7 @@ def _ways_to_others(joint: Joint, shape: Shape, robot: Robot) -> Iterator[Vector
 
 
 def _is_like(one: Shape, other: Shape) -> bool:
-    """Tell whether two shapes are discs of the same radius."""
+    """Return whether two shapes are discs of the same radius."""
     discs = one.geometry, other.geometry
     return (
         isinstance(discs[0], Cylinder)
@@ -191,7 +191,7 @@ def _on_wrong_side(one: Joint, other: Joint) -> Joint:
 
 
 def _are_sides(one: str, other: str) -> bool:
-    """Tell whether names are of the left and of the right side."""
+    """Return whether names are of the left and of the right side."""
     return "left" in one and "right" in other
 
 
@@ -207,7 +207,7 @@ def axle_of(joint: Joint) -> Vector3 | None:
 
 
 def only_rolls(joint: Joint, robot: Robot) -> bool:
-    """Tell whether a link at the end of the tree is a wheel that does not swivel."""
+    """Return whether a link at the end of the tree is a wheel that does not swivel."""
     names = f"{joint.name} {joint.child}".lower()
     at_end = all(other.parent != joint.child for other in robot.joints.values())
     wheel = WHEEL.search(joint.child.lower())
@@ -215,7 +215,7 @@ def only_rolls(joint: Joint, robot: Robot) -> bool:
 
 
 def _is_across(shape: Shape, axle: Vector3) -> bool:
-    """Tell whether a shape is a disc whose middle line is across the axle."""
+    """Return whether a shape is a disc whose middle line is across the axle."""
     disc = shape.geometry
     if not isinstance(disc, Cylinder) or disc.length > disc.radius:
         return False

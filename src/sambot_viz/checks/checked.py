@@ -132,7 +132,7 @@ def frame_is_published(
     config: str | None = None,
     workspace: Sequence[Path | str] = (),
 ) -> bool:
-    """Tell whether the packages of a robot, or that of a config, may publish a frame.
+    """Return whether the packages of a robot, or that of a config, may publish a frame.
 
     Args:
         robot: the robot.
@@ -180,7 +180,7 @@ def _alone(targets: Targets, loaded: Sequence[_Loaded]) -> list[Package]:
 
 
 def _is_certain(problem: Problem, one: _Loaded, loaded: Sequence[_Loaded]) -> bool:
-    """Tell whether a file that several models share is wrong for each of them.
+    """Return whether a file that several models share is wrong for each of them.
 
     It may be meant for one of them.
     """

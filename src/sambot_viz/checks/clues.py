@@ -27,12 +27,12 @@ def guess(
 
 
 def is_written_whole(value: float) -> bool:
-    """Tell whether a measured number has no fraction."""
+    """Return whether a measured number has no fraction."""
     return is_measured(value) and abs(value - round(value)) < 1e-9
 
 
 def is_measured(value: float) -> bool:
-    """Tell whether a number is neither 0 nor 1, 10, 0.1 or the like.
+    """Return whether a number is neither 0 nor 1, 10, 0.1 or the like.
 
     Powers of ten are what people write for what they do not know.
     """

@@ -58,7 +58,7 @@ def check_config(robot: Robot, config: RvizConfig) -> list[Problem]:
 
 
 def moveit_draws_robot(config: RvizConfig) -> bool:
-    """Tell whether RViz draws the robot with a display of MoveIt."""
+    """Return whether RViz draws the robot with a display of MoveIt."""
     displays = _all(config.displays)
     return any(d.enabled and d.class_id.startswith(_OF_MOVEIT) for d in displays)
 

@@ -73,7 +73,7 @@ def _lies_flat(joint: Joint, robot: Robot) -> bool:
 
 
 def _is_along(shape: Shape, axle: tuple[float, float, float]) -> bool:
-    """Tell whether a shape is a disc whose middle line is the axle."""
+    """Return whether a shape is a disc whose middle line is the axle."""
     disc = shape.geometry
     if not isinstance(disc, Cylinder) or disc.length > 2 * disc.radius:
         return False

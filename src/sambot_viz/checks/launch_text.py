@@ -124,7 +124,7 @@ def _text_around(urdf: str, at: int) -> str:
 
 
 def _is_text_in_yaml(text: str) -> bool:
-    """Tell whether YAML reads it as one plain text, as launch then does."""
+    """Return whether YAML reads it as one plain text, as launch then does."""
     # The import is late: few models come this far.
     import yaml
 

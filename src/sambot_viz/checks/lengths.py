@@ -59,7 +59,7 @@ class _Lengths(NamedTuple):
     origins: bool
 
     def has(self, geometry: Geometry) -> bool:
-        """Tell whether a shape is in that unit."""
+        """Return whether a shape is in that unit."""
         if isinstance(geometry, MeshFile):
             return False
         longest, shortest = _sides(geometry)
@@ -159,7 +159,7 @@ _FOAM = 10.0
 
 
 def is_lighter_than_foam(link: Link) -> bool:
-    """Tell whether a link weighs too little for its shapes."""
+    """Return whether a link weighs too little for its shapes."""
     mass = 0.0 if link.inertial is None else link.inertial.mass
     volume = volume_of(link)
     return math.isfinite(volume) and 0 < mass < _FOAM * volume

@@ -119,7 +119,7 @@ def unusable_meshes(subject: Subject) -> Iterator[Problem]:
 
 
 def _has_area(part: MeshPart) -> bool:
-    """Tell whether one of its triangles is more than a point or a line."""
+    """Return whether one of its triangles is more than a point or a line."""
     import numpy as np
 
     for start in range(0, len(part.faces), _AT_ONCE):

@@ -115,13 +115,13 @@ def _elements(robot: Robot) -> Iterator[_Written]:
 
 
 def _is_plane(shape: Shape) -> bool:
-    """Tell whether a shape is a ground or a wall, which has hardly any thickness."""
+    """Return whether a shape is a ground or a wall, which has hardly any thickness."""
     box = shape.geometry
     return isinstance(box, Box) and min(box.size) < _THIN * max(box.size)
 
 
 def _is_rail(element: _Written, robot: Robot) -> bool:
-    """Tell whether a part slides about as far as a length says."""
+    """Return whether a part slides about as far as a length says."""
     travels = [
         joint.limit.upper - joint.limit.lower
         for joint in robot.joints.values()
@@ -198,7 +198,7 @@ def _properties(
 
 
 def _names(files: SourceSet, place: Place | None, name: str) -> bool:
-    """Tell whether an element, or one in it, is written with a property."""
+    """Return whether an element, or one in it, is written with a property."""
     source = None if place is None else files.get(place.file)
     if source is None or place is None:
         return False

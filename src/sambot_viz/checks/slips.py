@@ -19,7 +19,7 @@ _LARGEST_LIMIT = 720.0
 
 
 def _is_round(value: float) -> bool:
-    """Tell whether it is a multiple of a half, as people write degrees."""
+    """Return whether it is a multiple of a half, as people write degrees."""
     return abs(value * 2 - round(value * 2)) < 1e-9
 
 

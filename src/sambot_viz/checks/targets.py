@@ -236,7 +236,7 @@ class _TargetSearch:
         return tuple(found)
 
     def _is_for(self, package: Package, model: Path, home: Package) -> bool:
-        """Tell whether the launch files of a package start this model, and no other.
+        """Return whether the launch files of a package start this model, and no other.
 
         Which one they start may not be known, where the package has only this.
         """

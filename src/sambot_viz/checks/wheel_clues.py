@@ -20,7 +20,7 @@ _SAME = 0.01
 
 
 def is_rotor(joint: Joint) -> bool:
-    """Tell whether a joint turns a propeller or a fan, by its name."""
+    """Return whether a joint turns a propeller or a fan, by its name."""
     return any(_ROTOR.search(name) for name in (joint.name, joint.child))
 
 
@@ -72,14 +72,14 @@ def shapes_of(robot: Robot, link: str) -> tuple[Shape, ...]:
 
 
 def _is_lowest(robot: Robot, link: str) -> bool:
-    """Tell whether no other link reaches below a link; only for known shapes."""
+    """Return whether no other link reaches below a link; only for known shapes."""
     own = min(_lows(robot, link), default=None)
     others = [low for name in robot.links if name != link for low in _lows(robot, name)]
     return own is not None and len(others) > 0 and own < min(others) + _SAME
 
 
 def _lows(robot: Robot, link: str) -> Iterator[float]:
-    """Give the lowest height of each shape of a link that is no mesh [m]."""
+    """Give the lowest height of each shape of a link that is not a mesh [m]."""
     T_root_link = robot.at_start[link]
     for shape in shapes_of(robot, link):
         T = T_root_link @ shape.origin.pose

@@ -180,7 +180,7 @@ def _of_places(twins: _Twins) -> Iterator[Problem]:
 
 
 def _is_usual(twins: _Twins, joint: Joint, at: int) -> bool:
-    """Tell whether a third wheel, or the drive, has a number too."""
+    """Return whether a third wheel, or the drive, has a number too."""
     value = abs(joint.origin.xyz[at])
     others = [
         abs(other.origin.xyz[at])
@@ -232,7 +232,7 @@ def _of_shapes(twins: _Twins, one: Shape, other: Shape) -> Problem | None:
 
 
 def _fits(twins: _Twins, joint: Joint, shape: Shape, radii: Sequence[float]) -> bool:
-    """Tell whether a drive, or the other shapes of the link, say this size."""
+    """Return whether a drive, or the other shapes of the link, say this size."""
     link = twins.robot.links[joint.child]
     others = [s for s in (*link.visuals, *link.collisions) if s is not shape]
     radius = _size(shape).get("radius", 0.0)

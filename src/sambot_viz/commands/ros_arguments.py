@@ -36,7 +36,7 @@ def without_ros_arguments(words: Sequence[str]) -> tuple[list[str], list[str]]:
     given = iter(words)
     for word in given:
         if word != BEGIN:
-            # As a word of its own it would be taken for an argument of xacro.
+            # As a separate word it would be taken for an argument of xacro.
             is_rule = word == _RULE[1]
             left.append(f"{word}={next(given, '')}" if is_rule else word)
             continue

@@ -92,13 +92,13 @@ class Pictures:
         self.tell()
 
     def is_wanted(self, key: str) -> bool:
-        """Tell whether some page shows the pictures of a display."""
+        """Return whether some page shows the pictures of a display."""
         return self._wanted[key] > 0
 
     # For pages
 
     def __contains__(self, key: str) -> bool:
-        """Tell whether a display has pictures."""
+        """Return whether a display has pictures."""
         return key in self._wakes
 
     def want(self, key: str) -> None:

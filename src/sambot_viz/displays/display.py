@@ -3,7 +3,7 @@
 A display lists its properties once (`properties`); reading, saving, the rows of the
 panel, clamping and live change all come from that list. Its values live
 in the `DisplayConfig` of the document, so what is on the screen is what a save writes.
-A robot has hundreds of links, joints and frames with properties of their own, so the
+A robot has hundreds of links, joints and frames with their own properties, so the
 panel offers a list to choose from (`EntryList`) and shows the chosen one's rows only.
 """
 
@@ -413,7 +413,7 @@ class Display:
         del item
 
     def entries(self) -> tuple[EntryList, ...]:
-        """Return the links, joints or frames that have rows of their own."""
+        """Return the links, joints or frames that have their own rows."""
         return ()
 
     def notes(self) -> Mapping[str, str]:

@@ -34,7 +34,7 @@ _Page = TypeVar("_Page", bound="BrowserPage")
 
 
 class BrowserPage:
-    """A page in a window of its own. Made by `Chromium.open`."""
+    """A page in its own window. Made by `Chromium.open`."""
 
     def __init__(
         self, devtools: DevTools, context: str, session: str, timeout: float

@@ -138,7 +138,7 @@ class Chromium:
         height: int = 720,
         scale: float = 1.0,
     ) -> BrowserPage:
-        """Open a window of its own, with its own cookies and storage.
+        """Open a separate window, with separate cookies and storage.
 
         Args:
             url: the page to go to.

@@ -229,7 +229,7 @@ class FrameTree(FrameHierarchy):
         return seen
 
     def can_lookup(self, target: str, source: str, time_ns: int | None = None) -> bool:
-        """Tell whether `lookup` has an answer."""
+        """Return whether `lookup` has an answer."""
         try:
             if self.history is not None:
                 self.history.lookup(target, source, time_ns, self)

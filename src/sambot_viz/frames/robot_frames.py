@@ -26,7 +26,7 @@ def robot_frames(
     """Return a new tree with the frames of a robot.
 
     Fixed and planar joints are static, the moving ones change. A floating joint gives
-    no transform, so that its descendants are a tree of their own.
+    no transform, so that its descendants are their own tree.
 
     Args:
         robot: the robot.

@@ -121,7 +121,7 @@ class Samples:
         return child in self._places
 
     def knows(self, edges: Sequence[FramePair]) -> bool:
-        """Tell whether a message has had these frames, in this order and spelling."""
+        """Return whether a message has had these frames, in this order and spelling."""
         return tuple(edges) in self._groups
 
     def add(

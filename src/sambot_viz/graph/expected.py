@@ -130,7 +130,7 @@ def _by_topic(
 
 
 def _names(sentence: str, name: str) -> bool:
-    """Tell whether a sentence has a name in it, as a whole."""
+    """Return whether a sentence has a name in it, as a whole."""
     return re.search(rf"(?<![\w/]){re.escape(name)}(?![\w/])", sentence) is not None
 
 
@@ -143,7 +143,7 @@ def _notes(system: RunningSystem) -> Iterator[str]:
             yield f"and at {more} other places"
     by_name: dict[str, int] = {}
     for node in system.started:
-        # Gazebo, which is no node, may be started in several steps.
+        # Gazebo, which is not a node, may be started in several steps.
         if node.starts == "yes" and node.endpoints:
             by_name[node.path] = by_name.get(node.path, 0) + 1
     for name, count in by_name.items():

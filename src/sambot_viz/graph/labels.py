@@ -22,7 +22,7 @@ _SAID: Mapping[Presence, str] = {
 
 
 def is_said(one: GraphNode | GraphTopic | GraphEdge, graph: NodeGraph) -> bool:
-    """Tell whether it is known that a part runs, or does not."""
+    """Return whether it is known that a part runs, or does not."""
     return graph.is_compared and (graph.is_whole or isinstance(one, GraphTopic))
 
 

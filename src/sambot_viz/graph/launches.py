@@ -26,7 +26,7 @@ class StartedLaunch:
     system: RunningSystem
 
     def is_called(self, name: str) -> bool:
-        """Tell whether a user calls it so, with or without folder and ending."""
+        """Return whether a user calls it so, with or without folder and ending."""
         short = Path(self.name).name
         return name in (self.name, short, short.split(".")[0])
 

@@ -2,7 +2,7 @@
 
 The steps are Sugiyama's: rings are opened by turning few edges round (Eades, Lin and
 Smyth), each vertex is in the column behind those before it, long edges pass columns at
-points of their own, columns are sorted by the means of their neighbours, and heights
+their own points, columns are sorted by the means of their neighbours, and heights
 are the nearest ones to these means that keep order and distance.
 """
 

@@ -98,7 +98,7 @@ def _block(lines: Sequence[str], at: int) -> tuple[TextBlock | None, int]:
 
 
 def _begins(line: str) -> bool:
-    """Tell whether a line begins another block, or is empty."""
+    """Return whether a line begins another block, or is empty."""
     bare = line.strip()
     kinds = (_FENCE, _HEADING, _PICTURE, _ITEM)
     return not bare or any(kind.fullmatch(bare) for kind in kinds)

@@ -23,7 +23,7 @@ from sambot_viz.lessons.reading.records import read_record
 from sambot_viz.lessons.reading.report import LessonReport
 
 LESSON_FILE = "lesson.yaml"
-"""The file of a lesson, in a folder of its own."""
+"""The file of a lesson, in its own folder."""
 
 
 def lesson_names() -> list[str]:

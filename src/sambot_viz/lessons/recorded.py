@@ -88,7 +88,7 @@ class StudentRecording:
         return seen
 
     def path_of(self, parent: str, child: str) -> Iterator[Vector3]:
-        """Give where a frame was in another one, each time it is known anew [m].
+        """Give where a frame was in another one, each time it is known again [m].
 
         The newest transforms of the way between both are taken together.
         """

@@ -14,7 +14,7 @@ class Schema:
             "/msg/", or of another system.
         encoding: how the text is written: "ros2msg", "ros2idl", "ros1msg",
             "jsonschema", "protobuf", …; "" when there is no text.
-        text: the definition itself; bytes where it is no text.
+        text: the definition itself; bytes where it is not text.
     """
 
     name: str

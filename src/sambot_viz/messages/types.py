@@ -25,7 +25,7 @@ from sambot_viz.messages.shape import MessageShape
 
 _BY_FIELDS = ("cdr", "ros1")
 _BY_SCHEMA = {"protobuf": ProtobufDecoder, "flatbuffer": FlatBufferDecoder}
-"""Encodings with definitions of their own."""
+"""Encodings with their own definitions."""
 
 
 class MessageTypes:

@@ -101,7 +101,7 @@ def standing_alone(
     motion: str,
     look: str = "rviz",
 ) -> bytes:
-    """The page of viser as a file of its own, which shows a recording.
+    """The page of viser as its own file, which shows a recording.
 
     Args:
         html: the page of viser.
@@ -202,7 +202,7 @@ def _early() -> str:
 
 
 def _plain(name: str) -> str:
-    """A script that is no module: it runs before what comes after it."""
+    """A script that is not a module: it runs before what comes after it."""
     return f"<script>{_FOLDER.joinpath(name).read_text('utf-8')}</script>"
 
 

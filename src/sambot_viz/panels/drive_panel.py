@@ -125,7 +125,7 @@ class DrivePanel(Panel):
         return self._go(v, w)
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether there is a robot with two wheels."""
+        """Return whether there is a robot with two wheels."""
         return self._drive.wheels is not None and self._robot.model is not None
 
     @command("drive/hold", NUMBER, NUMBER)

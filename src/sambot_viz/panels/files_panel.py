@@ -134,7 +134,7 @@ class FilesPanel(Panel):
         return facts
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether this browser may use the disk."""
+        """Return whether this browser may use the disk."""
         return command_id not in _OF_DISK or self._files is not None
 
     @property

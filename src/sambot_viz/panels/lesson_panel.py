@@ -92,7 +92,7 @@ class LessonPanel(Panel):
         return made
 
     def _picture(self, name: str) -> str:
-        """Return a picture as an address of its own; "" where it cannot be read."""
+        """Return the data address of a picture; "" where it cannot be read."""
         data, kind = self._study.picture(name), mimetypes.guess_type(name)[0] or ""
         if not data or not kind.startswith("image/"):
             return ""

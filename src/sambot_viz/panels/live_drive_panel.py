@@ -111,7 +111,7 @@ class LiveDrivePanel(Panel):
         return found
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether there is a live robot that may be sent something."""
+        """Return whether there is a live robot that may be sent something."""
         publisher = self._publisher
         if command_id == "live/stop":
             return publisher.robot is not None and publisher.sends_anything

@@ -64,7 +64,7 @@ class Panel:
         ]
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether a declared command can be called at present."""
+        """Return whether a declared command can be called at present."""
         return True
 
     def changed_rows(self) -> Sequence[Row] | None:

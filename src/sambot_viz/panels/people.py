@@ -96,7 +96,7 @@ class InvitePanel(Panel):
         return [Data("people/invitation", self._made)]
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether this client may invite others."""
+        """Return whether this client may invite others."""
         person = self._roles.people.get(self._id)
         return person is not None and (person.presenter or not self._roles.presented)
 

@@ -175,7 +175,7 @@ def _places(items: Mapping[str, Item]) -> list[tuple[str, str]]:
 
 
 def _is_same(item: Item, before: Item) -> bool:
-    """Tell whether a row is the same for the page; data are always compared there."""
+    """Return whether a row is the same for the page; data are always compared there."""
     if not isinstance(item, Row) or item != before:
         return False
     # What sets it is not compared, but whether it can be set is shown.

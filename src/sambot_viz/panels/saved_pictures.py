@@ -66,7 +66,7 @@ class PicturesPanel(Panel):
         self._making = False
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether pages can be made."""
+        """Return whether pages can be made."""
         return command_id != "file/page" or self._ask_page is not None
 
     @command("file/picture", INTEGER, INTEGER, name="picture", client_local=True)

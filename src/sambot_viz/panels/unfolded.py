@@ -38,7 +38,7 @@ class LazyRows:
         self._lazy.clear()
 
     def is_unfolded(self, row_id: str) -> bool:
-        """Tell whether a page wants the rows below this one; if not, it may ask."""
+        """Return whether a page wants the rows below this one; if not, it may ask."""
         self._lazy.add(row_id)
         return row_id in self._unfolded
 

@@ -258,7 +258,7 @@ class Window:
             browser.answer(item_id, sentence)
 
     def _is_number(self, client_id: int, row_id: str) -> bool:
-        """Tell whether a row is a number, in any thread."""
+        """Return whether a row is a number, in any thread."""
         rows = self.rows_of(client_id)
         found = [store.get(row_id) for store in rows.stores] if rows else []
         return any(row is not None and row.get("kind") in _NUMBERS for row in found)

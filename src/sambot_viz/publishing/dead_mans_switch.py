@@ -1,6 +1,6 @@
 """A robot moves only as long as a hand says so; this is what stops it.
 
-The switch has a thread of its own and takes no lock but its own: neither a session that
+The switch has its own thread and takes no lock but its own: neither a session that
 hangs nor a page that floods delays it. A page that holds a key or the stick says so ten
 times a second. When it does not for a moment, lets go, or is not to drive any longer,
 the robot gets three zero velocities, and then nothing more.

@@ -18,7 +18,7 @@ class ChildTimeoutError(Exception):
 class Child:
     """A script that has started, and waits for its order.
 
-    It runs without site-packages, in a session of its own, and reads the order from
+        It runs without site-packages, in a session of its own, and reads the order from
     standard input: 16 characters of length, then the order. That stays open until the
     answer is there.
 

@@ -53,7 +53,7 @@ class ModelFindings(Findings):
         self._calls: dict[tuple[str, str, Place], Place | None] = {}
 
     def is_said(self, code: str, hint: str, place: Place, call: Place | None) -> bool:
-        """Tell whether an earlier call of a macro had the same problem and advice."""
+        """Return whether an earlier call of a macro had the same problem and advice."""
         return self._calls.setdefault((code, hint, place), call) != call
 
     reject = _reporter("error", rejects=True)

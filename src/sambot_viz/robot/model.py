@@ -277,7 +277,7 @@ def assets_of(robot: Robot) -> Iterator[Asset]:
 
 
 def something_missing(robot: Robot) -> bool:
-    """Tell whether a mesh or a texture was not found on this machine."""
+    """Return whether a mesh or a texture was not found on this machine."""
     for shape in shapes_of(robot):
         geometry, material = shape.geometry, shape.material
         if isinstance(geometry, MeshFile) and geometry.path is None:

@@ -41,7 +41,7 @@ class RvizConfig(DisplayList, ViewList):
         tools: the tools of the toolbar.
         time: what RViz's Time panel says of synchronization.
         fits_robot: whether its sizes are to be those of the robot that is shown,
-            because it is no user's; it is not saved.
+            because it is not a user's; it is not saved.
         fits_frames: the same where frames are shown that have no robot.
         unasked: its displays of what a recording or a robot has, as no config says
             what of it is to be shown; that they are is not saved.

@@ -268,7 +268,7 @@ class RobotControl:
             UsageError: another robot has the name, there is no such parent, or no
                 robot yet.
             RobotError: the model cannot be shown.
-            FrameError: what is no pose.
+            FrameError: what is not a pose.
             ServerError: the visualizer was stopped.
         """
         return self._robots.add(model, name, parent, xyz, rpy)

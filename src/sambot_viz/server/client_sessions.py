@@ -88,7 +88,7 @@ class ClientSessions:
         # A model that is being read may change the displays while panels are made.
         with session.lock:
             if options.panels and place.window is None:
-                # Clients with a session of their own do not use the server's disk.
+                # Clients with their own session do not use the server's disk.
                 shared = place is self._sessions.shared_place
                 # Students use one server, whose disk and links are the teacher's.
                 at_home = shared and not options.in_class

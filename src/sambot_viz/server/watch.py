@@ -230,7 +230,7 @@ def _batches(changes: Iterator[_Changes]) -> Iterator[_Changes]:
             return
         except (OSError, RuntimeError) as error:
             if "decode path" in str(error):
-                # The name of a file is no text; watching begins again.
+                # The name of a file is not text; watching begins again.
                 return
             raise _CannotWatchError(str(error)) from error
         yield reported

@@ -1,4 +1,4 @@
-"""Work of a session that must not hold its lock, in a thread of its own."""
+"""Work of a session that must not hold its lock, in its own thread."""
 
 from __future__ import annotations
 

@@ -76,7 +76,7 @@ class ModelEdits:
         return tuple(dict.fromkeys(map(package_of, (self._model, real))))
 
     def may_write(self, edits: Sequence[Edit]) -> bool:
-        """Tell whether all edits are in files of the package."""
+        """Return whether all edits are in files of the package."""
         folders = [folder.resolve() for folder in self._folders]
         files = {edit.file for edit in edits}
         return bool(files) and all(is_below(Path(file), folders) for file in files)

@@ -58,7 +58,7 @@ class _GraphInputs:
 class SessionGraph:
     """Makes the graph while somebody looks at it, and again when it has changed.
 
-    It is made in a thread of its own, one after the other: the files of a package may
+    It is made in its own thread, one after the other: the files of a package may
     take seconds, and the session must not wait for them.
 
     Args:

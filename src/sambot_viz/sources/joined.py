@@ -52,7 +52,7 @@ class JoinedSources:
         self._known: tuple[Sequence[object], Mapping[str, SourceTopic]] = ((), {})
         self._wanted: dict[tuple[str, OnMessage], OnMessage | None] = {}
         self._asked: dict[tuple[str, OnMessage], Source] = {}
-        # Each part calls back in a thread of its own.
+        # Each part calls back in its own thread.
         self._lock = threading.RLock()
         if is_shared:
             for part in self.parts:

@@ -101,7 +101,7 @@ class Recorded:
 
 
 def is_latched_name(topic: str) -> bool:
-    """Tell if topics of this name are latched, whatever their QoS says."""
+    """Return whether topics of this name are latched, whatever their QoS says."""
     return topic.endswith(("/tf_static", "robot_description")) or topic == "tf_static"
 
 

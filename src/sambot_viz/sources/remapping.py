@@ -21,7 +21,7 @@ def remaps_of(rules: Iterable[str]) -> Mapping[str, str]:
     other nodes, and the name of the node, mean nothing here.
 
     Raises:
-        UsageError: what is no rule.
+        UsageError: what is not a rule.
     """
     found: dict[str, str] = {}
     namespace = ""

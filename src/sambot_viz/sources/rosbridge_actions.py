@@ -1,4 +1,4 @@
-"""Goals of actions over rosbridge, each over a connection of its own.
+"""Goals of actions over rosbridge, each over its own connection.
 
 By default rosbridge_suite reads nothing more of a connection until the goal that came
 over it has ended, and in older ones a goal that was rejected never ends. Neither

@@ -81,7 +81,7 @@ class MeasureTool(Tool):
         return (hit.point, None) if frame is None else (origins[frame], frame)
 
     def left(self) -> None:
-        """Forget a start without an end, as RViz begins anew; a whole line stays."""
+        """Forget a start without an end, as RViz begins again; a whole line stays."""
         if self.wants_hover:
             self.cancel()
 

@@ -149,7 +149,7 @@ class MovingPoses:
         self._is_open = False
 
     def is_frame(self, message: Any) -> bool:
-        """Tell whether a message stands for what has moved."""
+        """Return whether a message stands for what has moved."""
         return message is self._frame
 
     def between(self, after: int, last: int) -> Any:
@@ -174,7 +174,7 @@ class MovingPoses:
         return _messages.SetPositionMessage(FRAME, cast(Any, content))
 
     def _is_replaced(self, track: _Track) -> bool:
-        """Tell whether a program has moved the node by viser's own setter since."""
+        """Return whether a program has moved the node by viser's own setter since."""
         buffer = self._buffer
         # Others are gone as soon as their only client has had them.
         return buffer.persistent_messages and (

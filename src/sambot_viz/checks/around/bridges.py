@@ -105,7 +105,7 @@ def _unnamed(around: Surroundings, topics: Sequence[GazeboTopic]) -> Iterator[Pr
     for entry in around.bridged:
         name = bare(entry.gz.value)
         alike = [topic for topic in unnamed(around) if topic.kind == entry.kind]
-        # Of joint states there is a finding of their own.
+        # Joint states have a separate finding.
         if entry.scoped or name in known or len(alike) != 1 or entry.kind == "Model":
             continue
         (one,) = alike

@@ -143,7 +143,7 @@ def unknown_controllers(around: Surroundings) -> Iterator[Problem]:
     for parameter in declared_controllers(around).values():
         kind = parameter.fact.value
         package = kind.partition("/")[0]
-        # Other packages have controllers of their own.
+        # Other packages have their own controllers.
         right = next((name for name in packages if is_one_slip(package, name)), None)
         alike = [name for name in classes if name.startswith(f"{right}/")]
         near = nearest(kind, alike, _LIKE_CLASS) if kind not in classes else None

@@ -34,7 +34,7 @@ def unreadable_footprints(around: Surroundings) -> Iterator[Problem]:
 
 
 def is_readable(footprint: Parameter) -> bool:
-    """Tell whether Nav2 can read a footprint, or is given none."""
+    """Return whether Nav2 can read a footprint, or is given none."""
     if type_of(footprint.written) == "list":
         return not footprint.written.value
     text = footprint.fact.value

@@ -273,7 +273,7 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
 
 
 def _is_odd(around: Surroundings, one: StateFilter) -> bool:
-    """Tell whether all others call the frame of odometry what world_frame is."""
+    """Return whether all others call the frame of odometry what world_frame is."""
     if "world_frame" not in one.given:
         return False
     if one.world_frame in (one.odom_frame, one.map_frame):

@@ -1,6 +1,6 @@
 """The rules that need only the model, in the order in which they run.
 
-They are a table of their own because a model in no package needs no other: reading
+They are their own table because a model in no package needs no other: reading
 those costs more than checking it.
 """
 

@@ -1,6 +1,6 @@
 """The rules about setup.py, in the order in which they run.
 
-They are a table of their own because most packages have no setup.py.
+They are their own table because most packages have no setup.py.
 """
 
 from __future__ import annotations

@@ -175,7 +175,7 @@ def _unknown(robot: Robot, fact: Fact, user: _User) -> tuple[str, Fix]:
 
 
 def unknown_references(robot: Robot) -> Iterator[Problem]:
-    """Report <gazebo reference="…"> that is no link or joint.
+    """Report <gazebo reference="…"> that is not a link or joint.
 
     Without a sensor or plugin in it, only what is almost the name of one.
     """

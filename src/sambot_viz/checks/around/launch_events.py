@@ -133,7 +133,7 @@ def plain_handlers(around: Surroundings) -> Iterator[Problem]:
 
 
 def periods(around: Surroundings) -> Iterator[Problem]:
-    """Report timers whose period is no number."""
+    """Report timers whose period is not a number."""
     for launch in around.launches:
         for call in launch.called("TimerAction", "ROSTimer"):
             given = call.given("period")

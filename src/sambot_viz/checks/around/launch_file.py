@@ -172,7 +172,7 @@ class LaunchFile:
         )
 
     def uses(self, variable: str) -> bool:
-        """Tell whether the value of a variable is used."""
+        """Return whether the value of a variable is used."""
         return variable in self._used
 
     @cached_property

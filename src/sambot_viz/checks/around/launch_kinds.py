@@ -39,7 +39,7 @@ _IN_PYTHON = {
 
 
 def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
-    """Report parameters, remappings and arguments that are no lists."""
+    """Report parameters, remappings and arguments that are not lists."""
     for launch in around.launches:
         for call in launch.called():
             for argument, follows in _LISTS.items():
@@ -61,7 +61,7 @@ def arguments_without_list(around: Surroundings) -> Iterator[Problem]:
 
 
 def _no_list(call: Call, argument: str) -> str | None:
-    """Return what an argument is that is no list; None when it may be one."""
+    """Return what an argument is that is not a list; None when it may be one."""
     value = call.value(argument)
     if argument == "arguments":
         return "a text" if isinstance(value, str) else None

@@ -67,7 +67,7 @@ def _gets_nothing_else(launch: LaunchFile, call: Call) -> bool:
 
 
 def _without_text(pair: Pair, launch: LaunchFile) -> Iterator[Problem]:
-    """Report a path, a file that is not read, and a document that is no text."""
+    """Report a path, a file that is not read, and a document that is not text."""
     text, bare = launch.values.said(pair.value), ast.unparse(pair.node)
     given = launch.origin(pair.node)
     what = better = None

@@ -123,7 +123,7 @@ def _is_meant(below: str, near: str, paths: Sequence[str]) -> bool:
 
 
 def _makes_files(launch: LaunchFile) -> bool:
-    """Tell whether a launch file asks which files there are, or writes some."""
+    """Return whether a launch file asks which files there are, or writes some."""
     return any(
         call.name in _ASKING
         or (call.name == "open" and "w" in (launch.text(call, "mode", 1) or ""))
@@ -151,7 +151,7 @@ def _is_missing(below: str, package: Package) -> bool:
 
 
 def _installs_beside_manifest(package: Package) -> bool:
-    """Tell whether files may get into the share folder itself, not one in it."""
+    """Return whether files may get into the share folder itself, not one in it."""
     cmake, setup = package.text("CMakeLists.txt"), package.setup
     if cmake is not None:
         return _IN_SHARE.search(cmake) is not None

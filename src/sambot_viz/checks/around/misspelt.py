@@ -11,7 +11,7 @@ _WORD_LIKENESS = 0.6
 
 
 def is_misspelt(name: str, right: str) -> bool:
-    """Tell whether each word of a name is like that of the right one.
+    """Return whether each word of a name is like that of the right one.
 
     detect_marker is another program than detect_sign, whatever the letters.
     """

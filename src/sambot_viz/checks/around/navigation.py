@@ -69,7 +69,7 @@ class StateFilter(NamedTuple):
                 yield parameter
 
     def fuses(self, parameter: Parameter, values: range) -> bool:
-        """Tell whether one of these values of an input is used, by their numbers."""
+        """Return whether one of these values of an input is used, by their numbers."""
         config = self.given.get(f"{parameter.name}_config")
         used = config.values if config else ()
         return any(used[i].lower() == "true" for i in values if i < len(used))

@@ -45,7 +45,7 @@ def _text_of(around: Surroundings, shown: str) -> str:
 
 
 def _is_called(node: RunningNode) -> bool:
-    """Tell whether the name of a node is known, and its parameters are its own."""
+    """Return whether the name of a node is known, and its parameters are its own."""
     known = known_nodes().nodes.get((node.package, node.executable))
     is_container = node.executable.startswith("component_container")
     named = known is not None or node.name not in ("", node.executable)
@@ -112,7 +112,7 @@ def parameters_left_out(around: Surroundings) -> Iterator[Problem]:
 
 
 def _gives(node: RunningNode, file: YamlFile) -> bool:
-    """Tell whether a launch file itself gives a node what a file has for it."""
+    """Return whether a launch file itself gives a node what a file has for it."""
     keys = (key for key in file.nodes if key.rpartition("/")[2] == node.name)
     names = {name for key in keys for name in file.of(key)} - {"use_sim_time"}
     given = {each.name for each in node.parameters if not each.given_at}

@@ -170,7 +170,7 @@ def _dependencies(manifest: Element | None) -> set[str]:
 
 
 def _alike(name: str, package: str) -> bool:
-    """Tell whether one package name looks like a misspelling of the other."""
+    """Return whether one package name looks like a misspelling of the other."""
     words, others = (re.split(r"[_\-]", text) for text in (name, package))
     if words[-1] in _PARTS and words[-1] != others[-1]:
         # Two packages of one robot; the other one may not be here.

@@ -263,7 +263,7 @@ def _lacks(
     part: NodePart,
     around: Surroundings,
 ) -> bool:
-    """Tell whether a file has other plugins of a list, and none has this one."""
+    """Return whether a file has other plugins of a list, and none has this one."""
     names = names_in(one)
     if tuple(names) in known.own or known.kind == "section":
         return False

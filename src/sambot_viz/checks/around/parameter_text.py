@@ -49,7 +49,7 @@ _WRITTEN: Mapping[Type, str] = {
 
 
 def is_open(node: yaml.Node) -> bool:
-    """Tell whether a launch file puts another value in place of one."""
+    """Return whether a launch file puts another value in place of one."""
     return not isinstance(node, yaml.ScalarNode) or bool(OPEN.search(node.value))
 
 

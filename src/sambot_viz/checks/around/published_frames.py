@@ -24,7 +24,7 @@ _PUBLISHERS = (*DRIVE_ODOMS, "odom_frame")
 
 
 def may_be_published(around: Surroundings, frame: str) -> bool:
-    """Tell whether a node of the packages may publish a frame that is no link.
+    """Return whether a node of the packages may publish a frame that is not a link.
 
     It does where it names the frame, or starts a node that is not known. Then only a
     frame that is a misspelt link is certainly none.

@@ -185,7 +185,7 @@ def used_topics(around: Surroundings) -> list[ReadTopic]:
 
 
 def _is_placed(around: Surroundings, node: RunningNode) -> bool:
-    """Tell whether the namespace of a node is known."""
+    """Return whether the namespace of a node is known."""
     return not around.namespaced or (node.starts == "yes" and node.namespace != "")
 
 

@@ -241,7 +241,7 @@ def frames_of_sensors(robot: Robot) -> Iterator[Problem]:
 
 
 def _related(parents: dict[str, str], one: str, other: str) -> bool:
-    """Tell whether one of two links hangs below the other one."""
+    """Return whether one of two links hangs below the other one."""
     return other in _above(parents, one) or one in _above(parents, other)
 
 

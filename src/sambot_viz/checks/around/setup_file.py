@@ -170,7 +170,7 @@ class SetupFile:
 
     @cached_property
     def not_files(self) -> tuple[tuple[DataFiles, ast.expr, str], ...]:
-        """What data_files lists and is no file: entry, expression and path."""
+        """What data_files lists and is not a file: entry, expression and path."""
         listed = (
             (entry, node, path)
             for entry in (self.data_files if self.certain and self.trusted else ())

@@ -200,7 +200,7 @@ class Surroundings:
     def said_elsewhere(
         self, name: str, *, as_topic: bool = False, launched: bool = False
     ) -> bool:
-        """Tell whether a launch file, a program or another model says this name.
+        """Return whether a launch file, a program or another model says this name.
 
         A node or a robot that is not looked at may then have it.
 
@@ -236,7 +236,7 @@ class Surroundings:
         return self._said_in_used(re.compile(rf"[\"'>/ ]{re.escape(bare)}(?![\w/])"))
 
     def _said_in_used(self, name: re.Pattern[str]) -> bool:
-        """Tell whether a package says a name that is started with these."""
+        """Return whether a package says a name that is started with these."""
         used = {p for package in self.packages for p in package.used}
         return any(
             name.search(package.text(path) or "")

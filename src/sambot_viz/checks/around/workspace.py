@@ -190,7 +190,7 @@ class Package:
         )
 
     def knows(self, name: str) -> bool:
-        """Tell whether there is another package of that name, here or installed."""
+        """Return whether there is another package of that name, here or installed."""
         return self.workspace is not None and self.workspace.is_known(name)
 
     @cached_property
@@ -317,7 +317,7 @@ class Workspace:
         return tuple(package for package in found if package is not None)
 
     def is_chosen(self, package: Package) -> bool:
-        """Tell whether the user gave this very package, not a folder above it."""
+        """Return whether the user gave this very package, not a folder above it."""
         return package.folder.resolve() in self._chosen
 
     def named(self, name: str) -> Package | None:
@@ -328,7 +328,7 @@ class Workspace:
         return self.at(lookup.path)
 
     def is_known(self, name: str) -> bool:
-        """Tell whether there is a package of that name, here or installed."""
+        """Return whether there is a package of that name, here or installed."""
         found = self._trusted and self._index.find(name).path is not None
         return found or any(package.name == name for package in self.given)
 

@@ -39,7 +39,7 @@ class Owner(Protocol):
 
 
 def hides(owner: Owner) -> bool:
-    """Tell whether something is in front of what is behind it.
+    """Return whether something is in front of what is behind it.
 
     What can be seen through and selects nothing is not: else nobody could select a
     robot in a map, or within the ellipsoid of a covariance.

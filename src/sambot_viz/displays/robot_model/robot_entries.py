@@ -74,7 +74,7 @@ class RobotEntries:
         return item
 
     def joint(self, name: str) -> EntryItem:
-        """The item of a joint; without a box of its own it shows its child link's."""
+        """The item of a joint; without its own box it shows its child link's."""
         item = self._item("joint", name)
         child = self._robot.joints[name].child
         item.assume(BOX, self.link(child).get(BOX))

@@ -37,7 +37,7 @@ class RobotSource(DescribedRobot):
         on_read: called when a model has been read, or could not be.
 
     Attributes:
-        files: the files that a robot of its own comes from.
+        files: the files that its own robot comes from.
     """
 
     def __init__(

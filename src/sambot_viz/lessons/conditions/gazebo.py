@@ -23,7 +23,7 @@ _SENSOR_WORDS: Mapping[str, tuple[str, ...]] = {
 
 
 def same(text: str, wanted: str) -> bool:
-    """Tell whether two values are equal, as numbers or as names of topics."""
+    """Return whether two values are equal, as numbers or as names of topics."""
     try:
         one, other = float(text), float(wanted)
     except ValueError:

@@ -18,7 +18,7 @@ _BLANK = b" \t\r\n\f\v"
 _WHOLE = b"0123456789+-" + _BLANK
 _DECIMAL = _WHOLE + b".eE"
 _ONLY_WARNS = sys.version_info < (3, 11)
-"""Numpy 2.2, the newest for Python 3.10, stops at what is no number, and warns."""
+"""Numpy 2.2, the newest for Python 3.10, stops at what is not a number, and warns."""
 DECIMAL_COMMA = re.compile(rb"[+-]?\d+,\d+")
 """A number as programs write it in the language of many countries."""
 WITH_POINTS = "export the mesh again with points in its numbers (0.5), not commas (0,5)"

@@ -115,7 +115,7 @@ class JointsPanel(Panel):
     def data(self) -> Sequence[Data]:
         """Return which joints are over a limit or turning, and where all began.
 
-        Who gets the joints is no row: it is said later, and would move the sliders.
+        Who gets the joints is not a row: it is said later, and would move the sliders.
         """
         if self._robot.joints is None:
             return ()
@@ -148,7 +148,7 @@ class JointsPanel(Panel):
         return {joint_id(name): q for name, q in moved} | self._states()
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether there are joints to move."""
+        """Return whether there are joints to move."""
         free = command_id == "joints/copy" or not self._robot.followed.value
         return free and self._sliders() is not None
 

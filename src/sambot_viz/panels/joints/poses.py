@@ -74,7 +74,7 @@ class PosesPanel(Panel):
         return f"in {path.name if self._roles.presented else path.absolute()}"
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether there are joints to pose."""
+        """Return whether there are joints to pose."""
         joints = self._robot.joints
         return joints is not None and bool(joints.sliders)
 

@@ -106,7 +106,7 @@ class ProblemsPanel(Panel):
         return [self._lazy.command(), *super().commands()]
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether browsers may change files, or have changed their text."""
+        """Return whether browsers may change files, or have changed their text."""
         is_changed = self._text is not None and bool(self._text.unsaved)
         return self._edits is not None or is_changed
 

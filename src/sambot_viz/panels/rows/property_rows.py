@@ -75,7 +75,7 @@ def property_rows(
 
 
 def is_listed(item: ConfigItem, declared: Declared) -> bool:
-    """Tell whether a property has a row now: another one's value may hide it."""
+    """Return whether a property has a row now: another one's value may hide it."""
     prop = declared.property
     if isinstance(prop, KeptProperty) or prop.support in ("none", "kept"):
         return False

@@ -103,7 +103,7 @@ class RecordingsPanel(Panel):
         ]
 
     def offers(self, command_id: str) -> bool:
-        """Tell whether there is a recording that another one can replace."""
+        """Return whether there is a recording that another one can replace."""
         return self._recordings is not None
 
     @command("recording/list")

@@ -119,7 +119,7 @@ def balance(
         T_root_link, inertial = poses.get(link.name), link.inertial
         if T_root_link is None:
             continue
-        # A mass that no body has is a finding of its own.
+        # A mass that no body has is its own finding.
         if inertial is None or not 0.0 < inertial.mass < math.inf:
             if link.visuals or link.collisions:
                 massless.append(link.name)

@@ -308,12 +308,12 @@ def _worth_entering(entry: os.DirEntry[str]) -> bool:
 
 
 def _too_broad(folder: Path) -> bool:
-    """Tell whether a search below this folder would cover the whole machine."""
+    """Return whether a search below this folder would cover the whole machine."""
     return len(folder.parts) <= 2 or folder in (Path.home(), Path.home().parent)
 
 
 def _workspace_root(folder: Path) -> bool:
-    """Tell whether the search ends here: a workspace, or a checkout outside one."""
+    """Return whether the search ends here: a workspace, or a checkout outside one."""
     if (folder / "src").is_dir() and (
         (folder / "install").is_dir() or (folder / "build").is_dir()
     ):

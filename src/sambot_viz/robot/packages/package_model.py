@@ -85,7 +85,7 @@ class ModelWalk:
     def files(self, top: Path) -> Iterator[Path]:
         """Yield the files; other packages inside the folder are left out.
 
-        When the folder is no package itself, all packages in it are searched.
+        When the folder is not a package itself, all packages in it are searched.
         """
         in_package = package_name(top) is not None
         count = 0
@@ -138,7 +138,7 @@ def is_scenery(path: Path) -> bool:
 
 
 def _is_model_in_world(path: Path) -> bool:
-    """Tell whether a file is a robot inside a <world>, which is said when it is read.
+    """Return whether a file is a robot inside a <world>, which is said when it is read.
 
     A world has its own folder, or the word in its name.
     """
@@ -148,7 +148,7 @@ def _is_model_in_world(path: Path) -> bool:
 
 
 def is_for_tests(path: Path) -> bool:
-    """Tell whether a path leads through a folder of tests."""
+    """Return whether a path leads through a folder of tests."""
     return not _TESTS.isdisjoint(part.lower() for part in path.parts)
 
 
@@ -169,7 +169,7 @@ def _complete_models(paths: Sequence[Path]) -> list[Path]:
 def _brings_links(
     file: _ModelFile, files: Sequence[_ModelFile], names: Sequence[str], seen: set[Path]
 ) -> bool:
-    """Tell whether a file has links, or includes one that has some or is not here.
+    """Return whether a file has links, or includes one that has some or is not here.
 
     Args:
         file: is looked at.
@@ -189,7 +189,7 @@ def _brings_links(
 
 
 def is_model(path: Path) -> bool:
-    """Tell whether a file may be shown by itself: it has links, or calls for some."""
+    """Return whether a file may be shown by itself: it has links, or calls for some."""
     return _look_at(path).builds_links
 
 
@@ -241,7 +241,7 @@ def _look_at(path: Path) -> _ModelFile:
 
 
 def _is_included(path: Path, include: str, names: Sequence[str]) -> bool:
-    """Tell whether an include means this file, as far as is known without xacro."""
+    """Return whether an include means this file, as far as is known without xacro."""
     tail = _EXPRESSION.split(include)[-1].lstrip("./")
     if f"/{path.as_posix()}".endswith(f"/{tail}"):
         return bool(tail)

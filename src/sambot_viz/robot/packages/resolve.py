@@ -214,7 +214,7 @@ class FileResolver:
 
 
 def _is_inner(folder: Path) -> bool:
-    """Tell whether a folder is no package, but one in a package."""
+    """Return whether a folder is not a package, but one in a package."""
     return package_name(folder) is None and package_around(folder) is not None
 
 

@@ -198,7 +198,7 @@ class _ElementChecker:
         self._note_default(element, shown, text, wanted)
 
     def _check_loose_text(self, element: Element) -> None:
-        """Warn of a text that belongs into an element of its own."""
+        """Warn of a text that belongs into its own element."""
         if element.tag == "script" or (
             element.tag == "geometry" and not element.children
         ):

@@ -86,7 +86,7 @@ def _holder(link: Frame) -> str | None:
 
 
 def _is_implicit(joint: Frame) -> bool:
-    """Tell whether a joint counts from its child only because it names no frame."""
+    """Return whether a joint counts from its child only because it names no frame."""
     pose = joint.element.find("pose")
     return pose is None or not (pose.get("relative_to") or pose.get("frame"))
 

@@ -33,12 +33,12 @@ _NOTHING_TO_DO = "nothing has to be done"
 
 
 def is_for_gazebo(element: Element) -> bool:
-    """Tell whether ROS never looks at an element and what is in it."""
+    """Return whether ROS never looks at an element and what is in it."""
     return is_tag_for_gazebo(element.tag)
 
 
 def is_tag_for_gazebo(tag: str) -> bool:
-    """Tell whether ROS never looks at elements with that tag."""
+    """Return whether ROS never looks at elements with that tag."""
     return tag in _KINDS or tag in ("surface", "physics")
 
 
@@ -55,7 +55,7 @@ def note_gazebo_only(model: Element, findings: ModelFindings) -> None:
     while stack:
         element = stack.pop()
         if element.tag == "sensor" and element.parent is model:
-            # That is a problem of its own.
+            # That is its own problem.
             continue
         if element.tag in _KINDS:
             found.setdefault(element.tag, []).append(element)

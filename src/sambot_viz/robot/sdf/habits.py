@@ -230,12 +230,12 @@ def _origin(element: Element, parent: Element) -> Habit:
 
 
 def origin_in_place_of_pose(joint: Element) -> bool:
-    """Tell whether the finding about the <origin> of a joint says where it is."""
+    """Return whether the finding about the <origin> of a joint says where it is."""
     return joint.find("pose") is None and joint.find("origin") is not None
 
 
 def _counts_from(joint: Element, child: str) -> bool:
-    """Tell whether a joint without <pose> has a child link that counts from it."""
+    """Return whether a joint without <pose> has a child link that counts from it."""
     model = joint.parent
     if model is None or not origin_in_place_of_pose(joint):
         return False

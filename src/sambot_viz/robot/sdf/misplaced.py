@@ -17,7 +17,7 @@ _SHAPES = ("box", "cylinder", "sphere", "mesh")
 
 
 def may_be_slip(child: Element) -> bool:
-    """Tell whether no other rule says what an unknown element was meant to be."""
+    """Return whether no other rule says what an unknown element was meant to be."""
     if ":" in child.tag or is_for_gazebo(child) or child.tag == "include":
         return False
     return element_of_urdf(child) is None

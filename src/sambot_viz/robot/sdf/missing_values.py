@@ -48,7 +48,7 @@ def _example(element: Element, child: str) -> str:
 
 
 def is_needed(element: Element) -> bool:
-    """Tell whether an element must not be left out."""
+    """Return whether an element must not be left out."""
     return element.parent is not None and (element.parent.tag, element.tag) in _DEFAULTS
 
 

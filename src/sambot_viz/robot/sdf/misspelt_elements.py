@@ -47,7 +47,7 @@ def sdf_slips(document: Element) -> list[Slip]:
 
 
 def _is_old(slip: Slip, version: Version | None) -> bool:
-    """Tell whether a file of its version may have the attribute."""
+    """Return whether a file of its version may have the attribute."""
     if version is None or slip.attribute is None:
         return False
     return version.knows(slip.element, slip.attribute)

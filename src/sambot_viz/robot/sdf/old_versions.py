@@ -49,11 +49,11 @@ class Version:
         return trimmed(xyz.get("expressed_in") or "") if xyz is not None else ""
 
     def knows(self, element: Element, attribute: str) -> bool:
-        """Tell whether an attribute is known, though the newest version has none."""
+        """Return whether an attribute is known, though the newest version has none."""
         return self.minor < 7 and element.tag == "pose" and attribute == "frame"
 
     def knows_element(self, element: Element) -> bool:
-        """Tell whether an element is known, though the newest version has none."""
+        """Return whether an element is known, though the newest version has none."""
         return self.minor < 7 and element.tag == "use_parent_model_frame"
 
 

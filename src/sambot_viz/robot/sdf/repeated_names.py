@@ -61,7 +61,7 @@ def report_repeated(
 
 
 def _is_fixed(element: Element, first: Element, written: Element) -> bool:
-    """Tell whether the body of a macro has the name without a parameter."""
+    """Return whether the body of a macro has the name without a parameter."""
     return element.place == first.place and any(
         other.place == element.place and "${" not in (other.get("name") or "${")
         for other in written.iter()

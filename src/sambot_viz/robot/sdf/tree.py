@@ -152,7 +152,7 @@ def _report_root(
 
 
 def _is_exchanged(scope: Scope, joint: Joint, joints: Sequence[Joint]) -> bool:
-    """Tell whether a part is the parent of the link that all others hang from."""
+    """Return whether a part is the parent of the link that all others hang from."""
     part = scope.frames[joint.parent].element
     if part.find("visual") is None and part.find("collision") is None:
         # A link without a shape, such as base_footprint, may be the root.

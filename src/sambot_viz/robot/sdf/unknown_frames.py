@@ -78,7 +78,7 @@ def unknown_frame(
 
 
 def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
-    """Tell whether a link counts from a joint that is not there, and hangs from none.
+    """Return whether a link counts from a joint that is not there, and hangs from none.
 
     Args:
         link: the frame, of any kind.
@@ -98,7 +98,7 @@ def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:
 
 
 def _is_zero(at: Element) -> bool:
-    """Tell whether a pose is that of the frame that it counts from."""
+    """Return whether a pose is that of the frame that it counts from."""
     return at.tag == "pose" and not at.text.replace(".", " ").strip("0 \t\r\n")
 
 

@@ -12,7 +12,7 @@ def written_with_blank(
     """Return the link that a joint means by a name without blanks, or None.
 
     Args:
-        name: what the joint says, which is no link.
+        name: what the joint says, which is not a link.
         links: the names of the links.
         named: the names that joints say: a link among them is left as it is.
     """

@@ -90,7 +90,7 @@ def left_over(document: Element, path: Path | None) -> list[Problem]:
 
 
 def _may_be_own_tag(tag: str) -> bool:
-    """Tell whether a tag is a word of xacro, or was meant to be one."""
+    """Return whether a tag is a word of xacro, or was meant to be one."""
     return meant(tag.removeprefix(_PREFIX), OWN_TAGS) is not None
 
 
@@ -111,7 +111,7 @@ def _is_own(element: Element) -> bool:
 
 
 def only_names_files(document: Element) -> bool:
-    """Tell whether all substitutions of a document are in file names.
+    """Return whether all substitutions of a document are in file names.
 
     Then it is a plain URDF for urdfdom, which does not open these files.
     """

@@ -1,4 +1,4 @@
-"""The size of a box whose three lengths were written as attributes of their own."""
+"""The size of a box whose three lengths were written as their own attributes."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ _HAS_UNIT = re.compile(rf"(?:{_NUMBER}\s*)?(?:{_UNIT})", re.IGNORECASE)
 
 
 def is_with_unit(part: str) -> bool:
-    """Tell whether a text is one number with a known unit, or such a unit alone."""
+    """Return whether a text is one number with a known unit, or such a unit alone."""
     return _HAS_UNIT.fullmatch(part) is not None
 
 
@@ -88,5 +88,5 @@ def quantity(text: str) -> float | None:
 
 
 def usual_degrees(value: float) -> bool:
-    """Tell whether a number is an angle that people write in degrees."""
+    """Return whether a number is an angle that people write in degrees."""
     return any(abs(value / step - round(value / step)) < 1e-9 for step in (15, 22.5))

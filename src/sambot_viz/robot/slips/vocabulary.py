@@ -119,7 +119,7 @@ def _likeness(one: str, other: str) -> float:
 
 
 def is_one_slip(one: str, other: str) -> bool:
-    """Tell whether two names differ in one letter, or in the order of two."""
+    """Return whether two names differ in one letter, or in the order of two."""
     if one == other:
         return True
     start = 0

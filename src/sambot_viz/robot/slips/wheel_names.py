@@ -9,7 +9,7 @@ SWIVELS = re.compile("cast|swivel|steer|support|omni|rot|turn|pivot|yaw")
 
 
 def rolls(joint: str, link: str) -> bool:
-    """Tell whether a joint turns a wheel that does not swivel, by the names.
+    """Return whether a joint turns a wheel that does not swivel, by the names.
 
     Args:
         joint: name of the joint.

@@ -65,7 +65,7 @@ def read_number(text: str) -> float:
 
 
 def has_blank_behind(text: str) -> bool:
-    """Tell whether a single number ends with a blank, which urdfdom refuses."""
+    """Return whether a single number ends with a blank, which urdfdom refuses."""
     return text != text.rstrip()
 
 

@@ -31,7 +31,7 @@ def report_sdf_habits(robot: Element, findings: ModelFindings) -> None:
 
 
 def is_model_of_sdf(group: Element) -> bool:
-    """Tell whether links are in a <model> and are written as in SDF."""
+    """Return whether links are in a <model> and are written as in SDF."""
     inside = list(group.iter()) if group.tag == "model" else []
     if any(e.tag == "origin" or e.get("link") is not None for e in inside):
         return False
@@ -42,7 +42,7 @@ def is_model_of_sdf(group: Element) -> bool:
 
 
 def _is_sdf(element: Element) -> bool:
-    """Tell whether it is not a sensor of URDF.
+    """Return whether it is not a sensor of URDF.
 
     Such a sensor has no type, or names a link or joint as its parent, as iDynTree
     reads it.

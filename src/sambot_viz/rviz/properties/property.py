@@ -101,7 +101,7 @@ class Property:
 
     @property
     def has_value(self) -> bool:
-        """Return whether it has a value of its own; a mere container has none."""
+        """Return whether it has its own value; a mere container has none."""
         return True
 
     def default_in(self, ros1: bool) -> Any:

@@ -74,7 +74,7 @@ class YamlText(NamedTuple):
         tail: index after the value.
         end: index after the comment behind the value and its line break.
         column: how far the entry was indented.
-        inline: it was behind a dash, without an indentation of its own.
+        inline: it was behind a dash, without its own indentation.
     """
 
     lead: int

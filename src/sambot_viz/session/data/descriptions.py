@@ -157,7 +157,7 @@ class SourceDescriptions:
 
 
 def stands_for_opened(topic: str, known: Sequence[str]) -> bool:
-    """Tell whether a topic that does not exist means a robot that was given.
+    """Return whether a topic that does not exist means a robot that was given.
 
     Args:
         topic: its name.

@@ -181,7 +181,7 @@ class SourceTopics:
         if recorded is None:
             return self.account(name).reason
         made, until = self._of_recorded(name, *recorded)
-        # What others were told before is still to be told anew.
+        # What others were told before is still to be told again.
         self._until.setdefault(name, (made.reason, until))
         return made.reason
 

@@ -208,7 +208,7 @@ def view_of(config: ViewConfig) -> View:
 
 
 def has_target(scene: Scene, view: View) -> bool:
-    """Tell whether a view follows another frame than the fixed one."""
+    """Return whether a view follows another frame than the fixed one."""
     context = scene.context
     return context.frame(view.config.get("Target Frame")) != context.fixed_frame
 

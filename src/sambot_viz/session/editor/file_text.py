@@ -22,7 +22,7 @@ class FileText:
 
     Attributes:
         data: its bytes; None when there is no such file, or it cannot be read.
-        text: the same with line feeds at the ends of lines; "" for what is no text.
+        text: the same with line feeds at the ends of lines; "" for what is not text.
         encoding: how `data` is written.
         why: why it cannot be shown as text; "" when it can.
     """

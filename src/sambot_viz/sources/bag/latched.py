@@ -18,7 +18,7 @@ _LOG_TYPES = ("rcl_interfaces/Log", "rosgraph_msgs/Log")
 
 
 def is_latched(topic: str, type_name: str, qos: Qos | None, latching: str = "") -> bool:
-    """Tell if a topic is latched.
+    """Return whether a topic is latched.
 
     Args:
         topic: its name.
@@ -47,7 +47,7 @@ class LatchedMessages:
         self._is_sorted = True
 
     def wants(self, topic: str) -> bool:
-        """Tell if there is room for messages of a latched topic."""
+        """Return whether there is room for messages of a latched topic."""
         return self._free[is_latched_name(topic)] > 0
 
     def add(self, message: Recorded) -> None:

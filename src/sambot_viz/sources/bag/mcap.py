@@ -209,7 +209,7 @@ class McapBag(BlockBag):
     def _is_cut(
         self, window: ReadAhead, at: int, opcode: int, length: int, end: int
     ) -> bool:
-        """Tell if the walk must end in a record that is not all there."""
+        """Return whether the walk must end in a record that is not all there."""
         if opcode != CHUNK or at + HEAD.size + length <= end:
             return False
         try:

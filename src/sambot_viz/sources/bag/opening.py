@@ -34,7 +34,7 @@ def open_bag(path: str | os.PathLike[str]) -> Bag:
             the first or the last on a web server.
 
     Raises:
-        SourceError: it is not there, or is no recording.
+        SourceError: it is not there, or is not a recording.
     """
     if isinstance(path, str) and is_web_address(path):
         return _opened(_on_the_web(path))

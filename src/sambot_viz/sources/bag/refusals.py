@@ -30,7 +30,7 @@ def lfs_pointer(path: Path) -> SourceError:
 
 
 def not_a_bag(path: Path, why: str) -> SourceError:
-    """Say that a file is no recording."""
+    """Say that a file is not a recording."""
     message = f"{path.name} is not a recording: {why}"
     hint = "give a .mcap, .db3 or .bag file, or the folder that holds it"
     return refused(path, "file-not-a-bag", message, hint)

@@ -1,7 +1,7 @@
 """What is said with the nodes of a robot over DDS.
 
 Participants tell of their readers and writers, each with its QoS and the hash of its
-type; which node has them is told on a topic of its own.
+type; which node has them is told on its own topic.
 """
 
 from __future__ import annotations

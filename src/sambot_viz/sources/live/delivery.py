@@ -163,7 +163,7 @@ class Delivery:
                 else:
                     self._pending.discard(first)
                     message, callbacks = None, ()
-            # No lock is held here: a callback may subscribe, or take a lock of its own
+            # No lock is held here: a callback may subscribe, or take its own lock
             # that another thread holds while it subscribes.
             if message is not None:
                 for callback in callbacks:

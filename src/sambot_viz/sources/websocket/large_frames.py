@@ -137,7 +137,7 @@ class LargeFrames:
         return b"".join([*parts, data[begin:at]])
 
     def _is_taken(self, data: bytes, at: int, end: int) -> bool:
-        """Tell whether a frame is held or thrown away; all others go through."""
+        """Return whether a frame is held or thrown away; all others go through."""
         size, kind = _size(data, at, end), data[at] & ~_LAST
         if data[at + 1] & _MASKED or size >= _NO_SIZE:
             return False

@@ -127,7 +127,7 @@ class CMakeFile:
         return self.fault is None and not makes.isdisjoint(self.names)
 
     def certain(self, name: str) -> bool:
-        """Tell whether a command is called outside if( … ), loops and functions."""
+        """Return whether a command is called outside if( … ), loops and functions."""
         return any(c.name == name and c.certain for c in self.commands)
 
     @cached_property
@@ -140,7 +140,7 @@ class CMakeFile:
         return name if re.fullmatch(r"[\w.-]+", name.text) else None
 
     def is_name(self, part: str) -> bool:
-        """Tell whether ${PROJECT_NAME} is meant, such as by ${PROJECT_NAM}."""
+        """Return whether ${PROJECT_NAME} is meant, such as by ${PROJECT_NAM}."""
         bare = re.sub(r"^\$?[{(]?|[)}]?$", "", part)
         known = {c.words[0].text for c in self.commands if c.name == "set" and c.words}
         like = nearest(bare.upper(), [_NAME], likeness=0.85) is not None

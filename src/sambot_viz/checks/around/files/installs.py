@@ -61,7 +61,7 @@ class Installed(NamedTuple):
                 yield target, piece
 
     def has(self, below: str) -> bool:
-        """Tell whether there is a file or a folder in the share folder."""
+        """Return whether there is a file or a folder in the share folder."""
         wanted = f"{self.share}/{below.strip('/')}"
         return any(self._gives(piece, wanted) for piece in self.pieces)
 

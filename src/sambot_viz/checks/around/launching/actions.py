@@ -168,7 +168,7 @@ class StartNode(Action):
 
 @dataclass(frozen=True, slots=True)
 class StartProcess(Action):
-    """A program that is no node.
+    """A program that is not a node.
 
     Attributes:
         words: the command.

@@ -135,7 +135,7 @@ def _is_off(node: RunningNode, row: NodeRow) -> bool:
 
 
 def _is(node: RunningNode, condition: tuple[str, str]) -> bool:
-    """Tell whether a node is given a parameter with a value."""
+    """Return whether a node is given a parameter with a value."""
     name, value = condition
     given = node.parameter(name) if name else None
     return given is not None and flag(given.value or "") is flag(value)

@@ -56,7 +56,7 @@ class KnownNode(NamedTuple):
     rows: tuple[NodeRow, ...]
 
     def does(self, verb: str) -> bool:
-        """Tell whether it has a row with this verb."""
+        """Return whether it has a row with this verb."""
         return any(row.verb == verb for row in self.rows)
 
 

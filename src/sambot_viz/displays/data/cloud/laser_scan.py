@@ -82,7 +82,7 @@ def points_of_scan(message: Any) -> tuple[Floats, npt.NDArray[np.intp]]:
     points = np.stack(
         [r * np.cos(angles), r * np.sin(angles), np.zeros_like(r)], axis=1
     )
-    # Of angles that are no numbers come points that are none.
+    # Of angles that are not numbers come points that are none.
     finite = np.isfinite(points).all(axis=1)
     return points[finite], kept[finite]
 

@@ -24,7 +24,7 @@ AXES_DIAMETER = 0.05
 
 
 class PoseNode(PosedNode[viser.FrameHandle]):
-    """A node without a picture of its own."""
+    """A node without its own picture."""
 
     def draw(self, wxyz: Wxyz, position: Vector3) -> None:
         """Make the node, or move it.

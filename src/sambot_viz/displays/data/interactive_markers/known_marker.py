@@ -215,7 +215,7 @@ class KnownMarker:
     ) -> Sequence[ControlPart]:
         """Return what is drawn of its controls; the description is the last one.
 
-        What has a frame of its own is placed there once, when this is called first.
+        What has its own frame is placed there once, when this is called first.
 
         Args:
             context: has the frames.

@@ -29,7 +29,7 @@ def texture_of(marker: Any) -> Texture:
     """Return the picture of a marker that has one.
 
     Raises:
-        TextureError: it is no picture, or a broken one.
+        TextureError: it is not a picture, or a broken one.
     """
     return _pictures.from_bytes(np.asarray(marker.texture.data, np.uint8).tobytes())
 

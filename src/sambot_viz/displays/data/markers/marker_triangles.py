@@ -1,4 +1,4 @@
-"""The triangles of a marker: with colours of their own, or lit, in one or a picture."""
+"""The triangles of a marker: with their own colours, or lit, in one or a picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The namespaces of markers, each with a box of its own."""
+"""The namespaces of markers, each with its own box."""
 
 from __future__ import annotations
 

@@ -318,7 +318,7 @@ class FailedExpansion:
         return Problem.at(self.at, "error", code, message, hint)
 
     def is_root(self, place: Place) -> bool:
-        """Tell whether a place is inside the root tag of its file."""
+        """Return whether a place is inside the root tag of its file."""
         source = self.sources.get(place.file)
         root = next((t for t in source.tags if not t.closes), None) if source else None
         if source is None or root is None:

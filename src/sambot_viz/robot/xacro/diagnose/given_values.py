@@ -1,4 +1,4 @@
-"""Texts that are no numbers, named where xacro was given them and not at each use.
+"""Texts that are not numbers, named where xacro was given them and not at each use.
 
 A property, an argument or a macro's parameter is written once; what is made of it fails
 in every element that uses it.

@@ -67,7 +67,7 @@ def _pattern(template: str) -> str:
 
 
 def _lacks(problem: Problem, pattern: str) -> bool:
-    """Tell whether a problem is that a name does not exist which is to be made."""
+    """Return whether a problem is that a name does not exist which is to be made."""
     if problem.code not in _UNKNOWN:
         return False
     name = _MISSING.search(problem.message)
@@ -158,7 +158,7 @@ def _with_expression(group: Sequence[Problem], document: Element) -> Problem | N
 
 
 def _lacks_dollar(element: Element) -> bool:
-    """Tell whether a name has a parameter of its macro without the $."""
+    """Return whether a name has a parameter of its macro without the $."""
     macro, bare = _macro_around(element), _NO_DOLLAR.search(element.get("name") or "")
     if macro is None or bare is None:
         return False

@@ -90,7 +90,7 @@ def _defined_twice(
 
 
 def _is_conditional(sources: SourceSet, macro: NamedElement) -> bool:
-    """Tell whether a macro is inside <xacro:if>, so that it may not be defined."""
+    """Return whether a macro is inside <xacro:if>, so that it may not be defined."""
     source = sources.get(macro.place.file)
     if source is None:
         return True
@@ -103,7 +103,7 @@ def _is_conditional(sources: SourceSet, macro: NamedElement) -> bool:
 
 
 def _called_without_macro(here: FailedExpansion) -> list[str]:
-    """Return the macros that are called and not defined, and are no words of xacro."""
+    """Return the macros that are called and not defined, and are not words of xacro."""
     from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
 
     known = {*OWN_TAGS, *(macro.name for macro in here.named("macro"))}

@@ -68,7 +68,7 @@ def undefined_name(failed: FailedExpansion, name: str) -> Problem:
 
 
 def _is_block(failed: FailedExpansion, thing: NamedElement) -> bool:
-    """Tell whether a property has its value as content, and not as value=."""
+    """Return whether a property has its value as content, and not as value=."""
     tag = failed.sources.tag_at(thing.place, "xacro:property")
     return tag is not None and tag.kind == "open" and tag.get("value") is None
 

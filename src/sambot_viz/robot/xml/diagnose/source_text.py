@@ -60,7 +60,7 @@ class SourceText:
         return Problem.at(place(offset), "error", code, message, fix)
 
     def starts_line(self, offset: int) -> bool:
-        """Tell whether only blanks precede an offset in its line."""
+        """Return whether only blanks precede an offset in its line."""
         while offset and self.text[offset - 1] in " \t":
             offset -= 1
         return offset == 0 or self.text[offset - 1] == "\n"
@@ -71,7 +71,7 @@ class SourceText:
         return [match.span() for match in pattern.finditer(self.text)]
 
     def in_comment(self, offset: int) -> bool:
-        """Tell whether an offset is inside a comment."""
+        """Return whether an offset is inside a comment."""
         before = bisect.bisect_right(self._comments, (offset, len(self.text))) - 1
         return before >= 0 and offset < self._comments[before][1]
 

@@ -164,7 +164,7 @@ class _Walk:
         self._add("xml-tag-case", wrong.start, message, hint, *changes)
 
     def _is_used(self, name: str, but: Token | None = None) -> bool:
-        """Tell whether elements have a name, without the one of a tag."""
+        """Return whether elements have a name, without the one of a tag."""
         tags = self.source.tags
         return any(t.name == name and not t.closes and t is not but for t in tags)
 
