@@ -152,7 +152,8 @@ def test_a_package_that_starts_the_model_is_checked_with_it(tmp_path: Path) -> N
     for name, files in {
         "r_description": {"r.urdf": MODEL.replace("90", "1")},
         "r_bringup": {
-            "launch/r.launch.xml": "$(find-pkg-share r_description)/r.urdf",
+            "launch/r.launch.xml": "<launch><arg name='model' default='"
+            "$(find-pkg-share r_description)/r.urdf'/></launch>",
             "nav2_params.yaml": "amcl:\n  ros__parameters:\n    base_frame_id: base\n",
         },
     }.items():

@@ -733,6 +733,7 @@ MISTAKES = [
             (CMAKE, at),
             ("", ""),
             advice,
+            fixed=((CMAKE, new, old),) if advice == "delete it" else (),
             name=name,
         )
         for name, old, new, at, advice, _ in (

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.parameters import pairs, place_of, read_yaml
+from sambot_viz.checks.around.files.parameters import pairs, place_of
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
@@ -44,7 +44,7 @@ def _settings(around: Surroundings) -> Iterator[_Settings]:
     for package in around.packages:
         for path in package.ending(".rviz"):
             shown = package.shown(path)
-            file = read_yaml(package.text(path) or "", path, shown)
+            file = package.yaml(path)
             waiting = [(file.root, "")] if file is not None else []
             while waiting:
                 node, owner = waiting.pop()

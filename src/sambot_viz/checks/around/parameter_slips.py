@@ -12,10 +12,10 @@ from sambot_viz.checks.around.files.parameters import (
     YamlFile,
     pairs,
     place_of,
-    read_yaml,
 )
 from sambot_viz.checks.around.node_parts import parts_by_node
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.slips.vocabulary import is_one_slip
@@ -87,7 +87,7 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
     """Report maps without an image that is there, or without a value they need."""
     for package in around.packages:
         for path in package.ending(".yaml", ".yml"):
-            file = _map_file(package.text(path) or "", path, package.shown(path))
+            file = _map_file(package, path)
             if file is None:
                 continue
             values = {key.value: (key, value) for key, value in pairs(file.root)}
@@ -117,11 +117,12 @@ def maps_that_do_not_load(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
-def _map_file(text: str, path: str, shown: str) -> YamlFile | None:
+def _map_file(package: Package, path: str) -> YamlFile | None:
     """Return a file that has most of what a map has."""
+    text = package.text(path) or ""
     if sum(name in text for name in _MAP) < _LONG:
         return None
-    file = read_yaml(text, path, shown)
+    file = package.yaml(path)
     keys = [key.value for key, _ in pairs(file.root)] if file is not None else []
     return file if len({*keys}.intersection(_MAP)) >= _LONG else None
 

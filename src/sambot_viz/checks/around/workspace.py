@@ -208,10 +208,21 @@ class Package:
 
     def _yaml_files(self) -> Iterator[YamlFile]:
         for path in self.ending(*_YAML):
-            text = None if _WITHOUT_PARAMETERS.search(path) else self.text(path)
-            read = read_yaml(text, path, self.shown(path)) if text else None
+            read = None if _WITHOUT_PARAMETERS.search(path) else self.yaml(path)
             if read is not None:
                 yield read
+
+    @cached_property
+    def _yamls(self) -> dict[str, YamlFile | None]:
+        return {}
+
+    def yaml(self, path: str) -> YamlFile | None:
+        """Return a file of any ending as YAML; None when it is not."""
+        if path not in self._yamls:
+            text = self.text(path)
+            read = read_yaml(text, path, self.shown(path)) if text else None
+            self._yamls[path] = read
+        return self._yamls[path]
 
     @cached_property
     def manifest(self) -> Element | None:

@@ -9,18 +9,14 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.errors import nearest
-from sambot_viz.geometry import (
-    SHORTEST,
-    Matrix,
-    Rgba,
-    rotation_from_rpy,
-    rotation_from_xyzw,
-)
+
+# numpy takes longer to import than a small model to check, and only poses need it.
+if TYPE_CHECKING:
+    from sambot_viz.geometry import Matrix, Rgba
 
 LARGEST = float(limits.NUMBER.value)
 """Lengths beyond this leave the range in which pictures and poses can be computed."""
@@ -240,6 +236,10 @@ class PoseText:
     @property
     def matrix(self) -> Matrix:
         """The (4, 4) transform; a quaternion is brought to length 1."""
+        import numpy as np
+
+        from sambot_viz.geometry import SHORTEST, rotation_from_rpy, rotation_from_xyzw
+
         T = np.eye(4)
         if len(self.numbers) == 6:
             T[:3, :3] = rotation_from_rpy(*self.numbers[3:])

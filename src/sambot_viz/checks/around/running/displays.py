@@ -10,7 +10,7 @@ import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import flag, pairs, place_of, read_yaml
+from sambot_viz.checks.around.files.parameters import flag, pairs, place_of
 from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.running.system import RunningNode
@@ -53,12 +53,7 @@ def displays_of(
     name, _, below = path.removeprefix(SHARE).partition("/")
     package = find(name) if path.startswith(SHARE) else None
     own = installed_as(package, below) if package is not None else None
-    text = package.text(own) if package is not None and own is not None else None
-    file = (
-        read_yaml(text, own or "", package.shown(own or ""))
-        if text and package
-        else None
-    )
+    file = package.yaml(own) if package is not None and own is not None else None
     waiting: list[yaml.Node] = [] if file is None else [file.root]
     while waiting and file is not None:
         inner = waiting.pop()
