@@ -28,6 +28,7 @@ NO_LIMITS = {
         panels/joints/joint_rows.py LARGEST_GROUP
         panels/permalink/permalink_parts.py MOST_NAMED
         panels/problems/problems_panel.py _LONGEST_FILE
+        panels/compare_panel.py _LONGEST_NAME
         panels/problems/status_rows.py MOST_NAMES _LONGEST_SENTENCE _LONGEST_NAME
         panels/rows/row.py LONGEST_NAME LONGEST_TEXT
         problems.py MOST _LONGEST_LINE

@@ -14,10 +14,12 @@ from pathlib import Path
 import pytest
 from a_class import MODEL, Browser, a_class, shown, write
 from lesson_files import BASE
+from lower_limit import lower
 from patience import until
 from protocol_client import ProtocolClient
 from websockets.exceptions import InvalidStatus
 
+from sambot_viz import limits
 from sambot_viz.classroom.classroom import Classroom
 from sambot_viz.errors import ServerError, UsageError
 
@@ -240,7 +242,9 @@ def test_a_message_is_shown_to_one_or_to_all(room: Classroom) -> None:
         pages[1].wait_until(lambda: noticed(pages[1]) == "Only you")
         assert shown(pages[0], "lesson/teacher")["text"] == text
         assert teacher.do("say", number=0, text=" ").status == 400
-        assert teacher.do("say", number=0, text="x" * 301).status == 400
+        most = limits.CLASS_MESSAGE.value
+        assert teacher.do("say", number=0, text="x" * most).status == 200
+        assert teacher.do("say", number=0, text="x" * (most + 1)).status == 400
         assert teacher.do("say", number=7, text="x").status == 400
 
 
@@ -347,10 +351,26 @@ def test_names_of_all_kinds_have_folders_of_their_own(
     }
 
 
-def test_the_class_is_full_some_time(room: Classroom) -> None:
-    for number in range(60):
+def test_the_class_is_full_some_time(
+    room: Classroom, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "CLASS_STUDENTS", 3)
+    for number in range(3):
         assert Browser(room).join(f"S{number}").status == 200
     assert "the class is full" in Browser(room).join("One more").text
+
+
+def test_a_student_has_some_pages_at_a_time(
+    room: Classroom, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lower(monkeypatch, "CLASS_CONNECTIONS", 2)
+    with closing(Browser(room)) as ada, closing(Browser(room)) as bob:
+        ada.join("Ada")
+        bob.join("Bob")
+        # A page has two connections.
+        ada.page()
+        assert "Too many pages are open" in ada.get("").text
+        bob.page()
 
 
 def test_what_is_no_request_of_ours_is_refused(room: Classroom) -> None:

@@ -62,7 +62,8 @@ def test_few_commands_are_for_viewers_too() -> None:
         *("edit/undo", "edit/redo", "edit/resume"),
         *("file/download", "file/page", "file/picture", "frames/show", "graph/show"),
         *("images/show", "joints/copy", "model/show"),
-        *("model/find", "model/open"),
+        *("model/find", "model/open", "model/call", "model/expand", "model/number"),
+        "numbers/show",
         # What is drawn or listed in one page alone.
         *("add_by_topic/show", "poses/show", "tools/double_click"),
         *("permalink/copy", "permalink/open"),

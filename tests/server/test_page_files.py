@@ -65,7 +65,9 @@ def test_the_page_has_our_scripts_and_our_style_sheet(port: int) -> None:
         assert response.headers["Content-Type"] == "text/html; charset=utf-8"
         html = content.decode()
         assert 'import "sambot/main.js"' in html
-        sheets = [p for p in PAGE.rglob("*.css") if p.name != "player.css"]
+        # Those of exported pages and of the board of a class are for these.
+        others = ("player.css", "board.css")
+        sheets = [p for p in PAGE.rglob("*.css") if p.name not in others]
     assert len(sheets) > 3
     for sheet in sheets:
         assert sheet.read_text("utf-8") in html, sheet

@@ -163,6 +163,8 @@ class ProtocolClient:
                 additional_headers=headers,
                 max_size=None,
                 compression=None,
+                # A student's page of a class begins with a server of its own.
+                open_timeout=patience(20.0),
             )
 
         self._socket = open_socket(f"viser-v{viser.__version__}")
