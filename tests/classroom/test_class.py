@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from http.client import HTTPException
 from pathlib import Path
+from urllib.parse import urljoin, urlsplit
+from urllib.request import HTTPCookieProcessor, build_opener
 
 import pytest
 from a_class import MODEL, Browser, a_class, shown, write
@@ -198,6 +200,31 @@ def test_a_student_cannot_send_the_teacher_away(room: Classroom) -> None:
                 lambda n=before: (shown(page, "notice") or {}).get("number", 0) > n
             )
         assert people(page) == {"Ada": True, "Teacher": False} and not seen.closed
+@pytest.mark.parametrize("base", ["/", "/lab"])
+def test_the_link_of_the_board_lets_a_browser_look_at_students(
+    folder: Path, base: str
+) -> None:
+    with a_class(folder, base_path=base) as room, closing(Browser(room)) as ada:
+        ada.join("Ada")
+        jar = HTTPCookieProcessor()
+        # A browser: it follows where it is sent, and keeps cookies by their paths.
+        teacher = build_opener(jar)
+        with teacher.open(room.board_url) as board:
+            assert urlsplit(board.url).path == f"{base.rstrip('/')}/board/"
+            assert not urlsplit(board.url).query
+            look = urljoin(board.url, "../student/1/")
+        with teacher.open(look) as seen:
+            assert seen.status == 200
+
+
+@pytest.mark.parametrize(
+    "name", ["Łukasz", "李雷", "Ольга", "Ada 🤖", "<b>Bob</b> & Co"]
+)
+def test_a_name_has_letters_of_any_script(room: Classroom, name: str) -> None:
+    with closing(Browser(room)) as student:
+        assert student.join(name).text == name
+        page = student.page()
+        page.wait_until(lambda: people(page) == {name: True})
 
 
 def test_a_page_is_shown_to_all_and_no_longer(room: Classroom) -> None:
