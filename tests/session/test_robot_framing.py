@@ -23,6 +23,7 @@ from sambot_viz.session.clients.client_view import ClientView
 from sambot_viz.views.camera import FILLED_HEIGHT, FILLED_WIDTH
 
 Protocol = Callable[..., ProtocolClient]
+BOX = '<visual><geometry><box size="{0} {0} {0}"/></geometry></visual>'
 
 
 def opened(viz: Visualizer, protocol: Protocol) -> ProtocolClient:
@@ -177,17 +178,52 @@ def test_a_saved_model_leaves_the_camera_where_it_is(
     tmp_path: Path, protocol: Protocol
 ) -> None:
     model = tmp_path / "r.urdf"
-    box = '<visual><geometry><box size="{0} {0} {0}"/></geometry></visual>'
-    text = f'<robot name="r"><link name="a">{box}</link></robot>'
+    text = f'<robot name="r"><link name="a">{BOX}</link></robot>'
     model.write_text(text.format(1))
     with Visualizer(model, watch=True) as viz:
         client = opened(viz, protocol)
         before = dict(view_of(viz).values)
         mark = client.mark()
-        model.write_text(text.format(5))
+        model.write_text(text.format(1.9))
         client.wait_until(lambda: client.types(mark)["BoxMessage"] == 1)
         client.settle(viz.viser)
         assert dict(view_of(viz).values) == before
+
+
+@pytest.mark.parametrize("first", ["", BOX.format(1)])
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_model_with_its_first_shape_or_much_larger_is_shown_whole_again(
+    first: str, moved: bool, tmp_path: Path, protocol: Protocol
+) -> None:
+    model = tmp_path / "r.urdf"
+    text = '<robot name="r"><link name="a">{}</link></robot>'
+    model.write_text(text.format(first))
+    with Visualizer(model, watch=True) as viz:
+        client = opened(viz, protocol)
+        confirm(client)
+        if moved:
+            move(client, (4.0, 1.0, 2.0))
+        client.settle(viz.viser)
+        mark = client.mark()
+        model.write_text(text.format(BOX.format(5)))
+        client.wait_until(lambda: client.types(mark)["BoxMessage"] == 1)
+        client.settle(viz.viser)
+        is_whole = filled(viz)[1] == pytest.approx(FILLED_HEIGHT, abs=0.01)
+        assert is_whole is not moved
+
+
+def test_the_name_of_a_lone_frame_is_seen_whole(
+    tmp_path: Path, protocol: Protocol
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text('<robot name="r"><link name="base_link"/></robot>')
+    with Visualizer(model) as viz:
+        opened(viz, protocol)
+        camera = view_of(viz).camera
+        (name,) = session_of(viz).picker.names_in((np.zeros(3), np.zeros(3)))
+        for side in (-1, 1):
+            end = name.position + side * name.width / 2 * camera.right
+            assert camera.shows(end, 640, 480)
 
 
 def test_the_robot_of_a_fixed_model_is_shown_whole(

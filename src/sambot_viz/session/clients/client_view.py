@@ -306,8 +306,11 @@ class ClientView:
     def _frame_robot(self) -> None:
         box = self._framing.box()
         if box is not None:
+            # Of frames alone, the names are most of the picture.
+            is_bare = self._picker.link_box() is None
+            names = self._picker.names_in(box) if is_bare else ()
             with self._change(self.changed):
-                self._apply(self._values_for(box))
+                self._apply(self._values_for(box, names))
                 self._point()
 
     def _values_for(self, box: Corners, names: Sequence[Name] = ()) -> Values:

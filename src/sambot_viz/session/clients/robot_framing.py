@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import viser
 
 from sambot_viz.displays.picking.triangle_mesh import Corners
@@ -17,6 +18,8 @@ from sambot_viz.views.view import View
 
 Size = tuple[int, int]
 """Width and height [pixels]."""
+_MUCH_LARGER = 2.0
+"""A model that has grown by more than this is shown whole again."""
 
 
 def window_of(client: viser.ClientHandle) -> Size:
@@ -29,8 +32,9 @@ class RobotFraming:
     """When a browser's camera is to be moved so that it shows robot and data whole.
 
     That is when the robot comes, once its meshes are read, when more of its links have
-    a place, when one more display has drawn data, and in a window of another size;
-    never after the user has moved the camera.
+    a place, when one more display has drawn data, when a changed model has its first
+    shape or is much larger, and in a window of another size; never after the user has
+    moved the camera.
 
     Args:
         client: the client.
@@ -59,6 +63,9 @@ class RobotFraming:
         # the tree they were counted; infinite until its meshes are read.
         self._missing, self._version = math.inf, -1
         self._data_drawn = 0
+        # The robot that was looked at last, and its longest side when it was shown [m].
+        self._seen: Robot | None = None
+        self._length = 0.0
 
     @property
     def wanted(self) -> bool:
@@ -91,7 +98,11 @@ class RobotFraming:
         missing = self._without_place(robot) if all_read else math.inf
         unasked = self._document.config.unasked
         drawn = self._picker.data_drawn if unasked else 0
-        is_more = missing < self._missing or drawn > self._data_drawn
+        is_more = (
+            missing < self._missing
+            or drawn > self._data_drawn
+            or (all_read and self._is_much_larger())
+        )
         if window == self._window and not is_more:
             if all_read:
                 self._missing = missing
@@ -100,7 +111,21 @@ class RobotFraming:
         if found is not None:
             self._window, self._missing = window, missing
             self._data_drawn = max(drawn, self._data_drawn)
+            self._seen, self._length = self._scene.context.robot, self._longest_side()
         return found
+
+    def _is_much_larger(self) -> bool:
+        """Whether another robot is drawn now, larger than the picture was made for."""
+        drawn = self._scene.context.robot
+        if drawn is self._seen:
+            return False
+        self._seen = drawn
+        return self._longest_side() > _MUCH_LARGER * self._length
+
+    def _longest_side(self) -> float:
+        """Return the longest side of the box around all links; 0 without a shape."""
+        box = self._picker.link_box()
+        return 0.0 if box is None else float(np.max(box[1] - box[0]))
 
     def _without_place(self, robot: Robot) -> float:
         """How many links have no place, if that may be less than before."""
