@@ -75,6 +75,19 @@ def macro(params: str, radius: str, call: str) -> str:
         (PROPERTY + BALL.format("${2*radius)}"), PROPERTY + BALL.format("${2*radius}")),
         (PROPERTY + BALL.format("${2radius}"), PROPERTY + BALL.format("${2*radius}")),
         (BALL.format("${PI/2}"), BALL.format("${pi/2}")),
+        (BALL.format("pi/10"), BALL.format("${pi/10}")),
+        (
+            PROPERTY + BALL.format("radius/2"),
+            PROPERTY + BALL.format("${radius/2}"),
+        ),
+        (
+            BALL.replace("<geometry>", '<origin rpy="pi 0 -pi/2"/><geometry>').format(
+                1
+            ),
+            BALL.replace(
+                "<geometry>", '<origin rpy="${{pi}} 0 ${{-pi/2}}"/><geometry>'
+            ).format(1),
+        ),
         (INERTIA.format("${ixx}"), INERTIA.format("${(0.4*0.5)}")),
         (
             '<xacro:arg name="r" default="1"/>\n' + BALL.format("${r}"),

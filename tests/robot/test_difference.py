@@ -37,6 +37,17 @@ def test_a_robot_does_not_differ_from_itself() -> None:
     assert changed(("0 0 1", "0.0 0 1e0"), ("<link name", "<!-- --><link name")) == []
 
 
+def test_a_colour_that_one_lacks_is_one_difference() -> None:
+    colour = '\n  <material name="m"><color rgba="1 0 0 1"/></material>'
+    assert rows((colour, "")) == [
+        ("link", "base", "visual colour", (1.0, 0.0, 0.0, 1.0), None)
+    ]
+    texture = colour.replace("</mat", '<texture filename="t.png"/></mat')
+    assert rows((colour, texture)) == [
+        ("link", "base", "visual texture", None, "t.png")
+    ]
+
+
 def test_a_part_that_was_moved_is_one_difference() -> None:
     (found,) = changed(('xyz="0 0 1" rpy="0 0 0"', 'xyz="0.03 0 1.04" rpy="0 0 0"'))
     assert (found.kind, found.name, found.what) == ("joint", "a", "origin")

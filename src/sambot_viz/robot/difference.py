@@ -197,7 +197,8 @@ def _of_shape(shape: Shape, with_material: bool) -> Mapping[str, _Fact]:
     # RViz draws a collision in the colour of the visual.
     if with_material and shape.material is not None:
         facts["colour"] = _Fact(shape.material.rgba)
-        facts["texture"] = _Fact(shape.material.texture)
+        if shape.material.texture is not None:
+            facts["texture"] = _Fact(shape.material.texture)
     return facts
 
 

@@ -41,15 +41,17 @@ class ModelFindings(Findings):
 
     Attributes:
         rejected: whether ROS refuses the whole model.
+        calculates: whether the model has come out of xacro, which calculates.
         reject: reports an error for which ROS refuses the whole model.
         error: reports one that ROS does not, or that affects only part of the robot.
         warn: reports a doubtful part of the model, which is drawn anyway.
         remark: reports what is worth knowing.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, calculates: bool = False) -> None:
         super().__init__()
         self.rejected = False
+        self.calculates = calculates
         self._calls: dict[tuple[str, str, Place], Place | None] = {}
 
     def is_said(self, code: str, hint: str, place: Place, call: Place | None) -> bool:

@@ -179,7 +179,9 @@ class _Loader:
     def _robot(
         self, root: Element, expanded: ExpandedModel | None, problems: list[Problem]
     ) -> LoadedModel:
-        source, findings = self.opened.source, ModelFindings()
+        source = self.opened.source
+        is_xacro = source.path is not None and source.path.suffix == ".xacro"
+        findings = ModelFindings(calculates=is_xacro or expanded is not None)
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
         tree = self._tree(root, files, findings, expanded)
         if expanded is not None and findings.problems:

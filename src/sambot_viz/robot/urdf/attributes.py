@@ -20,6 +20,7 @@ NOT_REPLACED = "which xacro has not replaced"
 """The words for an expression that is in place of a number."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_EXPRESSION = re.compile(r"pi|[*/()]|\d[+-]\d")
 _SEPARATORS = re.compile(r"[\s,;]+")
 _WORDS = {2: "two", 3: "three", 4: "four"}
 
@@ -31,13 +32,17 @@ class BadNumber(ValueError):
         reason: what is wrong, worded to follow the attribute's text.
         hint: what to write.
         right: the right value, where it is certain.
+        in_xacro: the same in a file of xacro, which calculates.
     """
 
-    def __init__(self, reason: str, hint: str, right: str = "") -> None:
+    def __init__(
+        self, reason: str, hint: str, right: str = "", in_xacro: str = ""
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
         self.hint = hint
         self.right = right
+        self.in_xacro = in_xacro
 
 
 class _Bad(NamedTuple):
@@ -46,6 +51,7 @@ class _Bad(NamedTuple):
     reason: str
     hint: str
     right: str = ""
+    in_xacro: str = ""
 
 
 def _rather(reason: str, right: str) -> _Bad:
@@ -155,11 +161,16 @@ def _complaint(part: str, whole: str) -> _Bad:
             f"has a unit in {part}; URDF knows only metres and radians",
             "write the bare number",
         )
-    if re.search(r"pi|[*/()]|\d[+-]\d", part):
-        shown = whole.replace(part, f"${{{part}}}")
+    if _EXPRESSION.search(part):
+        calculated = re.sub(
+            r"\S+",
+            lambda one: f"${{{one[0]}}}" if _EXPRESSION.search(one[0]) else one[0],
+            whole.strip(),
+        )
         return _Bad(
             f"contains {part}, which is not a number: plain URDF cannot calculate",
-            f'write the number{_value_of(part)}, or use xacro: "{shown}"',
+            f'write the number{_value_of(part)}, or use xacro: "{calculated}"',
+            in_xacro=calculated,
         )
     if re.fullmatch(r"[+-]?\d+,\d+", part) or is_with_unit(part.replace(",", ".", 1)):
         better = without_units(whole.strip().replace(",", "."))
@@ -350,6 +361,12 @@ class AttributeReader(NamedTuple):
     def _bad(
         self, element: Element, name: str, text: str, bad: BadNumber
     ) -> Unreadable:
+        if bad.in_xacro and self.findings.calculates:
+            bad = BadNumber(
+                f"{bad.reason.partition(':')[0]}: xacro calculates only in ${{…}}",
+                f'write {name}="{bad.in_xacro}"',
+                bad.in_xacro,
+            )
         return self.fail(
             "number-malformed",
             f'{name}="{text}" in <{element.tag}> of {self.owner} {bad.reason}',

@@ -121,9 +121,7 @@ def _bare_name(problem: Problem, sources: SourceSet) -> Problem | None:
     bare = [name for name in _BARE.findall(value) if name in known]
     if not bare or value not in _written(problem, sources):
         return None
-    better = _BARE.sub(
-        lambda one: f"${{{one[0]}}}" if one[0] in known else one[0], value
-    )
+    better = re.sub(r"\S+", lambda one: _calculated(one[0], known), value)
     _, loss, rest = problem.message.partition("; ROS")
     return replace(
         problem,
@@ -132,6 +130,13 @@ def _bare_name(problem: Problem, sources: SourceSet) -> Problem | None:
         hint=f"write {better.join(_AROUND.split(said[0]))}",
         edits=(),
     )
+
+
+def _calculated(part: str, known: set[str]) -> str:
+    """Write what calculates with names in ${ and }, or else each name."""
+    if not known.isdisjoint(_BARE.findall(part)) and not set("${}") & set(part):
+        return f"${{{part}}}"
+    return _BARE.sub(lambda one: f"${{{one[0]}}}" if one[0] in known else one[0], part)
 
 
 def _parameters_at(problem: Problem, sources: SourceSet) -> list[str]:
