@@ -124,28 +124,31 @@ def _wanted(robot: Element) -> Iterator[tuple[str, str, str]]:
 def _report_duplicate(
     parts: RobotParts, name: str, element: Element, findings: ModelFindings
 ) -> None:
+    first, call = parts.link_elements[name], element.call
     wanted = {link: joint for joint, link, end in parts.wanted if end == "child"}
+    said = f"the link name {name} is used on line {first.place.line} and again here"
+    if call is not None and first.call is not None and first.place == element.place:
+        lines = f"{first.call.line} and {call.line}"
+        said = f"the macro calls on lines {lines} both make a link {name}"
     hint: str | Fix = "give one of the two another name"
     if len(wanted) == 1:
         link, joint = wanted.popitem()
         joints = {j.get("name") or "": j for j in parts.robot.find_all("joint")}
-        first = parts.link_elements[name]
         hint = other_link(first, element, link, joints[joint])
-    elif element.call is not None:
-        hint = f"give the macro call on line {element.call.line} another name"
+    elif call is not None:
+        hint = f"give the macro call on line {call.line} another name"
     findings.reject(
         "link-duplicate",
-        f"the link name {name} is used on line {parts.link_elements[name].place.line} "
-        "and again here; names must be unique and ROS refuses the model",
+        f"{said}; names must be unique and ROS refuses the model",
         hint,
         element,
     )
-    if element.place == parts.link_elements[name].place:
+    if element.place == first.place:
         parts.shared += 1 if name in parts.duplicates else 2
         parts.excused.add(name)
     parts.duplicates.add(name)
-    if element.call is not None:
-        parts.repeated_calls.add(element.call)
+    if call is not None:
+        parts.repeated_calls.add(call)
 
 
 def _check_leading_slash(name: str, element: Element, findings: ModelFindings) -> None:
