@@ -165,6 +165,20 @@ def test_a_fix_mends_the_text_by_the_panel_problems_too(
     assert "not saved" in editor.notice
 
 
+def test_what_was_applied_is_not_listed_beside_the_error_that_it_uncovers(
+    edit: Callable[..., Editor], show: Callable[..., Visualizer], package: Path
+) -> None:
+    file = package / "urdf" / "plain.urdf"
+    wrong = '<xacro:proprty name="a" value="1"/>'
+    file.write_text(f'<robot name="r">\n{wrong}\n<link name="hull"/>\n</robot>\n')
+    editor = edit(show(file))
+    (problem,) = editor.problems()
+    assert problem["severity"] == "warning"
+    editor.client.act("model/fix", problem["id"])
+    editor.client.wait_until(lambda: HEAD in editor.text)
+    assert [found["severity"] for found in editor.problems()] == ["error"]
+
+
 def test_saving_keeps_the_encoding_and_the_line_ends(
     edit: Callable[..., Editor], package: Path
 ) -> None:

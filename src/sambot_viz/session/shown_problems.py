@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.displays.display import Display, robot_displays
-from sambot_viz.errors import Problem, SambotVizError
+from sambot_viz.errors import Edit, Problem, SambotVizError
 from sambot_viz.meshes.asset import Asset
 from sambot_viz.meshes.mesh import Mesh
 from sambot_viz.problems import in_order
@@ -88,6 +88,9 @@ class Problems:
         self.of_text: tuple[Problem, ...] | None = None
         self.tell_client: Callable[[int, str], None] = lambda client, text: None
         self._checking = False
+        # Applied since the model was read: what they mend is gone, whatever else the
+        # text has now.
+        self._applied: frozenset[Edit] = frozenset()
         self._document = document
         self._scene = scene
         self._robot = robot
@@ -107,10 +110,15 @@ class Problems:
             checking: the rules will run, and may find more.
         """
         with self._change.lock:
-            self._checking = checking
+            self._checking, self._applied = checking, frozenset[Edit]()
             notes = (*self._notes, *self._sources.notes)
             self.of_model = (*notes, *problems, *self.of_frames)
             self._model.touch()
+
+    def note_applied(self, edits: Iterable[Edit]) -> None:
+        """List no more what edits have mended, until the model is read again."""
+        with self._change(self.saves):
+            self._applied = self._applied.union(edits)
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
         """Show why the last save is not what is shown; an empty list when it is."""
@@ -168,12 +176,16 @@ class Problems:
     def _listed(self) -> list[Problem]:
         """List the problems to show.
 
-        While a saved file has a mistake, the problems of what is shown stay listed.
+        While a saved file has a mistake, the problems of what is shown stay listed,
+        but those whose edit was made.
         What both have is listed once, where it is in the saved file.
         """
         saved = self.of_saves
         shapes = (p for d in robot_displays(self._scene.displays) for p in d.problems)
-        model = _also(self.of_newest, (*self.of_model, *shapes))
+        known = (
+            p for p in self.of_model if not p.edits or self._applied.isdisjoint(p.edits)
+        )
+        model = _also(self.of_newest, (*known, *shapes))
         shown = self._document.config
         of_config = (*shown.problems, *tools_not_here(shown))
         config = _also(saved.get("config", ()), of_config)

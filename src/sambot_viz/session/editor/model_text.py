@@ -239,6 +239,7 @@ class ModelText:
             UsageError: a text has changed since it was checked.
         """
         made: list[tuple[Buffer, str]] = []
+        edits = tuple(edits)
         for file, own in by_file(edits).items():
             buffer = self.buffer(self.name_of(file))
             if any(edit.seen != hash(buffer.text) for edit in own):
@@ -246,6 +247,7 @@ class ModelText:
             made.append((buffer, apply_edits(own, buffer.text)))
         for buffer, text in made:
             buffer.take(text)
+        self._problems.note_applied(edits)
         self._tell()
 
     def follow(self, model: Path) -> None:
