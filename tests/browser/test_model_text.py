@@ -80,6 +80,8 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
         '<joint name="b" type="fixed"><parent link="arm"/><child link="leg"/></joint>'
     )
     user.until(lambda: "leg" in getattr(session_of(viz).robot.model, "links", {}))
+    # Where the config has no changes, the text is meant from everywhere.
+    user.click("tab", "Model")
     user.keys("Control+s")
     user.reads("Saved r.urdf")
     written = model.read_bytes()
@@ -87,6 +89,7 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
     user.find("button", re.compile("Download"))
 
     # Completion has the words that the checks know, and the names of the model.
+    page.evaluate("document.querySelector('.model .cm-content').focus()")
     user.keys("Control+Home", "ArrowDown")
     page.keyboard.type("<jo")
     offered = "document.querySelector('.cm-tooltip-autocomplete')"

@@ -63,7 +63,7 @@ const KEYS = [
     [
       ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
       ["Ctrl+K", "go to a display, joint, frame or command"],
-      ["Ctrl+S, Ctrl+Shift+S", "save the config, save it under a name"],
+      ["Ctrl+S, Ctrl+Shift+S", "save the config (or the text of the model), save it under a name"],
       ["Tab", "next field, button or panel"],
     ],
   ],

@@ -134,6 +134,14 @@ export function FileName() {
     }</span>`;
 }
 
+/** Save the text of the model, where only that is not saved; whether it was so. */
+function saveText() {
+  const text = rows.data("model/text");
+  if (!text?.changed || state().modified || !rows.can("model/save")) return false;
+  act("model/save", [text.file]);
+  return true;
+}
+
 /** The keys of the file menu, which also act while a text is typed. */
 function keys() {
   addEventListener(
@@ -148,7 +156,7 @@ function keys() {
       event.stopPropagation();
       if (event.repeat || document.querySelector("dialog[open]")) return;
       if (event.shiftKey) saveAs();
-      else save();
+      else if (!saveText()) save();
     },
     true,
   );
