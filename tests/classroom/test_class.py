@@ -141,6 +141,23 @@ def test_the_board_follows_each_student(room: Classroom) -> None:
         assert row["tries"] == 1
 
 
+def test_a_step_that_is_left_out_is_left_out_on_the_board_and_after_a_restart(
+    folder: Path,
+) -> None:
+    with a_class(folder) as room, closing(Browser(room, teaches=True)) as teacher:
+        ada = Browser(room)
+        ada.join("Ada")
+        page = ada.page()
+        events = teacher.rows()
+        page.act("lesson/show", 2)
+        row = next(e["row"] for e in events if "row" in e and e["row"]["step"] == 2)
+        assert row["name"] == "Ada"
+        ada.close()
+    with a_class(folder) as room, closing(Browser(room, cookie=ada.cookie)) as again:
+        page = again.page()
+        assert shown(page, "lesson/steps")["shown"] == 2
+
+
 def test_who_is_stuck_for_longest_comes_first(room: Classroom) -> None:
     with closing(Browser(room, teaches=True)) as teacher:
         students = [Browser(room) for _ in range(3)]

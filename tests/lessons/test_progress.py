@@ -30,6 +30,18 @@ def test_tries_are_counted_until_a_step_holds(tmp_path: Path) -> None:
     assert again.current(LESSON) is LESSON.step("wheel")
 
 
+def test_a_student_who_leaves_a_step_out_goes_on_behind_it(tmp_path: Path) -> None:
+    progress = Progress(tmp_path, "base")
+    progress.show("body")
+    progress.show("wheel")
+    progress.save()
+
+    again = Progress(tmp_path, "base")
+    assert again.current(LESSON) is LESSON.step("wheel")
+    again.note(result("wheel"))
+    assert again.current(LESSON) is LESSON.step("body")
+
+
 def test_a_student_who_has_all_steps_has_no_current_one(tmp_path: Path) -> None:
     progress = Progress(tmp_path, "base")
     for step in LESSON.steps:

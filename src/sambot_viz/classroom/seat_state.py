@@ -15,8 +15,8 @@ class SeatState:
     """How far a student is, and what is wrong there now.
 
     Attributes:
-        step: the number of the first step that has not held, from 1; all have when it
-            is one more than there are.
+        step: the number of the step that comes next, from 1; all have held when it is
+            one more than there are.
         title: its heading.
         tries: how often it has failed.
         points: what is earned so far.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -24,10 +24,12 @@ class StepProgress:
     Attributes:
         tries: how often it has failed.
         passed: whether it has held once.
+        shown: whether it is the one that the student has read last.
     """
 
     tries: int = 0
     passed: bool = False
+    shown: bool = False
 
 
 class Progress:
@@ -56,14 +58,28 @@ class Progress:
         """Count a try; a step that has held once stays passed."""
         before = self.of(result.name)
         failed = not result.passed and not before.passed
-        self._steps[result.name] = StepProgress(
-            before.tries + failed, before.passed or result.passed
+        self._steps[result.name] = replace(
+            before,
+            tries=before.tries + failed,
+            passed=before.passed or result.passed,
         )
 
+    def show(self, step: str) -> None:
+        """Note which step the student reads."""
+        for name in {step, *self._steps}:
+            self._steps[name] = replace(self.of(name), shown=name == step)
+
     def current(self, lesson: Lesson) -> LessonStep | None:
-        """Return the first step that has not held; None when all have."""
-        left = (step for step in lesson.steps if not self.of(step.name).passed)
-        return next(left, None)
+        """Return the first step that has not held; None when all have.
+
+        It is looked for from the step on that was read last: who leaves out a step
+        goes on behind it.
+        """
+        steps = lesson.steps
+        read = (n for n, step in enumerate(steps) if self.of(step.name).shown)
+        first = next(read, 0)
+        behind = (*steps[first:], *steps[:first])
+        return next((s for s in behind if not self.of(s.name).passed), None)
 
     def save(self) -> None:
         """Write the file; parts of other lessons stay.
@@ -73,6 +89,7 @@ class Progress:
         """
         rows = {
             name: {"tries": step.tries, "passed": step.passed}
+            | ({"shown": True} if step.shown else {})
             for name, step in self._steps.items()
         }
         document = {**_read(self.file), self._lesson: rows}
@@ -95,5 +112,6 @@ def _steps(rows: Any) -> list[tuple[str, StepProgress]]:
         given = cast("dict[str, Any]", row) if isinstance(row, dict) else {}
         tries, passed = given.get("tries"), given.get("passed")
         if type(tries) is int and type(passed) is bool and tries >= 0:
-            found.append((name, StepProgress(tries, passed)))
+            is_shown = given.get("shown") is True
+            found.append((name, StepProgress(tries, passed, is_shown)))
     return found

@@ -96,7 +96,7 @@ class Study:
 
     @property
     def step(self) -> LessonStep:
-        """The first step that has not held; the last one when all have."""
+        """The step that comes next; the last one when all have held."""
         return self.progress.current(self.lesson) or self.lesson.steps[-1]
 
     def begin(self) -> list[Path]:
@@ -224,6 +224,15 @@ class Study:
         self.progress.note(result)
         self.progress.save()
         return result
+
+    def show(self, step: LessonStep) -> None:
+        """Keep in the folder which step the student reads.
+
+        Raises:
+            OSError: the progress cannot be written.
+        """
+        self.progress.show(step.name)
+        self.progress.save()
 
     def _handed_in(self) -> HandedIn:
         found = handed_in(self.lesson, self.folder)

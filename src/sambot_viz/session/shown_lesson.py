@@ -124,7 +124,7 @@ class ShownLesson:
             self.other_model = model.name
         else:
             self.other_model = ""
-        self.changed.touch()
+        self._keep(self.study.show, self.step)
         self.look()
 
     def check(self) -> None:
@@ -181,8 +181,12 @@ class ShownLesson:
             return self.study.outcomes(step, self.study.work_of(step, edited=texts))
 
     def _count(self, step: LessonStep, outcomes: Iterable[DemandResult]) -> None:
+        self._keep(self.study.count, step, faults_in(outcomes))
+
+    def _keep(self, write: Callable[..., object], *facts: object) -> None:
+        """Write something into the progress, or say why it cannot be kept."""
         try:
-            self.study.count(step, faults_in(outcomes))
+            write(*facts)
             self.trouble = ""
         except OSError as error:
             self.trouble = f"the progress cannot be kept: {error.strerror}"
