@@ -23,7 +23,7 @@ SAID = {
     "crooked": "is along 0 -0.894 -0.44807",
     "a-wall": "a cylinder of radius 0.1 and length 40",
     "end-over-end": "the axis of drivewhl_l_joint is 1 0 0",
-    "twice": "the link name drivewhl_l_link is used on line 32 and again",
+    "twice": "both make a link drivewhl_l_link",
     "at-the-origin": "the <visual> of front_caster is at -0.14 0 0.09 in the link",
     "not-installed": "the folder urdf is not installed",
     "silent": "nothing reads /demo/odom, but /odom",
