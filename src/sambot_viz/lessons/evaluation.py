@@ -128,9 +128,9 @@ def faults_of(
 def _in_words(demand: Demand, unmet: Iterable[Unmet], hides: bool) -> list[StepFault]:
     faults: list[StepFault] = []
     for one in unmet:
-        expected = demand.says or f"expected: {one.expected}"
-        if demand.hidden and hides:
-            expected = demand.says or _ELSE
+        expected = f"expected: {demand.says or one.expected}"
+        if demand.hidden and hides and not demand.says:
+            expected = _ELSE
         faults.append(StepFault(one, f"{one.found}; {expected}"))
     return faults
 

@@ -82,8 +82,11 @@ def _counted(
         return
     count = sum(len(re.findall(used, text)) for text in texts)
     if count < least:
-        times = "once" if least == 1 else f"{least} times"
-        yield Unmet(f"{what} is used {count} times", f"at least {times}")
+        much = (
+            f"used {count} times" if count > 1 else "used once" if count else "not used"
+        )
+        times = "one use" if least == 1 else f"{least} uses"
+        yield Unmet(f"{what} is {much}", f"at least {times}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
