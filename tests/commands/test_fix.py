@@ -289,6 +289,48 @@ def test_an_edit_that_makes_more_errors_is_undone_and_the_others_stay(
     assert f"2 findings fixed in {tmp_path / 'words'}" in out
 
 
+PACKAGE = """<package format="3"><name>bot</name><version>1.0.0</version>
+<description>a bot</description><maintainer email="a@example.org">a</maintainer>
+<license>Apache-2.0</license><buildtool_depend>ament_cmake</buildtool_depend>
+<export><build_type>ament_cmake</build_type></export></package>
+"""
+BUILD = """cmake_minimum_required(VERSION 3.8)
+project(bot)
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+LAUNCH = """import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.substitutions import Command
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    model = os.path.join(get_package_share_directory("bot"), "urdf", "r.urdf.xarco")
+    text = {"robot_description": Command(["xacro ", model])}
+    return LaunchDescription([Node(package="robot_state_publisher",
+        executable="robot_state_publisher", parameters=[text])])
+"""
+
+
+def test_an_error_of_another_file_that_an_edit_shows_is_mended_next(
+    tmp_path: Path,
+) -> None:
+    texts = {
+        "package.xml": PACKAGE,
+        "CMakeLists.txt": BUILD,
+        "launch/r.launch.py": LAUNCH,
+        "urdf/r.urdf.xacro": RIGHT,
+    }
+    for name, text in texts.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    main(["check", "--fix", "--yes", str(tmp_path)])
+    assert '"r.urdf.xacro")' in (tmp_path / "launch/r.launch.py").read_text()
+    assert "install(DIRECTORY urdf" in (tmp_path / "CMakeLists.txt").read_text()
+
+
 def test_of_several_files_all_are_written_or_none(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

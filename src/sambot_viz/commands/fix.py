@@ -131,10 +131,15 @@ class Fixing:
             return after if alone else self._apply_each(groups, after)
         after = self._check()
         new = _new_errors(before, after)
-        # An error in place of another one may be seen only without that.
-        if not new or (alone and _errors(after) <= _errors(before)):
+        # An error in place of another one may be seen only without that, and one of
+        # another file that is mended next only once this file is found.
+        written = {change.file for change in made}
+        is_hidden = all(
+            p.edits and written.isdisjoint(edit.file for edit in p.edits) for p in new
+        )
+        if not new or (alone and (_errors(after) <= _errors(before) or is_hidden)):
             self._fixed += sum(len(group.problems) for group in groups)
-            self._files |= {change.file for change in made}
+            self._files |= written
             return after
         undo_changes(made)
         if not alone:
