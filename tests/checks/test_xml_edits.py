@@ -49,6 +49,12 @@ INERTIA = '<inertial><mass value="1"/><inertia {}/></inertial>'
             '<link name="a"><visual><geometry><sphere radius="1"/></geometry></visual>'
             "</link>",
         ),
+        (
+            '<link name="a"><visual/></link><joint><child link="b"/></joint>\n'
+            "<visual/>\n</link>",
+            '<link name="a"><visual/></link><joint><child link="b"/></joint>\n'
+            '<link name="b"><visual/>\n</link>',
+        ),
         ('<link name="a"/></robot>\n<material name="m"/>', None),
         (
             f'<link name="a">{INERTIA}</link>'.format(
@@ -73,6 +79,25 @@ def test_the_edit_of_what_is_no_xml_makes_it_xml(
         assert better == f'<robot name="r">\n{right}\n</robot>\n'
     model.write_text(better, "utf-8")
     assert not [one for one in check(model) if one.code.startswith("xml-")]
+
+
+@pytest.mark.parametrize(
+    "inside",
+    [
+        '<link name="a">{}</link>\n{}\n</link>'.format(*[INERTIA.format("")] * 2),
+        '<link name="a"><visual/></link>\n<joint/>\n<visual/>\n</link>',
+        '<joint name="j"></joint>\n<link name="a"/>\n<parent link="a"/>\n</joint>',
+    ],
+)
+def test_two_elements_are_not_joined_where_an_opening_tag_is_missing(
+    inside: str, tmp_path: Path
+) -> None:
+    model = tmp_path / "r.urdf"
+    model.write_text(f'<robot name="r">\n{inside}\n</robot>\n', "utf-8")
+    (problem,) = check(model)
+    assert problem.code == "xml-closing-tag-surplus"
+    assert 'name="…"' in problem.hint
+    assert not problem.edits
 
 
 def test_a_file_without_its_last_line_gets_it(tmp_path: Path) -> None:

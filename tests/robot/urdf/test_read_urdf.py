@@ -285,6 +285,12 @@ def test_a_joint_to_itself_leaves_its_link_out():
     assert codes(robot.problems) == ["joint-to-itself"]
 
 
+def test_of_two_joints_to_themselves_no_other_link_is_guessed():
+    robot = load(links("abc") + edge("j", "a", "a") + edge("k", "a", "a"))
+    assert codes(robot.problems) == ["joint-to-itself", "joint-to-itself"]
+    assert not any(problem.edits for problem in robot.problems)
+
+
 def test_a_ring_of_one_link_is_refused_without_an_endless_loop():
     assert codes(refused(links("a") + edge("j", "a", "a"))) == ["joint-to-itself"]
 
@@ -369,6 +375,25 @@ def test_a_wrong_colour_is_read_as_ros_reads_it(color: str, code: str, rgba: obj
     robot = shown(material("m", color))
     assert colours(robot) == [rgba]
     assert codes(robot.problems) == [code]
+
+
+@pytest.mark.parametrize(
+    ("rgba", "better"),
+    [
+        ("255 128 0 255", "1 0.502 0 1"),
+        ("0 100 50 100", "0 1 0.5 1"),
+        ("0.8 10 0 1", "0.8 1 0 1"),
+        ("-0.5 0 0 1", "0 0 0 1"),
+        ("50 20 0 1", None),
+        ("500 20 0 1", None),
+    ],
+)
+def test_a_colour_is_scaled_only_from_a_range_that_is_certain(
+    rgba: str, better: str | None
+):
+    (problem,) = shown(material("m", f'<color rgba="{rgba}"/>')).problems
+    written = f'rgba="{better}"' if better else "four numbers from 0 to 1"
+    assert problem.hint == f"write {written}"
 
 
 @pytest.mark.parametrize(

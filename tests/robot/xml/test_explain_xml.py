@@ -161,7 +161,8 @@ def test_a_closing_tag_that_nothing_opens_names_what_may_be_missing() -> None:
 
     assert problem.code == "xml-closing-tag-surplus"
     assert problem.line == 4
-    assert "write the <link> that is missing" in problem.hint
+    assert problem.hint == 'write <link name="…"> before <visual> on line 3'
+    assert not problem.edits
 
 
 def test_a_robot_that_was_never_opened_is_one_problem() -> None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from sambot_viz import limits
 from sambot_viz.errors import nearest
+from sambot_viz.robot.slips.colour_range import in_unit_range
 
 # numpy takes longer to import than a small model to check, and only poses need it.
 if TYPE_CHECKING:
@@ -203,9 +204,9 @@ def read_colour(text: str) -> Rgba:
     """
     parts = [read_number(word).value for word in words_of(text)]
     if any(part < 0.0 or part > 1.0 for part in parts):
-        better = " ".join(f"{min(max(_unit(p), 0.0), 1.0):.3g}" for p in parts)
-        looks = " (it looks like 0 to 255)" if max(parts) > 1 else ""
-        raise BadValue(f"leaves the range 0 to 1{looks}", f"write {better}")
+        looks, better = in_unit_range(parts)
+        hint = f"write {better or 'numbers from 0 to 1'}"
+        raise BadValue(f"leaves the range 0 to 1{looks}", hint)
     if len(parts) == 3:
         parts.append(1.0)
     if len(parts) != 4:
@@ -215,10 +216,6 @@ def read_colour(text: str) -> Rgba:
         )
     r, g, b, a = (0.0 if math.isnan(part) else part for part in parts)
     return (r, g, b, a)
-
-
-def _unit(part: float) -> float:
-    return part if part <= 1 else part / 255
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,32 +84,47 @@ def _with_missing_links(parts: RobotParts, findings: ModelFindings) -> RobotPart
 
 
 def _check_self_joints(parts: RobotParts, findings: ModelFindings) -> None:
-    children = {joint.child for joint in parts.joints.values()}
-    alone = [link for link in parts.links if link not in children]
-    below = children_of(j for j in parts.joints.values() if j.parent != j.child)
-    if len(alone) > 1:
-        # The root is the child of no joint either.
-        alone.remove(max(alone, key=lambda link: len(links_below(link, below))))
-    for name, joint in parts.joints.items():
-        if joint.parent == joint.child:
-            element = parts.joint_elements[name]
-            hint, end = "name two different links as parent and child", "child"
-            if len(alone) == 1:
-                sizes = [
-                    len(links_below(each, below)) for each in (*alone, joint.child)
-                ]
-                # base_footprint is the root even where it has nothing else below it.
-                is_root = sizes[0] > sizes[1] and "footprint" not in joint.child
-                end = "parent" if is_root else "child"
-                hint = f'write <{end} link="{alone[0]}"/>'
-                parts.excused.add(alone[0])
-            findings.error(
-                "joint-to-itself",
-                f"joint {name} connects {joint.child} to itself, so the link is "
-                "not connected to anything; ROS drops it without a message",
-                hint,
-                element.find(end) or element,
-            )
+    selves = [joint for joint in parts.joints.values() if joint.parent == joint.child]
+    for joint in selves:
+        element = parts.joint_elements[joint.name]
+        alone, end = _without_joint(parts, joint.child), "child"
+        hint = "name two different links as parent and child"
+        if len(selves) >= len(alone):
+            parts.excused.update(alone)
+        if len(alone) == len(selves) == 1:
+            below = _below(parts)
+            sizes = [len(links_below(each, below)) for each in (*alone, joint.child)]
+            # base_footprint is the root even where it has nothing else below it.
+            is_root = sizes[0] > sizes[1] and "footprint" not in joint.child
+            end = "parent" if is_root else "child"
+            hint = f'write <{end} link="{alone[0]}"/>'
+        findings.error(
+            "joint-to-itself",
+            f"joint {joint.name} connects {joint.child} to itself, so the link is "
+            "not connected to anything; ROS drops it without a message",
+            hint,
+            element.find(end) or element,
+        )
+
+
+def _without_joint(parts: RobotParts, link: str) -> list[str]:
+    """Return the links that a joint of a link to itself may have been meant to join.
+
+    They are the child of no other joint. The root is not either: it is the link itself
+    where that is the child of nothing else, otherwise the one with the most below it.
+    """
+    below = _below(parts)
+    children = {child for each in below.values() for child in each}
+    alone = [name for name in parts.links if name not in children]
+    if link in alone:
+        alone.remove(link)
+    elif alone:
+        alone.remove(max(alone, key=lambda name: len(links_below(name, below))))
+    return alone
+
+
+def _below(parts: RobotParts) -> dict[str, list[str]]:
+    return children_of(j for j in parts.joints.values() if j.parent != j.child)
 
 
 def _parent_joints(parts: RobotParts, findings: ModelFindings) -> dict[str, Joint]:

@@ -11,6 +11,7 @@ from sambot_viz.errors import Fix, did_you_mean, nearest
 from sambot_viz.geometry import Rgba
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Material
+from sambot_viz.robot.slips.colour_range import in_unit_range
 from sambot_viz.robot.urdf.attributes import BadNumber, read_numbers
 from sambot_viz.robot.xml.element import Element
 
@@ -175,12 +176,14 @@ class MaterialTable:
             return None
         if all(0.0 <= part <= 1.0 for part in (r, g, b, a)):
             return (r, g, b, a)
-        better = " ".join(f"{_to_unit(part):.3g}" for part in (r, g, b, a))
+        looks, better = in_unit_range((r, g, b, a))
         self._findings.error(
             "color-range",
-            f"rgba=\"{text}\" of material '{name}' leaves the range 0 to 1 (it looks "
-            "like 0 to 255); ROS cannot use the colour",
-            write_attribute(color.place, "rgba", text, better),
+            f"rgba=\"{text}\" of material '{name}' leaves the range 0 to 1{looks}; ROS "
+            "cannot use the colour",
+            write_attribute(color.place, "rgba", text, better)
+            if better is not None
+            else "write four numbers from 0 to 1",
             color,
             "rgba",
         )
@@ -206,11 +209,6 @@ def _guess(name: str) -> str:
     """An rgba that fits the name of the material."""
     found = (rgba for word, rgba in _COLOURS.items() if word in name.lower())
     return next(found, "0.5 0.5 0.5 1")
-
-
-def _to_unit(part: float) -> float:
-    """A colour component that was meant for 0 to 255, in the range 0 to 1."""
-    return min(max(part if part <= 1 else part / 255, 0.0), 1.0)
 
 
 def _all_numbers(text: str, count: int) -> bool:

@@ -31,6 +31,9 @@ _BELONGS = {
 }
 """Element → what is in it and never beside it: then it was closed too early."""
 
+_ONCE = frozenset({"parent", "child", "axis", "inertial"})
+"""What an element has once: a second one is of another element."""
+
 _CONTENT = {
     "geometry": ("box", "cylinder", "sphere", "mesh"),
     "inertial": ("mass", "inertia"),
@@ -222,6 +225,8 @@ class _Walk:
         behind = [child for child in around.children if child.start > early.start]
         if not any(child.name in _BELONGS.get(name, ()) for child in behind):
             return False
+        if self._is_of_another(early, behind):
+            return False
         end = self._line(early)
         self._add(
             "xml-closed-early",
@@ -233,6 +238,24 @@ class _Walk:
             (early.start, early.end, ""),
         )
         return True
+
+    def _is_of_another(self, early: Token, behind: list[Token]) -> bool:
+        """Return whether what follows an element was in a second one of its kind."""
+        name, tags = early.name, self.source.tags
+        if behind[0].name in _TOP_LEVEL - _BELONGS[name]:
+            return True
+        begin = max(t.start for t in tags if t.name == name and t.end <= early.start)
+        inside = {t.name for t in tags if begin < t.start < early.start}
+        again = {child.name for child in behind} & inside & _ONCE
+        return bool(again) or (name == "link" and self._missing_link() is not None)
+
+    def _missing_link(self) -> str | None:
+        """Return the only link that is the child of a joint, and is nowhere."""
+        tags = [tag for tag in self.source.tags if not tag.closes]
+        links = {tag.get("name") for tag in tags if tag.name == "link"}
+        named = {tag.get("link") or "" for tag in tags if tag.name == "child"}
+        missing = {name for name in named - links if name and "$" not in name}
+        return missing.pop() if len(missing) == 1 else None
 
     def _surplus(self, token: Token) -> None:
         """A closing tag that nothing opened."""
@@ -262,19 +285,34 @@ class _Walk:
             hint = f"delete it, or write the <{token.name}> that is missing before it"
             content = self._content(token.name)
             if content is not None:
-                opening = f"<{token.name}>"
+                opening, is_certain = self._opening(token.name)
                 hint = f"write {opening} before {content.shown} on line "
                 hint += str(self._line(content))
-                changes = [(content.start, content.start, opening)]
+                if is_certain:
+                    changes = [(content.start, content.start, opening)]
         self._add("xml-closing-tag-surplus", token.start, message, hint, *changes)
 
     def _content(self, name: str) -> Token | None:
         """Return the first tag that is only in an element of a name, and now is not."""
         inner = self.stack[-1] if self.stack else None
-        own = _CONTENT.get(name, ())
+        own = _CONTENT.get(name) or _BELONGS.get(name, ())
         if inner is None or inner.token.name == name:
             return None
-        return next((child for child in inner.children if child.name in own), None)
+        ends = [end.start for end in inner.ends if end.name == name]
+        last = ends[-1] if ends and name in _BELONGS else 0
+        behind = (child for child in inner.children if child.start > last)
+        return next((child for child in behind if child.name in own), None)
+
+    def _opening(self, name: str) -> tuple[str, bool]:
+        """Return an opening tag, and whether all of it is certain."""
+        if name == "link" and (missing := self._missing_link()):
+            return f'<link name="{missing}">', True
+        attributes = {"joint": ' name="…" type="…"'}.get(name, ' name="…"')
+        return (
+            (f"<{name}{attributes}>", False)
+            if name in _BELONGS
+            else (f"<{name}>", True)
+        )
 
     def _after_root(self, root: Token, root_end: Token, rest: list[Token]) -> None:
         """Report tags after the end of the root element."""
