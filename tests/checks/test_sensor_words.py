@@ -43,6 +43,61 @@ def test_what_gazebo_does_not_know_in_a_sensor_has_the_right_word(
     assert all(one.severity == "info" for one in check(file))
 
 
+@pytest.mark.parametrize("model", [URDF, SDF], ids=["URDF", "SDF"])
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ('name="cam" type="camera"', 'type="cam" name="camera"'),
+        ("<stddev>0.1</stddev>", "<stddev>-0.1</stddev>"),
+    ],
+)
+def test_a_sensor_is_as_it_was_meant(
+    right: str, wrong: str, model: str, tmp_path: Path
+) -> None:
+    noise = "<noise><type>gaussian</type><stddev>0.1</stddev></noise></camera>"
+    text = model.format(SENSOR.replace("</camera>", noise))
+    file = tmp_path / ("r.sdf" if model is SDF else "r.urdf")
+    written = text.replace(right, wrong)
+    file.write_text(written, "utf-8")
+    (problem,) = [one for one in check(file) if one.severity != "info"]
+    better = 'type="camera" name="cam"' if "type" in wrong else right
+    assert apply_edits(problem.edits, written) == text.replace(right, better)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        ("muu2", "mu2"),
+        ("Material", "material"),
+        ("selfCollid", "selfCollide"),
+        ("my_own", None),
+        ("initial_joint_position", None),
+    ],
+)
+def test_an_element_of_gazebo_has_the_right_letters(
+    wrong: str, right: str | None, tmp_path: Path
+) -> None:
+    file, text = tmp_path / "r.urdf", URDF.format(f"<{wrong}>1</{wrong}>")
+    file.write_text(text, "utf-8")
+    found = [one for one in check(file) if one.severity != "info"]
+    better = [apply_edits(problem.edits, text) for problem in found]
+    assert better == ([text.replace(wrong, right)] if right else [])
+
+
+def test_a_joint_has_its_type_and_name_exchanged_again(tmp_path: Path) -> None:
+    file = tmp_path / "r.urdf"
+    text = (
+        '<robot name="r">\n<link name="a"/>\n<link name="b"/>\n'
+        '<joint type="j" name="fixed"><parent link="a"/><child link="b"/></joint>\n'
+        "</robot>"
+    )
+    file.write_text(text, "utf-8")
+    (problem,) = check(file)
+    right = 'type="fixed" name="j"'
+    better = text.replace('type="j" name="fixed"', right)
+    assert apply_edits(problem.edits, text) == better
+
+
 def test_a_link_and_the_joint_get_the_name_that_more_elements_use(
     tmp_path: Path,
 ) -> None:

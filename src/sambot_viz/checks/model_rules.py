@@ -32,7 +32,7 @@ from sambot_viz.checks.physics import (
 )
 from sambot_viz.checks.proportion import lengths_out_of_proportion
 from sambot_viz.checks.rule import Rule, Subject
-from sambot_viz.checks.sensor_words import sensor_words
+from sambot_viz.checks.sensor_words import gazebo_words, sensor_words
 from sambot_viz.checks.slips import (
     invisible_materials,
     limits_in_degrees,
@@ -82,6 +82,7 @@ RULES: tuple[Rule, ...] = (
     masses_in_grams,
     invisible_materials,
     sensor_words,
+    gazebo_words,
 )
 """The rules about the model itself, in the order in which they run."""
 

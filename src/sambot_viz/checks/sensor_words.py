@@ -1,19 +1,21 @@
-"""Elements and words of sensors that Gazebo does not know, as it says them itself.
+"""Elements and words for Gazebo that it does not know, as it says them itself.
 
-ROS does not read sensors, and Gazebo leaves out what it does not know.
+ROS does not read them, and Gazebo leaves out what it does not know.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cache
 
 from sambot_viz.checks.rule import Subject
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Problem
 from sambot_viz.robot.findings import tag_text
 from sambot_viz.robot.sdf.check_elements import value_fault
-from sambot_viz.robot.sdf.elements import ElementType, model_type
+from sambot_viz.robot.sdf.elements import ElementType, Values, model_type
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
@@ -26,8 +28,24 @@ _SYNONYMS = {
 }
 _ANGLES = ("horizontal_fov",)
 """Angles of more than a full turn are the finding of another rule."""
+_BELOW_ZERO = re.compile(r"-(?=.*[1-9])[\d.]+")
 _BESIDE = frozenset({"gz_frame_id", "ignition_frame_id"})
 """Elements that Gazebo reads in a sensor, and the table of SDF does not have."""
+
+
+@cache
+def _in_gazebo() -> ElementType:
+    """Return what may be in a <gazebo> of URDF."""
+    words = vocabulary("gazebo_elements")
+    inside = {word: ElementType(word, Values(), {}) for word in words}
+    return ElementType("gazebo", Values(), {}, inside)
+
+
+def gazebo_words(subject: Subject) -> Iterator[Problem]:
+    """Report elements of <gazebo> in other letters."""
+    for part in subject.robot.gazebo if subject.robot.language == "urdf" else ():
+        if part.tag == "gazebo":
+            yield from _misspelt(part, _in_gazebo(), part)
 
 
 def sensor_words(subject: Subject) -> Iterator[Problem]:
@@ -42,6 +60,7 @@ def sensor_words(subject: Subject) -> Iterator[Problem]:
                 if subject.robot.language == "urdf":
                     # In SDF ROS itself refuses such a word.
                     yield from _unfit_text(element, kind, sensor)
+                yield from _negative(element, kind, sensor)
                 stack += [
                     (child, kind.children[child.tag])
                     for child in element.children
@@ -62,7 +81,11 @@ def _misspelt(
         if child.tag in kind.children or child.tag in _BESIDE or ":" in child.tag:
             continue
         plain = _plain(child.tag)
-        near = [tag for other, tag in tags.items() if is_one_slip(plain, other)]
+        near = [
+            tag
+            for other, tag in tags.items()
+            if is_one_slip(plain, other) and len(plain) > 2
+        ]
         right = tags.get(plain) or (near[0] if len(near) == 1 else None)
         if element is sensor:
             right = right or _SYNONYMS.get(_plain(child.tag))
@@ -75,6 +98,24 @@ def _misspelt(
             f"<{child.tag}> of {tag_text(sensor)} is not known; did you mean "
             f"<{right}>? Gazebo ignores it",
             rename_element(child.place, child.tag, right, f"write <{right}>"),
+        )
+
+
+def _negative(
+    element: Element, kind: ElementType, sensor: Element
+) -> Iterator[Problem]:
+    """Report a standard deviation below zero, where SDF itself has no lower limit."""
+    text = element.text.strip()
+    if not element.tag.endswith("stddev") or not _BELOW_ZERO.fullmatch(text):
+        return
+    if value_fault(element, kind.text) is None:
+        yield Problem.at(
+            element.place,
+            "warning",
+            "sdf-value",
+            f"<{element.tag}>{text}</{element.tag}> of {tag_text(sensor)} is less than "
+            "0: a standard deviation is 0 or more",
+            write(element.place, text, text[1:]),
         )
 
 

@@ -37,6 +37,7 @@ _OTHER_SIDE = {
     "left_wheel_names": "right_wheel_names",
     "right_wheel_names": "left_wheel_names",
 }
+_LINK = "_link"
 _SCOPED = ("::", "/", ",", " ")
 _LIKE_NAME, _LIKE_LETTERS = 0.7, 0.9
 """How much two names have in common: a similar name, and a name with a wrong letter."""
@@ -190,6 +191,8 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
         matters = any(child.tag in ("sensor", "plugin") for child in part.children)
         near = _link_of_sensors(part, free) if matters else None
         near = near or nearest(name, free, _LIKE_NAME if matters else _LIKE_LETTERS)
+        ends = (f"{name}{_LINK}", name.removesuffix(_LINK))
+        near = near or next((each for each in ends if each in free), None)
         if matters and near is None:
             near = _with_its_words(name, [link for link in robot.links if link in free])
         if near is None and not matters:

@@ -19,6 +19,7 @@ from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import rename_element, together, write, write_attribute
 from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.exchanged_words import exchanged
 from sambot_viz.robot.slips.units import usual_degrees
 from sambot_viz.robot.xml.element import Element
 
@@ -124,14 +125,21 @@ def unknown_types(robot: Robot) -> Iterator[Problem]:
         same = (each for each in known if _words(each) == _words(bare))
         near = next(same, None) or nearest(bare, known, _LIKENESS)
         near = None if kind in known else near
-        if near is not None:
+        # A sensor of another program may have any type, and "lidar" as its name.
+        is_first = next(iter(sensor.attributes), "") == "type"
+        unread = kind not in known and near is None and is_first
+        swapped = exchanged(sensor, "type", known) if unread else None
+        if near is not None or swapped is not None:
             yield Problem.at(
                 sensor.place,
                 "warning",
                 "gazebo-sensor",
                 f'Gazebo has no sensors of type "{kind}": it leaves {_named(sensor)} '
                 "out",
-                write_attribute(sensor.place, "type", sensor.get("type") or "", near),
+                swapped
+                or write_attribute(
+                    sensor.place, "type", sensor.get("type") or "", near or ""
+                ),
             )
 
 

@@ -30,6 +30,7 @@ from sambot_viz.robot.sdf.missing_values import check_left_out, is_needed
 from sambot_viz.robot.sdf.old_versions import Version
 from sambot_viz.robot.sdf.values import BadValue, trimmed
 from sambot_viz.robot.sdf.wording import REFUSED, described
+from sambot_viz.robot.slips.exchanged_words import exchanged
 from sambot_viz.robot.slips.units import without_units
 from sambot_viz.robot.xml.element import Element
 
@@ -113,10 +114,11 @@ class _ElementChecker:
         try:
             _check_value(text, wanted)
         except BadValue as bad:
+            better = f'write {name}="{bad.right}"' if bad.right else bad.hint
             self._findings.reject(
                 "sdf-value",
                 f"{shown} in {described(element)} {bad.reason}; {REFUSED}",
-                f'write {name}="{bad.right}"' if bad.right else bad.hint,
+                exchanged(element, name, wanted.words) or better,
                 element,
                 name,
             )

@@ -12,6 +12,7 @@ from sambot_viz.geometry import Vector3
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, JointType, Mimic, Origin, mimic_chain
 from sambot_viz.robot.slips.axle import axle_of
+from sambot_viz.robot.slips.exchanged_words import exchanged
 from sambot_viz.robot.urdf.attributes import AttributeReader, Unreadable
 from sambot_viz.robot.urdf.joint_limits import LimitReader
 from sambot_viz.robot.xml.element import Element
@@ -83,6 +84,7 @@ def _type(element: Element, name: str, findings: ModelFindings) -> JointType | N
         hint = f"use {', '.join(JOINT_TYPES[:-1])} or {JOINT_TYPES[-1]}"
         if near is not None:
             hint = write_attribute(element.place, "type", text, near)
+        hint = exchanged(element, "type", JOINT_TYPES) or hint
     findings.reject(
         "joint-type-unknown",
         f"joint {name} has the unknown type '{text}' ({why}); {_REFUSED}",
