@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from sambot_viz.checks import check
+from sambot_viz.edits import apply_edits
 from sambot_viz.errors import Problem
 
 MODEL = "urdf/cart.urdf.xacro"
@@ -381,3 +382,39 @@ def test_folders_with_a_slash_are_one_finding(copied: Callable[[str], Path]) -> 
     assert problem.hint == "write urdf config without the slashes"
     edit(package, (cmake, "urdf/ launch/ rviz config/", "urdf launch/ rviz config"))
     assert found(package) == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "hint"),
+    [
+        ("'drive : cart_description.drive:main'", "", "write drive = cart_description"),
+        ("package_name, 'luanch')", "package_name, 'launch')", "write launch"),
+    ],
+)
+def test_what_a_letter_makes_of_setup_py_is_mended(
+    wrong: str, right: str, hint: str, package: Path
+) -> None:
+    right = right or wrong.replace(" : ", " = ")
+    edit(package, (SETUP, right, wrong))
+    (problem,) = found(package)
+    assert problem.hint.startswith(hint)
+    text = (package / SETUP).read_text()
+    assert apply_edits(problem.edits, text) == TEXT
+
+
+def test_a_folder_that_find_packages_does_not_find_is_not_installed(
+    package: Path,
+) -> None:
+    (package / "cart_description/__init__.py").unlink()
+    (problem,) = found(package)
+    assert problem.code == "entry-point-missing"
+    assert problem.hint == "make an empty file cart_description/__init__.py"
+    edit(package, (SETUP, "find_packages(exclude=['test'])", "[package_name]"))
+    assert found(package) == []
+
+
+def test_without_setup_cfg_ros2_run_finds_no_program(package: Path) -> None:
+    (package / "setup.cfg").unlink()
+    (problem,) = found(package)
+    assert (problem.code, problem.severity) == ("setup-cfg-folder", "error")
+    assert "install_scripts=$base/lib/cart_description" in problem.hint

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from sambot_viz.checks.around.installed import misspelt_targets
 from sambot_viz.checks.around.setup_cfg import programs_elsewhere
 from sambot_viz.checks.around.setup_file import SetupFile
 from sambot_viz.checks.around.setup_files import (
@@ -38,5 +39,6 @@ IN_SETUP: tuple[Callable[[SetupFile, Surroundings], Iterable[Problem]], ...] = (
     missing_marks,
     missing_entry_points,
     programs_elsewhere,
+    misspelt_targets,
 )
 """The rules; they know only what builds packages of ROS 2."""

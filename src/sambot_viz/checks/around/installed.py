@@ -24,6 +24,7 @@ from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.parts import MeshFile
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 if TYPE_CHECKING:
     from sambot_viz.checks.around.setup_file import DataFiles, SetupFile
@@ -256,8 +257,54 @@ def _at_wrong_place(
         pairs = (entry.node for entry in setup.data_files)
         for pair in (pair for pair in pairs if setup.place(pair) == place):
             if isinstance(pair, ast.Tuple):
-                fix = rewritten(pair.elts[0], setup.shown, right)
+                folder = posixpath.basename(posixpath.dirname(piece.target))
+                fix = _misspelt_folder(setup, pair, folder, above) or rewritten(
+                    pair.elts[0], setup.shown, right
+                )
     return Problem.at(place, "error", "install-destination", what, fix)
+
+
+def _misspelt_folder(
+    setup: SetupFile, pair: ast.Tuple, folder: str, right: str
+) -> Fix | None:
+    """Return the fix for a folder in a target, where one letter of it is wrong."""
+    if folder == right or not is_one_slip(folder.lower(), right.lower()):
+        return None
+    for node in ast.walk(pair.elts[0]):
+        if isinstance(node, ast.Constant) and str(node.value).endswith(folder):
+            return write(setup.place(node), folder, right)
+    return None
+
+
+def misspelt_targets(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
+    """Report a target that is almost the folder that its files are in.
+
+    One that a launch file names is right, or the finding of another rule.
+    """
+    share = f"share/{around.files.name}"
+    paths = [fact.value for launch in around.launches for fact in launch.paths]
+    named = {(around.own(path) or "").partition("/")[0] for path in paths}
+    for entry in setup.data_files if around.cmake is None else ():
+        above, _, folder = (entry.target or "").rpartition("/")
+        sources = {posixpath.dirname(path or "") for _, path in entry.files.items}
+        source = sources.pop() if len(sources) == 1 else ""
+        meant = folder.lower().rstrip("s") == source.lower().rstrip("s")
+        if above != share or meant or not named.isdisjoint({source, folder}):
+            continue
+        fix = (
+            _misspelt_folder(setup, entry.node, folder, source)
+            if isinstance(entry.node, ast.Tuple) and source
+            else None
+        )
+        if fix is not None:
+            yield Problem.at(
+                setup.place(entry.node),
+                "warning",
+                "install-destination",
+                f"the files of {source} are installed into {entry.target}: none is "
+                f"found in {share}/{source}",
+                fix,
+            )
 
 
 def _installed(around: Surroundings) -> Installed | None:

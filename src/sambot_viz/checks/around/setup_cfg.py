@@ -71,7 +71,8 @@ def programs_elsewhere(setup: SetupFile, around: Surroundings) -> Iterator[Probl
         )
     has_file = around.files.text("setup.cfg") is not None
     for section, option in _SCRIPTS if setup.given("options") is None else ():
-        if not said[option] and (has_file or (section == "install" and _used(around))):
+        needed = section == "install" and (_used(around) or around.files.is_python)
+        if not said[option] and (has_file or needed):
             yield _not_said(section, option, right, around, setup)
 
 

@@ -11,9 +11,12 @@ from sambot_viz.checks.around.misspelt import is_misspelt
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.setup_file import INDEX, DataFiles, EntryPoint, SetupFile
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.launch_files import parse_python
+from sambot_viz.checks.launch_files import call_name, parse_python
 from sambot_viz.edits import write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
+
+_MARK = "__init__.py"
+"""The file that makes a folder a package of Python."""
 
 
 def missing_data_files(setup: SetupFile, around: Surroundings) -> Iterator[Problem]:
@@ -148,7 +151,19 @@ def _fault(
     if file is None:
         return _no_module(program, path, around)
     packages = setup.values.listed(setup.values.of(setup.given("packages"))).known
-    above = posixpath.dirname(path).replace("/", ".")
+    folder = posixpath.dirname(path)
+    if (
+        folder
+        and _is_found(setup)
+        and not (around.files.folder / folder / _MARK).is_file()
+    ):
+        at = where(setup.place(setup.given("packages")), setup.shown)
+        return (
+            f"{folder} has no {_MARK}, without which find_packages() ({at}) does not "
+            "find it, so it is not installed",
+            f"make an empty file {folder}/{_MARK}",
+        )
+    above = folder.replace("/", ".")
     if packages is not None and above and above not in packages:
         at = where(setup.place(setup.given("packages")), setup.shown)
         return (
@@ -156,6 +171,16 @@ def _fault(
             f"add '{above}' to packages",
         )
     return _no_function(program, file, around)
+
+
+def _is_found(setup: SetupFile) -> bool:
+    """Return whether find_packages() looks for the packages in all folders."""
+    match setup.given("packages"):
+        case ast.Call(func=func, args=[], keywords=keywords):
+            named = {keyword.arg for keyword in keywords}
+            return call_name(func) == "find_packages" and named <= {"exclude"}
+        case _:
+            return False
 
 
 def _no_module(

@@ -23,7 +23,7 @@ _UNREAD = WordKind(
     "warning",
 )
 _NEARLY = re.compile(
-    r"\s*(?:(?P<name>[\w.-]+)(?:\s*(?P<sign>=)\s*|\s+))?"
+    r"\s*(?:(?P<name>[\w.-]+)(?:\s*(?P<sign>=)\s*|\s*:\s*(?=[\w./]+\s*:)|\s+))?"
     r"(?P<path>[\w./]+)(?:\s*:\s*(?P<function>\w+))?\s*"
 )
 

@@ -242,6 +242,13 @@ class Package:
             return None
         return CMakeFile(text, self.shown(name))
 
+    @property
+    def is_python(self) -> bool:
+        """True when package.xml says that colcon builds it by setup.py."""
+        elements = self.manifest.iter() if self.manifest is not None else ()
+        kinds = (e.text.strip() for e in elements if e.tag == "build_type")
+        return "ament_python" in kinds
+
     @cached_property
     def is_ros1(self) -> bool:
         """True when catkin alone builds it: it is not for ROS 2."""
