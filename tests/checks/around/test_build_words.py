@@ -101,6 +101,7 @@ CASES = [
     (CMAKE, "\nendif()", "", "the if( … ) of line 4 has no endif()"),
     (MANIFEST, ' format="3"', "", "of format 1, which has no <exec_depend>"),
     (CMAKE, "project(robot)\n", "", "there is no project( … )"),
+    (CMAKE, "VERSION", "version", "cmake_minimum_required( … ) has version"),
     (CMAKE, "project(", "projcet(", "there is no command projcet()"),
     (CMAKE, "install(", "instal(", "there is no command instal()"),
     (CMAKE, "DESTINATION", "destination", "install( … ) has destination"),
@@ -225,3 +226,62 @@ def test_a_package_that_is_started_is_added_to_the_dependencies(tmp_path: Path) 
     assert problem.severity == "info"
     assert "start programs of tf2_ros (a.launch.py line 9)" in problem.message
     assert undone(package, problem, MANIFEST) == []
+
+
+@pytest.mark.parametrize(
+    ("found", "needed", "missing"),
+    [
+        ("", "rclcpp", "rclcpp"),
+        ("rclcpp", "rclcpp sensor_msgs", "sensor_msgs"),
+        ("sensor_msgs", "sensor_msgs rclcpp", "rclcpp"),
+        # What a package brings may be all that another one needs.
+        ("sensor_msgs", "geometry_msgs", None),
+        ("tf2_ros", "rclcpp", None),
+        ("rclcpp", "builtin_interfaces", None),
+        ("", "my_own_package", None),
+    ],
+)
+def test_a_target_needs_packages_that_are_found(
+    tmp_path: Path, found: str, needed: str, missing: str | None
+) -> None:
+    target = f"add_executable(n n.cpp)\nament_target_dependencies(n {needed})\n"
+    lines = "".join(f"find_package({name} REQUIRED)\n" for name in found.split())
+    package = package_with(tmp_path / "robot", CMAKE, "if(", f"{lines}{target}if(")
+    problems = check(package)
+    assert len(problems) == (missing is not None)
+    for problem in problems:
+        assert f"is given {missing}, which no find_package" in problem.message
+        assert undone(package, problem, CMAKE) == []
+
+
+def test_a_package_that_only_tests_find_is_not_found_before(tmp_path: Path) -> None:
+    target = "add_executable(n n.cpp)\nament_target_dependencies(n rclcpp)\nif("
+    tests = "  find_package(rclcpp REQUIRED)\nendif("
+    package = package_with(tmp_path / "robot", CMAKE, "if(", target)
+    text = (package / CMAKE).read_text()
+    (package / CMAKE).write_text(text.replace("endif(", tests))
+    (problem,) = check(package)
+    assert "is given rclcpp" in problem.message
+    assert undone(package, problem, CMAKE) == []
+
+
+def test_a_plugin_reads_parameters_that_the_package_has(tmp_path: Path) -> None:
+    package = written(tmp_path / "robot", IN_CMAKE)
+    (package / "config").mkdir()
+    (package / "config/controllers.yaml").write_text("a: {ros__parameters: {b: 1}}\n")
+    text = IN_CMAKE[CMAKE].replace("DIRECTORY launch", "DIRECTORY launch config")
+    (package / CMAKE).write_text(text)
+    (package / "robot.urdf").unlink()
+    model = package / "robot.urdf.xacro"
+    right = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<link name="base"/>\n<gazebo><plugin name="gz_ros2_control::'
+        'GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">\n'
+        "<parameters>$(find robot)/config/controllers.yaml</parameters>\n"
+        "</plugin></gazebo></robot>"
+    )
+    model.write_text(right)
+    assert not [p for p in check(model) if "does not have" in p.message]
+    model.write_text(right.replace("controllers.yaml", "controlers.yaml"))
+    (problem,) = [p for p in check(model) if "does not have" in p.message]
+    assert edited_files(problem.edits)[str(model)].decode() == right

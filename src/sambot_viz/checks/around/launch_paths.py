@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
 
 from sambot_viz.checks.around.files.gazebo import Fact
+from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.files.parameters import YamlFile
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.misspelt import is_misspelt
@@ -27,6 +28,7 @@ OWN_NAMES = {
 }
 """Programs whose nodes have other names than the programs."""
 
+_FOUND = re.compile(r"\$\(find ([\w-]+)\)/([^$\s]+)")
 _ASKING = frozenset({"exists", "isfile", "is_file", "write_text"})
 _WORLD = re.compile(r"<world\s+name\s*=\s*[\"']([^\"']+)[\"']")
 _IN_SHARE = re.compile(
@@ -70,6 +72,28 @@ def missing_files(around: Surroundings) -> Iterator[Problem]:
                 package,
                 f"the package {others[0]} has one",
                 f"name the package {others[0]} there",
+            )
+
+
+def missing_plugin_files(around: Surroundings) -> Iterator[Problem]:
+    """Report the parameters of a plugin in a file that its package does not have."""
+    for plugin in around.plugins:
+        for element in plugin.element.find_all("parameters"):
+            path = _FOUND.fullmatch(element.text.strip())
+            named = around.named(f"{SHARE}{path[1]}/{path[2]}") if path else None
+            package, below = named or (None, "")
+            near = _near(below, package.paths) if package is not None else None
+            if package is None or near is None or not _is_missing(below, package):
+                continue
+            yield Problem.at(
+                element.place,
+                "warning",
+                "gazebo-plugin",
+                f"the plugin {plugin.filename} reads {below}, which the package "
+                f"{package.name} does not have; it has {near}",
+                _renamed(element.place, below, near)
+                if _is_meant(below, near, package.paths)
+                else f"add that file, or write {near} if it is meant",
             )
 
 

@@ -56,6 +56,7 @@ from sambot_viz.checks.around.display_words import (
 from sambot_viz.checks.around.drives import wrong_sides_of_controllers
 from sambot_viz.checks.around.filter_inputs import inputs_without_config
 from sambot_viz.checks.around.footprint import footprints, unreadable_footprints
+from sambot_viz.checks.around.found_packages import unfound_packages
 from sambot_viz.checks.around.frame_names import (
     moved_twice,
     odometry_frames,
@@ -126,6 +127,7 @@ from sambot_viz.checks.around.launch_nodes import (
 )
 from sambot_viz.checks.around.launch_paths import (
     missing_files,
+    missing_plugin_files,
     world_names,
 )
 from sambot_viz.checks.around.launch_programs import unknown_programs
@@ -214,6 +216,7 @@ OF_BUILD: tuple[Check, ...] = (
     misspelt_packages,
     build_types,
     missing_commands,
+    unfound_packages,
     commands_after_the_end,
     folders_as_files,
     malformed_installs,
@@ -342,6 +345,7 @@ OF_ROBOT: tuple[Check, ...] = (
     hardware_of_the_other,
     elements_of_the_other,
     missing_systems,
+    missing_plugin_files,
     footprints,
 )
 """The rules about a robot and the files around it."""

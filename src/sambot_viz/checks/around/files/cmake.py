@@ -33,6 +33,8 @@ INSTALLED = frozenset(
     "RUNTIME_DEPENDENCY_SET".split()
 )
 """What install( … ) begins with."""
+_FIRST = {"cmake_minimum_required": "VERSION"}
+"""Command → the word that it has to begin with."""
 _DEFINING = frozenset({"macro", "function", "include", "add_subdirectory"})
 """With one of these there may be commands of any name."""
 _HERE = re.compile(r"\$\{(CMAKE_CURRENT_SOURCE_DIR|PROJECT_SOURCE_DIR)\}/?")
@@ -185,6 +187,12 @@ class CMakeFile:
             if command.name not in known and len(near) == 1:
                 cause = f"there is no command {command.name}()"
                 yield self._renamed(command.line, command.name, near[0], cause)
+        for name, key in _FIRST.items():
+            for words in (c.words[:1] for c in self.commands if c.name == name):
+                said = words[0].text if words else key
+                if said != key and is_one_slip(said.upper(), key):
+                    cause = f"{name}( … ) has {said}"
+                    yield self._renamed(words[0].line, said, key, cause)
         for words in (c.words for c in self.commands if c.name == "install"):
             said = {word.text for word in words}
             for word in (*words[:1], *words[1:-1]):
