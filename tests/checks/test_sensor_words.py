@@ -132,3 +132,20 @@ def test_a_name_without_its_dollar_is_named_where_it_is(tmp_path: Path) -> None:
     assert problem.line == 3
     right = text.replace('"{name}', '"${name}')
     assert apply_edits(problem.edits, text) == right
+
+
+@pytest.mark.parametrize("wrong", ["libgazebo_ros_diff_drive", "libgazebo_ros_camera"])
+def test_a_plugin_of_gazebo_among_those_of_classic_is_not_made_one_of_gazebo(
+    wrong: str, tmp_path: Path
+) -> None:
+    inside = "".join(
+        f'<plugin name="{name}" filename="{name}.so"><wheel_diameter>1'
+        "</wheel_diameter></plugin>\n"
+        for name in ("libgazebo_ros_diff_drive", "libgazebo_ros_camera")
+    )
+    text = f'<robot name="r"><link name="a"/><gazebo>\n{inside}</gazebo></robot>'
+    file = tmp_path / "r.urdf"
+    file.write_text(text.replace(f"{wrong}.so", "gz-sim-diff-drive-system"), "utf-8")
+    found = [one for one in check(file) if one.severity != "info"]
+    assert {problem.code for problem in found} == {"gazebo-generation"}
+    assert not any(problem.edits for problem in found)

@@ -10,7 +10,7 @@ from sambot_viz.checks.around.files.gazebo import Generation, Plugin
 from sambot_viz.checks.around.gazebo_starts import may_start, starts
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.checks.around.systems import attributes
+from sambot_viz.checks.around.systems import among_others, attributes
 from sambot_viz.edits import rename_element, write
 from sambot_viz.errors import Place, Problem
 
@@ -104,6 +104,8 @@ def elements_of_the_other(around: Surroundings) -> Iterator[Problem]:
     """Report elements of Classic's differential drive in that of Gazebo."""
     for plugin in around.plugins:
         if plugin.generation != "gz" or not plugin.is_drive:
+            continue
+        if among_others(plugin, around.plugins) is not None:
             continue
         present = {child.tag for child in plugin.element.children}
         for child in plugin.element.children:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.files.gazebo import Fact, Plugin, facts, plugins
 from sambot_viz.checks.around.place import where
@@ -38,10 +38,36 @@ def attributes(system: str) -> str:
 
 def unknown_systems(robot: Robot) -> Iterator[Problem]:
     """Report plugins of a model that Gazebo does not load."""
-    for plugin in plugins(robot.gazebo):
-        problem = faulty_system(plugin.element)
-        if problem is not None:
+    found = list(plugins(robot.gazebo))
+    for plugin in found:
+        problem, other = faulty_system(plugin.element), among_others(plugin, found)
+        if problem is not None and other is None:
             yield problem
+        elif (
+            problem is not None
+            and other is not None
+            and not any(both_generations(robot))
+        ):
+            yield Problem.at(
+                plugin.element.place,
+                "warning",
+                "gazebo-generation",
+                f"{plugin.filename} is for Gazebo, and the other plugins, such as "
+                f"{other.filename} ({where(other.element.place, plugin.element.place)})"
+                ", are for Gazebo Classic: one simulator loads only its own",
+                "write the plugin of Gazebo Classic",
+            )
+
+
+def among_others(plugin: Plugin, found: Sequence[Plugin]) -> Plugin | None:
+    """Return one of the others, where these are all for Gazebo Classic and it is not.
+
+    What is wrong with it is then that it is there, not how it is written.
+    """
+    others = [p for p in found if p.generation and p.element is not plugin.element]
+    if plugin.generation != "gz" or any(p.generation == "gz" for p in others):
+        return None
+    return next(iter(others), None)
 
 
 def faulty_system(plugin: Element) -> Problem | None:
