@@ -180,6 +180,7 @@ from sambot_viz.checks.around.parameter_slips import (
 from sambot_viz.checks.around.parameter_values import wrong_values
 from sambot_viz.checks.around.read_topics import unknown_topics
 from sambot_viz.checks.around.shared_topics import shared_topics
+from sambot_viz.checks.around.stamped_topics import ends_of_other_types
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.unreadable import (
     joined_entries,
@@ -303,6 +304,7 @@ OF_FILES: tuple[Check, ...] = (
     planes,
     frames_from_themselves,
     inputs_without_config,
+    ends_of_other_types,
     unknown_bridge_types,
     different_clocks,
     started_twice,

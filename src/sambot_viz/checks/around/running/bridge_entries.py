@@ -60,7 +60,9 @@ class BridgeEntry(NamedTuple):
         for publishes, way in ((True, _TO_GZ), (False, _TO_ROS)):
             if self.direction.value != way:
                 kind, place, written = self.ros_type, self.ros.place, self.ros.value
-                yield Endpoint(topic, kind.value, publishes, place, written)
+                yield Endpoint(
+                    topic, kind.value, publishes, place, written, typed_at=kind.place
+                )
                 kind, place, written = self.gz_type, self.gz.place, self.gz.value
                 yield Endpoint(
                     gz, kind.value, not publishes, place, written, in_gazebo=True

@@ -26,6 +26,7 @@ from sambot_viz.checks.around.running.system import (
     RunningNode,
 )
 from sambot_viz.checks.around.workspace import Package
+from sambot_viz.errors import Place
 
 _WILD = {"#": r"(\d+)", "*": r"([\w.]+)"}
 _WORD = re.compile(r"([^$]*)\$([\w.#*]+)(?:=(.*)|(/.*))?")
@@ -97,9 +98,18 @@ def with_endpoints(
     )
 
 
-def _of_rows(node: RunningNode, known: KnownNode) -> Iterator[Endpoint]:
+def switched_off(node: RunningNode) -> Iterator[Endpoint]:
+    """Give the topics that a node would have with another value of a parameter."""
+    known = known_nodes().nodes.get((node.package, node.executable))
+    if known is not None:
+        yield from _of_rows(node, known, off=True)
+
+
+def _of_rows(
+    node: RunningNode, known: KnownNode, *, off: bool = False
+) -> Iterator[Endpoint]:
     for row in known.rows:
-        if row.verb not in _ENDS or _is_off(node, row):
+        if row.verb not in _ENDS or _is_off(node, row) is not off:
             continue
         publishes, in_gazebo = _ENDS[row.verb]
         every = list(_said(node, row.words[0]))
@@ -118,7 +128,19 @@ def _of_rows(node: RunningNode, known: KnownNode) -> Iterator[Endpoint]:
                 in_gazebo,
                 row.is_seldom,
                 row.latched,
+                _typed_at(node, row),
+                row.switch,
             )
+
+
+def _typed_at(node: RunningNode, row: NodeRow) -> Place | None:
+    """Return the line that decides on a row; None where a default does that varies."""
+    name, _ = row.switch
+    given = node.parameter(name) if name else None
+    if given is not None:
+        return given.place if flag(given.value or "") is not None else None
+    is_sure = not name or (row.everywhere and node.parameters_known)
+    return node.place if is_sure else None
 
 
 def _unnamed(node: RunningNode, row: NodeRow) -> Endpoint:

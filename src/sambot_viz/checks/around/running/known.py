@@ -21,12 +21,20 @@ class NodeRow(NamedTuple):
         words: what it says, such as a topic and its type.
         unless: the parameter and the value with which it does not hold; else empty.
         when: the parameter and the value with which alone it holds; else empty.
+        everywhere: what holds without that parameter is the same in all distributions.
     """
 
     verb: str
     words: tuple[str, ...]
     unless: tuple[str, str] = ("", "")
     when: tuple[str, str] = ("", "")
+    everywhere: bool = False
+
+    @property
+    def switch(self) -> tuple[str, str]:
+        """The parameter and the value that turn it over; empty without a condition."""
+        name, value = self.when
+        return (name, "false" if value == "true" else "true") if name else self.unless
 
     @property
     def is_seldom(self) -> bool:
@@ -145,9 +153,10 @@ def _halves(text: str) -> tuple[str, str]:
 
 def _row(verb: str, words: list[str]) -> NodeRow:
     given: dict[str, tuple[str, str]] = {}
+    everywhere = words[-1:] == ["everywhere"]
     for condition in ("unless", "when"):
         if condition in words:
             at = words.index(condition)
             name, _, value = words[at + 1].partition("=")
             given[condition], words = (name, value), words[:at]
-    return NodeRow(verb, tuple(words), **given)
+    return NodeRow(verb, tuple(words), **given, everywhere=everywhere)

@@ -34,6 +34,8 @@ class Endpoint:
         is_seldom: few want what it sends.
         latched: who subscribes later gets the last message too; "once" where no other
             follows, else "often".
+        typed_at: the line that decides on its type; None where that is not certain.
+        switch: the parameter and the value with which the type or the topic is another.
     """
 
     topic: str
@@ -45,6 +47,8 @@ class Endpoint:
     in_gazebo: bool = False
     is_seldom: bool = False
     latched: str = ""
+    typed_at: Place | None = None
+    switch: tuple[str, str] = ("", "")
 
     @property
     def message(self) -> str:
