@@ -217,6 +217,8 @@ def test_a_student_cannot_send_the_teacher_away(room: Classroom) -> None:
                 lambda n=before: (shown(page, "notice") or {}).get("number", 0) > n
             )
         assert people(page) == {"Ada": True, "Teacher": False} and not seen.closed
+
+
 @pytest.mark.parametrize("base", ["/", "/lab"])
 def test_the_link_of_the_board_lets_a_browser_look_at_students(
     folder: Path, base: str

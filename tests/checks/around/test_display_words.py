@@ -12,7 +12,7 @@ from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.inputs import declarations
 from sambot_viz.rviz import Property
 
-CONFIG = "rviz/robot.rviz"
+CONFIG, NAME = "rviz/robot.rviz", "config-property"
 FILES = {
     "package.xml": """\
 <package format="3">
@@ -46,6 +46,10 @@ Visualization Manager:
     - Class: rviz_default_plugins/SetGoal
       Topic:
         Value: /goal_pose
+  Views:
+    Current:
+      Class: rviz_default_plugins/Orbit
+      Target Frame: <Fixed Frame>
 """,
 }
 
@@ -65,6 +69,8 @@ def package(tmp_path: Path) -> Path:
     [
         ("Value: /map", "Vlaue: /map", "config-property"),
         ("Depth: 5", "Dept: 5", "config-property"),
+        ("Class: rviz_default_plugins/Map", "Cllass: rviz_default_plugins/Map", NAME),
+        ("<Fixed Frame>", "<Fiexd Frame>", "frame-unknown"),
         ("plugins/SetGoal", "plugin/SetGoal", "config-class"),
         ("Source: Topic", "Source: File", "setup-description-topic"),
         ('Prefix: ""', "Prefix: cart", "frame-unknown"),
@@ -94,3 +100,16 @@ def test_all_properties_that_are_declared_are_in_the_vocabulary() -> None:
         names.add(one.name.replace(" ", "_"))
         waiting += one.children
     assert names <= {*vocabulary("rviz_classes")["properties"]}
+
+
+def test_the_fixed_frame_counts_in_each_config_that_is_opened(package: Path) -> None:
+    text = (package / CONFIG).read_text().replace("Frame: base", "Frame: bsae")
+    (package / "rviz/second.rviz").write_text(text)
+    assert check(package) == []
+    (package / "launch").mkdir()
+    (package / "launch/view.launch.xml").write_text(
+        '<launch><node pkg="rviz2" exec="rviz2" '
+        'args="-d $(find-pkg-share robot)/rviz/second.rviz"/></launch>\n'
+    )
+    found = [p for p in check(package) if p.code == "setup-fixed-frame"]
+    assert [p.file for p in found] == [str(package / "rviz/second.rviz")]

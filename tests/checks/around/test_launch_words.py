@@ -93,6 +93,9 @@ launch:
 }
 STOPS = "ros2 launch stops with it"
 CASES = [
+    (PYTHON, "tory('robot')", "tory(\n        'robt')", "asks for the package robt"),
+    (XML, 'pkg="rviz2"', 'pkg="rviz"', "no package rviz, but rviz2 is in rviz2"),
+    (PYTHON, "'true', 'rviz'", "'ture', 'rviz'", "ture is neither true nor false"),
     (PYTHON, "LaunchConfiguration('gui')", "'gui'", "neither true nor false"),
     (PYTHON, "_ros.actions import", ".actions import", "launch.actions has no Node"),
     (PYTHON, "substitutions import", "substitution import", "no module launch.subst"),

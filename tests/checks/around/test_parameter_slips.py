@@ -27,6 +27,13 @@ tracker:
     debug: true
     kind: tree
     radius: 0.1
+controller_server:
+  ros__parameters:
+    FollowPath:
+      plugin: dwb_core::DWBLocalPlanner
+      critics: [PathAlign, GoalAlign]
+      PathAlign.scale: 32.0
+      PathAlign.forward_point_distance: 0.1
 twist_mux:
   ros__parameters:
     topics:
@@ -85,6 +92,8 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
     [
         (PARAMETERS, "debug: true", "debug: ture", "debug is the text ture"),
         (PARAMETERS, "radius: 0.1", "radius: 0,1", "radius is the text 0,1"),
+        (PARAMETERS, "PathAlign.for", "PaathAlign.for", "FollowPath lists PathAlign"),
+        (PARAMETERS, "twist_mux:", "twist_mx:", "but probably twist_mux is meant"),
         (MAP, "image: map", "image: maps", "has the image maps.pgm, which is not"),
         (MAP, "negate:", "neagte:", "this map has no negate"),
     ],
@@ -102,8 +111,14 @@ def test_a_slip_is_undone_by_its_edit(
     ("file", "right", "wrong", "line", "cause"),
     [
         (PARAMETERS, "tracker:\n  ", "", 1, "ros__parameters is at the top"),
-        (PARAMETERS, "twist_mux:\n", "", 6, "ros__parameters is below tracker a sec"),
-        (PARAMETERS, "        priority: 10\n", "", 10, "joystick has no priority"),
+        (
+            PARAMETERS,
+            "twist_mux:\n",
+            "",
+            13,
+            "ros__parameters is below controller_server",
+        ),
+        (PARAMETERS, "        priority: 10\n", "", 17, "joystick has no priority"),
         (MAP, "resolution: 0.05\n", "", 1, "this map has no resolution"),
         (SLAM, "map_frame: map", "map_frame: odom", 4, "from odom to itself"),
     ],

@@ -82,8 +82,16 @@ LAST_ROWS = """\
             LAST_ROWS,
             LAST_ROWS.replace("true,", "true, true,"),
             "has 16 values",
-            "delete the last value",
-            LAST_ROWS.replace("true,", "true, true,").replace(", false]", "]"),
+            "delete one in this line",
+            LAST_ROWS,
+        ),
+        (
+            EKF,
+            LAST_ROWS,
+            LAST_ROWS.replace("false, false, true,", "false, true,"),
+            "but ekf_filter_node needs 15: this line has fewer than the others",
+            "write one more in this line",
+            LAST_ROWS,
         ),
         (
             NAV2,

@@ -8,12 +8,13 @@ from typing import NamedTuple
 import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.parameters import pairs, place_of
+from sambot_viz.checks.around.files.parameters import YamlFile, pairs, place_of
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _OWN = ("rviz_default_plugins", "rviz_common")
 _OPEN = frozenset(
@@ -21,6 +22,8 @@ _OPEN = frozenset(
 )
 """What names in a robot or a topic are below."""
 _LIKE_PROPERTY, _LIKE_CLASS = 0.8, 0.87
+_FRAMES, _FIXED = ("Target Frame", "Reference Frame"), "<Fixed Frame>"
+"""Properties that name a frame, and what stands there for the fixed one."""
 
 
 class _Settings(NamedTuple):
@@ -42,29 +45,53 @@ class _Settings(NamedTuple):
 def _settings(around: Surroundings) -> Iterator[_Settings]:
     """Give the settings of all displays, tools and views in configs of RViz."""
     for package in around.packages:
-        for path in package.ending(".rviz"):
-            shown = package.shown(path)
-            file = package.yaml(path)
-            waiting = [(file.root, "")] if file is not None else []
-            while waiting:
-                node, owner = waiting.pop()
-                if isinstance(node, yaml.SequenceNode):
-                    waiting += [(each, "") for each in reversed(node.value)]
-                    continue
-                both = list(pairs(node))
-                keys = {
-                    key.value: Fact(key.value, place_of(key, shown)) for key, _ in both
-                }
-                values = {
-                    key.value: Fact(value.value, place_of(value, shown))
-                    for key, value in both
-                    if isinstance(value, yaml.ScalarNode)
-                }
-                kind = values.get("Class")
-                owner = kind.value if kind is not None else owner
-                if owner:
-                    yield _Settings(owner, values, keys, kind is not None)
-                waiting += [(v, owner) for k, v in both[::-1] if k.value not in _OPEN]
+        for file in package.configs.values():
+            yield from _in_config(file)
+
+
+def _in_config(file: YamlFile) -> Iterator[_Settings]:
+    waiting, shown = [(file.root, "")], file.shown
+    while waiting:
+        node, owner = waiting.pop()
+        if isinstance(node, yaml.SequenceNode):
+            waiting += [(each, "") for each in reversed(node.value)]
+            continue
+        both = list(pairs(node))
+        keys = {key.value: Fact(key.value, place_of(key, shown)) for key, _ in both}
+        values = {
+            key.value: Fact(value.value, place_of(value, shown))
+            for key, value in both
+            if isinstance(value, yaml.ScalarNode)
+        }
+        kind = values.get("Class") or _misspelt_class(values)
+        owner = kind.value if kind is not None else owner
+        if owner:
+            yield _Settings(owner, values, keys, kind is not None)
+        waiting += [(v, owner) for k, v in both[::-1] if k.value not in _OPEN]
+
+
+def _misspelt_class(values: Mapping[str, Fact]) -> Fact | None:
+    """Return the class that stands behind a misspelt key."""
+    kinds = (v for k, v in values.items() if is_one_slip(k, "Class"))
+    return next((kind for kind in kinds if "/" in kind.value), None)
+
+
+def unknown_frames_of_views(around: Surroundings) -> Iterator[Problem]:
+    """Report words in angle brackets that are almost the one for the fixed frame."""
+    for one in _settings(around):
+        for key in _FRAMES:
+            said = one.values.get(key)
+            if said is None or said.value == _FIXED:
+                continue
+            if is_one_slip(said.value, _FIXED):
+                yield Problem.at(
+                    said.place,
+                    "warning",
+                    "frame-unknown",
+                    f"{key} is {said.value}, which is no frame: RViz knows only "
+                    f"{_FIXED} for that of the whole view",
+                    write(said.place, said.value, _FIXED),
+                )
 
 
 def unknown_settings(around: Surroundings) -> Iterator[Problem]:
@@ -93,12 +120,14 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
             right = meant_word(table["properties"], word, _LIKE_PROPERTY)
             right = (right or "").replace("_", " ")
             if right and right not in one.keys:
+                follows = "which it needs: RViz leaves it out"
+                if right != "Class":
+                    follows = "whose default is used"
                 yield Problem.at(
                     key.place,
                     "warning",
                     "config-property",
-                    f"{name} has no property {key.value}, but {right}, whose default "
-                    "is used",
+                    f"{name} has no property {key.value}, but {right}, {follows}",
                     write(key.place, key.value, right),
                 )
 

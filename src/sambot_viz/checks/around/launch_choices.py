@@ -8,11 +8,13 @@ from typing import NamedTuple
 
 from sambot_viz.checks.around.files.parameters import flag
 from sambot_viz.checks.around.launch_file import NODES
+from sambot_viz.checks.around.parameter_slips import WORDS
 from sambot_viz.checks.around.place import rewritten, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
 from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _OUTPUT = ("screen", "log", "both", "own_log", "full")
 _PROGRAMS = NODES | {"ComposableNodeContainer", "ExecuteLocal", "ExecuteProcess"}
@@ -63,6 +65,43 @@ def other_words(around: Surroundings) -> Iterator[Problem]:
             f"condition ({where(condition, place)}): {_STOPS}",
             write(place, value, right) if right else f"write {' or '.join(_TRUTH)}",
         )
+
+
+def misspelt_truths(around: Surroundings) -> Iterator[Problem]:
+    """Report texts that are almost true or false; conditions have their own rule."""
+    told = {place for _, _, place in around.running.unclear}
+    for text, place in _texts(around):
+        near = next((word for word in _TRUTH if is_one_slip(text.lower(), word)), None)
+        if near is None or text.lower() in (*_TRUTH, *WORDS) or place in told:
+            continue
+        right = near.title() if text[:1].isupper() else near
+        yield Problem.at(
+            place,
+            "warning",
+            "launch-code",
+            f"the text {text} is neither true nor false, but probably {right} is meant",
+            write(place, text, right),
+        )
+
+
+def _texts(around: Surroundings) -> Iterator[tuple[str, Place]]:
+    """Give the values of arguments and keys in launch files."""
+    for launch in around.launches:
+        for node in ast.walk(launch.tree):
+            values: list[ast.expr] = []
+            if isinstance(node, ast.Call):
+                values = [*node.args, *(keyword.value for keyword in node.keywords)]
+            elif isinstance(node, ast.Dict):
+                values = node.values
+            elif isinstance(node, ast.Tuple):
+                values = node.elts[1:]
+            for value in values:
+                if isinstance(value, ast.Constant) and isinstance(value.value, str):
+                    yield value.value, launch.place(value)
+    for root in (root for package in around.packages for root in package.frontends):
+        for element in root.iter():
+            for name in ("value", "default"):
+                yield element.get(name) or "", element.place
 
 
 def _in_python(around: Surroundings) -> Iterator[_Choice]:

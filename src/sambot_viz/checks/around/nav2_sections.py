@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.known_parameters import known_parameters
 from sambot_viz.checks.around.place import where
+from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _COSTMAPS = ("local_costmap", "global_costmap")
 _NODES = frozenset(
@@ -19,6 +22,8 @@ _NODES = frozenset(
     """.split()
 )
 _LIKENESS = 0.85
+_LONG = 8
+"""So many letters has a name that hardly another one is like."""
 
 
 def unread_sections(around: Surroundings) -> Iterator[Problem]:
@@ -59,6 +64,32 @@ def unread_sections(around: Surroundings) -> Iterator[Problem]:
                     f"Nav2 has no node {node}, but {near}: nobody reads these "
                     "parameters",
                     write(_above(file, node, place), node, near, hint=f"write {near}:"),
+                )
+
+
+def misspelt_nodes(around: Surroundings) -> Iterator[Problem]:
+    """Report names of nodes that are almost a well-known one; those of Nav2 above."""
+    running = {node.name for node in around.running.nodes}
+    names = {*known_parameters().nodes, *known_nodes().names} - _NODES
+    # Of robot1 and robot2 each may be another one.
+    known = [n for n in names if len(n) >= _LONG and n.replace("_", "").isalpha()]
+    for file in around.yaml_files:
+        for node, place in file.nodes.items():
+            near = next((name for name in known if is_one_slip(node, name)), None)
+            others = {*names, *running, *_NODES}
+            if near is None or node in others or near in file.nodes:
+                continue
+            if any(map(str.isdigit, node)):
+                continue
+            if not around.said_elsewhere(node):
+                above = _above(file, node, place)
+                yield Problem.at(
+                    above,
+                    "warning",
+                    "nav2-node-name",
+                    f"no node is called {node}, but probably {near} is meant: nobody "
+                    "reads these parameters",
+                    write(above, node, near, hint=f"write {near}:"),
                 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
@@ -17,8 +18,10 @@ from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import source_of, together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _LIKENESS = 0.85
+_DIGIT = re.compile(r"\d")
 
 
 def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
@@ -225,6 +228,8 @@ def unknown_sections(around: Surroundings) -> Iterator[Problem]:
     for part in (part for parts in parts_by_node(around) for part in parts):
         named = {name for one, _ in part.lists() for name in names_in(one)}
         for one, known in part.lists():
+            for name in names_in(one):
+                yield from _split_section(name, named, part)
             if known.pattern:
                 continue
             is_plugin = known.base != ""
@@ -254,6 +259,28 @@ def _other_section(
         + (follows if is_plugin else "what is below it is not used"),
         write(one.value_place, name, near),
     )
+
+
+def _split_section(name: str, named: set[str], part: NodePart) -> Iterator[Problem]:
+    """Report lines that are almost below a name in a list, beside those that are."""
+    for other, inner in part.sections.items():
+        is_slip = other not in named and is_one_slip(other, name)
+        if not is_slip or name not in part.sections or _DIGIT.search(name + other):
+            continue
+        for below, parameter in inner.items():
+            yield Problem.at(
+                parameter.place,
+                "warning",
+                "nav2-section",
+                f"{part.title} lists {name}, but this is for {other}: it does not read "
+                "this line",
+                write(
+                    parameter.place,
+                    f"{other}.{below}",
+                    f"{name}.{below}",
+                    hint=f"write {name}",
+                ),
+            )
 
 
 def _lacks(

@@ -23,7 +23,7 @@ from sambot_viz.robot.slips.vocabulary import is_one_slip
 _KEY = "ros__parameters"
 _DECIMAL_COMMA = re.compile(r"-?\d+,\d+")
 _TRUTH = ("true", "false")
-_WORDS = frozenset({"rue", "tree", "tue"})
+WORDS = frozenset({"rue", "tree", "tue"})
 """Words of their own that are almost true or false."""
 _LONG = 4
 _MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
@@ -67,7 +67,7 @@ def texts_for_values(around: Surroundings) -> Iterator[Problem]:
         written: Any = parameter.written
         plain = isinstance(written, yaml.ScalarNode) and not written.style
         text = parameter.fact.value
-        if id(parameter) in known or not plain or text.lower() in (*_TRUTH, *_WORDS):
+        if id(parameter) in known or not plain or text.lower() in (*_TRUTH, *WORDS):
             continue
         near = [word for word in _TRUTH if is_one_slip(text.lower(), word)]
         if _DECIMAL_COMMA.fullmatch(text):

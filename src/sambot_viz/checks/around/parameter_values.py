@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 import yaml
@@ -28,6 +29,8 @@ from sambot_viz.edits import together, write
 from sambot_viz.errors import Fix, Place, Problem, nearest
 
 _LIKENESS = 0.8
+_LINES = 3
+"""So many lines with the same number of items show how a list is laid out."""
 _KINDS = {
     "frame": "string",
     "section": "string",
@@ -121,6 +124,10 @@ def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | 
     filling = "false" if known.kind == "booleans" else "0.0"
     surplus = f"{-missing} values" if missing < -1 else "value"
     meaning = ": position, rotation, both velocities and acceleration, three each"
+    odd = _odd_line(parameter, missing)
+    if odd is not None:
+        many = "fewer" if missing > 0 else "more"
+        return _finding_of_line(parameter, odd, many, f"{count} values", node, wanted)
     return Problem.at(
         parameter.value_place,
         "error",
@@ -130,6 +137,36 @@ def _count(parameter: Parameter, known: KnownParameter, node: str) -> Problem | 
         f"add {', '.join([filling] * missing)} at the end of the list"
         if missing > 0
         else f"delete the last {surplus}",
+    )
+
+
+def _odd_line(parameter: Parameter, missing: int) -> Place | None:
+    """Return the one line of a list that alone has fewer or more items by so many."""
+    items: list[yaml.Node] = (
+        parameter.written.value
+        if isinstance(parameter.written, yaml.SequenceNode)
+        else []
+    )
+    places = [place_of(item, parameter.place.file) for item in items]
+    counts = Counter(place.line for place in places)
+    usual, often = Counter(counts.values()).most_common(1)[0]
+    odd = [line for line, count in counts.items() if count != usual]
+    if often < _LINES or len(odd) != 1 or counts[odd[0]] != usual - missing:
+        return None
+    return next(place for place in places if place.line == odd[0])
+
+
+def _finding_of_line(
+    parameter: Parameter, odd: Place, many: str, said: str, node: str, wanted: int
+) -> Problem:
+    fix = "write one more" if many == "fewer" else "delete one"
+    return Problem.at(
+        odd,
+        "error",
+        "parameter-type",
+        f"{parameter.name} (line {parameter.place.line}) has {said}, but {node} needs "
+        f"{wanted}: this line has {many} than the others",
+        f"{fix} in this line, so that it has as many values as the others",
     )
 
 

@@ -51,6 +51,7 @@ from sambot_viz.checks.around.dependencies import (
 from sambot_viz.checks.around.display_topics import unseen_topics
 from sambot_viz.checks.around.display_words import (
     robots_without_source,
+    unknown_frames_of_views,
     unknown_settings,
 )
 from sambot_viz.checks.around.drives import wrong_sides_of_controllers
@@ -82,7 +83,7 @@ from sambot_viz.checks.around.launch_calls import (
     files_without_folder,
     paths_from_the_root,
 )
-from sambot_viz.checks.around.launch_choices import other_words
+from sambot_viz.checks.around.launch_choices import misspelt_truths, other_words
 from sambot_viz.checks.around.launch_code import (
     empty_launch_files,
     missing_commas,
@@ -151,7 +152,11 @@ from sambot_viz.checks.around.manifest_words import (
     malformed_values,
     unknown_elements,
 )
-from sambot_viz.checks.around.nav2_sections import odd_clocks, unread_sections
+from sambot_viz.checks.around.nav2_sections import (
+    misspelt_nodes,
+    odd_clocks,
+    unread_sections,
+)
 from sambot_viz.checks.around.node_parameters import (
     parameters_left_out,
     unread_parameters,
@@ -250,6 +255,7 @@ OF_FILES: tuple[Check, ...] = (
     unknown_sections,
     unreadable_footprints,
     unread_sections,
+    misspelt_nodes,
     odd_clocks,
     unreadable_python,
     unreadable_launch_files,
@@ -264,6 +270,7 @@ OF_FILES: tuple[Check, ...] = (
     missing_commas,
     unknown_keywords,
     other_words,
+    misspelt_truths,
     unknown_elements_of_launch,
     arguments_that_are_no_texts,
     calls_without_argument,
@@ -311,6 +318,7 @@ OF_FILES: tuple[Check, ...] = (
     missing_files,
     unread_parameters,
     unknown_settings,
+    unknown_frames_of_views,
     undeclared_controllers,
     unknown_controllers,
     world_names,

@@ -202,6 +202,12 @@ class Package:
         return tuple(package for package in found if package is not None)
 
     @cached_property
+    def configs(self) -> dict[str, YamlFile]:
+        """The configs of RViz that are YAML, by their paths."""
+        read = map(self.yaml, self.ending(".rviz"))
+        return {file.path: file for file in read if file is not None}
+
+    @cached_property
     def yaml_files(self) -> tuple[YamlFile, ...]:
         """The YAML files."""
         return tuple(self._yaml_files())
@@ -347,7 +353,9 @@ class Workspace:
 
     def is_known(self, name: str) -> bool:
         """Return whether there is a package of that name, here or installed."""
-        found = self._trusted and self._index.find(name).path is not None
+        path = self._index.find(name).path if self._trusted else None
+        # A folder of that name alone, such as rviz, is none.
+        found = path is not None and (path / "package.xml").is_file()
         return found or any(package.name == name for package in self.given)
 
     def file(self, value: str) -> Path | None:
