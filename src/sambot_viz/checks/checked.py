@@ -205,10 +205,32 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
     from sambot_viz.checks.around.surroundings import Surroundings
 
     around = Surroundings(robot, target.packages)
-    return [p for each in target.packages for p in _of_config(each, around)]
+    found = [p for each in target.packages for p in _of_config(each, around)]
+    for package in target.packages:
+        for path in _opened(package):
+            of_file = _of_config(package, around, path)
+            found += [p for p in of_file if p.code == "setup-fixed-frame"]
+    return found
 
 
-def _of_config(package: Package, around: Surroundings | None = None) -> list[Problem]:
+def _opened(package: Package) -> list[Path]:
+    """Return the other .rviz files of a package that its launch files open."""
+    first = config_in(package.folder)
+    said = [text for launch in package.launches for text in launch.strings]
+    for root in package.frontends:
+        said += [v for e in root.iter() for v in e.attributes.values()]
+    return [
+        package.folder / path
+        for path in package.ending(".rviz")
+        if any(text.endswith(path.rpartition("/")[2]) for text in said)
+        and package.folder / path != first
+    ]
+
+
+def _of_config(
+    package: Package, around: Surroundings | None = None, path: Path | None = None
+) -> list[Problem]:
+    """Return what is wrong with a .rviz file of a package, by default its first."""
     from sambot_viz.checks.around.published_frames import may_be_published
     from sambot_viz.checks.around.workspace import shown
     from sambot_viz.checks.config_against_robot import (
@@ -217,7 +239,7 @@ def _of_config(package: Package, around: Surroundings | None = None) -> list[Pro
     )
     from sambot_viz.rviz import Declarations, RvizConfig
 
-    path = config_in(package.folder)
+    path = path or config_in(package.folder)
     if path is None or not (package.trusted or is_below(path, [package.folder])):
         return []
     package.read.add(path)

@@ -148,11 +148,11 @@ def misspelt_shares(around: Surroundings) -> Iterator[Problem]:
 def _asked(package: Package) -> Iterator[list[tuple[str, Place]]]:
     """Give the packages whose share folders each launch file asks for."""
     for launch in package.launches:
-        asked = ((_text(next(iter(c.node.args), None)), c) for c in launch.calls)
+        first = (c.given("package", 0) for c in launch.called(*_SHARE_CALLS))
         yield [
-            (text, call.place)
-            for text, call in asked
-            if text is not None and call.name in _SHARE_CALLS
+            (text, launch.place(node))
+            for node in first
+            if node is not None and (text := _text(node)) is not None
         ]
     for root in package.frontends:
         yield [
