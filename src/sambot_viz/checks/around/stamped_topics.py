@@ -91,7 +91,8 @@ def _reads(one: _End, sender: _End) -> bool:
 
 
 def _is_named(end: Endpoint) -> bool:
-    return end.parameter != "" and not end.parameter.endswith(".topic")
+    is_entry = end.parameter.endswith(".topic") and end.switch[0] != ""
+    return end.parameter != "" and not is_entry
 
 
 def _meet(around: Surroundings, one: RunningNode, other: RunningNode) -> bool:
