@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -88,11 +89,18 @@ def check_all(
 def _load(
     load: Callable[..., Robot], target: CheckedModel, given: Mapping[str, str]
 ) -> Robot:
-    """Load a model; where xacro refuses it, with the arguments of launch files.
+    """Load a model with the arguments of launch files, where they are known.
+
+    Where xacro refuses it, with what they may be.
 
     Raises:
         RobotError: as `load_robot`.
     """
+    launched = _launched(target)
+    if launched.keys() - given.keys():
+        # What is worked out from a launch file may be wrong.
+        with suppress(RobotError):
+            return load(xacro_args={**launched, **given})
     try:
         return load(xacro_args=given)
     except RobotError as error:
@@ -108,6 +116,15 @@ def _load(
             except RobotError as other:
                 first = other if first is error else first
         raise first from None
+
+
+def _launched(target: CheckedModel) -> dict[str, str]:
+    if not target.packages or not target.model.name.endswith((".xacro", ".urdf")):
+        return {}
+    # The import is late: many models are in no package.
+    from sambot_viz.checks.around.xacro_arguments import launched_arguments
+
+    return launched_arguments(target.model, target.packages)
 
 
 @each_file_once()

@@ -470,3 +470,37 @@ def test_an_argument_whose_value_only_the_launch_file_knows_is_none_that_is_miss
     assert "xacro-argument-missing" in {p.code for p in check(package)}
     _write(package, "launch/a.launch.py", command)
     assert [p for p in check(package) if p.code.startswith("xacro")] == []
+
+
+@pytest.mark.parametrize(
+    ("value", "is_found"),
+    [
+        ("LaunchConfiguration('base', default='chassis')", False),
+        ("LaunchConfiguration('base')", True),
+        ("'base_link'", True),
+    ],
+)
+def test_the_model_that_runs_has_the_arguments_of_its_launch_file(
+    value: str, is_found: bool, tmp_path: Path
+) -> None:
+    launch = f"""\
+from launch import LaunchDescription
+from launch.substitutions import Command, FindPackageShare, LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    model = [FindPackageShare('a_description'), '/urdf/a.urdf.xacro']
+    command = Command(['xacro ', *model, ' base:=', {value}])
+    return LaunchDescription([
+        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{{'robot_description': command}}]),
+    ])
+"""
+    package = _package(tmp_path / "a_description", launch__a_launch_py=launch)
+    model = '<xacro:arg name="base" default="base_link"/><link name="$(arg base)"/>'
+    _write(package, "urdf/a.urdf.xacro", XACRO.format(f'name="a">{model}'))
+    config = "Visualization Manager: {Global Options: {Fixed Frame: chassis}}\n"
+    _write(package, "rviz/a.rviz", config)
+    codes = {p.code for p in check(package)}
+    assert ("setup-fixed-frame" in codes) is is_found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -10,9 +11,60 @@ from sambot_viz.checks.around.files.launch_values import SHARE
 from sambot_viz.checks.around.launch_file import LaunchFile
 from sambot_viz.checks.around.launching.actions import LaunchArgument
 from sambot_viz.checks.around.launching.python_parts import PythonValue, Table
+from sambot_viz.checks.around.launching.texts import UNKNOWN
+from sambot_viz.checks.around.running.assemble import system_of
+from sambot_viz.checks.around.running.system import Starts
 from sambot_viz.checks.around.workspace import Package
 
-_UNKNOWN = "\0"
+_DECLARED = re.compile(r"<xacro:arg\s[^>]*>")
+_ATTRIBUTE = re.compile(r"""\b(name|default)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+
+
+def launched_arguments(model: Path, packages: Sequence[Package]) -> dict[str, str]:
+    """Return what all launch files that open a model give to xacro for it.
+
+    Only what is known there, the same in each of them, and not the default.
+    """
+    # Most launch files give nothing, and need not be followed for that.
+    if not any(":=" in text for p in packages for text in _said(p)):
+        return {}
+    files = [(each, path) for each in packages for path in each.launch_paths]
+    named = {package.name: package for package in packages}
+    running = system_of(files, packages, named.get)
+    given: list[dict[str, str]] = []
+    starts: set[Starts] = set()
+    for node in running.started:
+        for command in (parameter.robot for parameter in node.parameters):
+            if any(word.endswith(f"/{model.name}") for word in command.split()):
+                given.append(dict(_arguments(command)))
+                starts.add(node.starts)
+    found: dict[str, str] = {}
+    defaults = _defaults(packages) if given else {}
+    for name, value in given[0].items() if "yes" in starts else ():
+        same = all(each.get(name) == value for each in given)
+        path = _path(value, packages) if UNKNOWN not in value and same else None
+        if path is not None and defaults.get(name, path) != path:
+            found[name] = path
+    return found
+
+
+def _said(package: Package) -> Iterator[str]:
+    for launch in package.launches:
+        yield from launch.strings
+    for root in package.frontends:
+        yield from (v for e in root.iter() for v in e.attributes.values())
+
+
+def _defaults(packages: Sequence[Package]) -> dict[str, str]:
+    """Return the defaults of all arguments that models declare."""
+    found: dict[str, str] = {}
+    for package in packages:
+        for path in package.ending(".xacro", ".urdf"):
+            for element in _DECLARED.findall(package.text(path) or ""):
+                said = {n: one or two for n, one, two in _ATTRIBUTE.findall(element)}
+                if "default" in said:
+                    found.setdefault(said.get("name", ""), said["default"])
+    return found
 
 
 def xacro_arguments(
@@ -31,7 +83,7 @@ def xacro_arguments(
     opening = (f for f in launches if any(model.name in text for text in f.strings))
     for launch in opening:
         for name, value in _given(launch):
-            path = None if _UNKNOWN in value else _path(value, packages)
+            path = None if UNKNOWN in value else _path(value, packages)
             if path is not None:
                 found.setdefault(name, path)
             else:
@@ -66,7 +118,7 @@ def _arguments(command: str) -> Iterator[tuple[str, str]]:
         return
     for word in words:
         name, mark, value = word.partition(":=")
-        if mark and _UNKNOWN not in name:
+        if mark and UNKNOWN not in name:
             yield name, value
 
 
@@ -84,7 +136,7 @@ def _text(launch: LaunchFile, value: PythonValue, choices: dict[str, str]) -> st
     text = launch.values.said(value)
     if text is None and isinstance(value, LaunchArgument):
         text = choices.get(launch.values.said(value.name) or "")
-    return _UNKNOWN if text is None else text
+    return UNKNOWN if text is None else text
 
 
 def _path(value: str, packages: Sequence[Package]) -> str | None:

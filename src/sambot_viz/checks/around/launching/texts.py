@@ -33,6 +33,8 @@ _COMPARED: dict[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.In: lambda one, other: one in other,
     ast.NotIn: lambda one, other: one not in other,
 }
+UNKNOWN = "\0"
+"""What stands in a command for a part that is not known."""
 _METHODS = frozenset({"lower", "upper", "strip", "startswith", "endswith"})
 
 
@@ -57,7 +59,7 @@ class LaunchTexts:
         """Return an expression without arguments: a text, a robot's, or None."""
         match expression:
             case RobotText(source=source):
-                return RobotText(self.text(source))
+                return RobotText(self.marked(source))
             case LaunchArgument():
                 return self._argument(expression)
             case Joined(parts=(only,)):
@@ -73,6 +75,12 @@ class LaunchTexts:
         found = self._text(expression)
         short = found is not None and len(found) <= limits.LAUNCH_VALUE.value
         return found if short else None
+
+    def marked(self, expression: Expression) -> str | None:
+        """Return the text of a command, with UNKNOWN for each part not known."""
+        if isinstance(expression, Joined) and not expression.is_path:
+            return "".join(self.marked(part) or UNKNOWN for part in expression.parts)
+        return self.text(expression)
 
     def _text(self, expression: Expression) -> str | None:
         match expression:

@@ -18,7 +18,7 @@ from sambot_viz.checks.around.launching.actions import (
     StartNode,
     StartProcess,
 )
-from sambot_viz.checks.around.launching.texts import LaunchTexts
+from sambot_viz.checks.around.launching.texts import UNKNOWN, LaunchTexts
 from sambot_viz.errors import Place
 
 _Named = Iterator[tuple[Expression, Place]]
@@ -34,7 +34,8 @@ def paths_of(action: Action, texts: LaunchTexts) -> Iterator[Fact]:
     for value, place in _named(action):
         settled = texts.settled(value)
         text = settled.source if isinstance(settled, RobotText) else settled
-        words = text.split() if isinstance(text, str) and SHARE in text else ()
+        said = text if isinstance(text, str) and UNKNOWN not in text else ""
+        words = said.split() if SHARE in said else ()
         yield from (Fact(word, place) for word in words if word.startswith(SHARE))
 
 
