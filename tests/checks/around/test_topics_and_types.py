@@ -141,13 +141,28 @@ def test_what_may_be_meant_has_no_finding_of_its_type(
         assert codes == set()
 
 
-def test_exchanged_types_of_a_bridge_are_undone_by_their_edit(copied: Copied) -> None:
+@pytest.mark.parametrize(
+    ("both", "first", "second"),
+    [
+        (
+            "ros_type_name: {}\n  gz_type_name: {}",
+            '"geometry_msgs/msg/TwistStamped"',
+            '"gz.msgs.Twist"',
+        ),
+        (
+            "gz_topic_name: {}\n  ros_type_name: {}",
+            '"/demo/imu"',
+            '"sensor_msgs/msg/Imu"',
+        ),
+    ],
+)
+def test_exchanged_values_of_a_bridge_are_undone_by_their_edit(
+    copied: Copied, both: str, first: str, second: str
+) -> None:
     package = copied("gz")
     text = (package / BRIDGE).read_text()
-    ros, gz = '"geometry_msgs/msg/TwistStamped"', '"gz.msgs.Twist"'
-    both = "ros_type_name: {}\n  gz_type_name: {}"
-    edit(package, BRIDGE, both.format(ros, gz), both.format(gz, ros))
-    (problem,) = check(package / MODEL)
-    assert problem.code == "bridge-type-unknown"
+    edit(package, BRIDGE, both.format(first, second), both.format(second, first))
+    found = [p for p in check(package / MODEL) if p.code == "bridge-type-unknown"]
+    (problem,) = found
     path = str(package / BRIDGE)
     assert edited_files(problem.edits)[path].decode() == text

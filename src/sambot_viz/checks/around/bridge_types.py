@@ -25,6 +25,7 @@ _OTHER_GZ_TYPES = frozenset(
     """.split()
 )
 _GZ_PACKAGES = ("gz.msgs", "ignition.msgs")
+_WHOLE_GZ_TYPES = frozenset(f"{p}.{kind}" for p in _GZ_PACKAGES for kind in _GZ_TYPES)
 _LIKE_TYPE = 0.87
 _CLOUDS = frozenset({"LaserScan", "PointCloud2"})
 
@@ -40,20 +41,9 @@ def counterpart(written: str) -> str | None:
 def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
     """Report types that are almost one that a bridge knows."""
     for entry in around.bridged:
-        ros, gz = entry.ros_type, entry.gz_type
-        if ros.value.rpartition(".")[0] in _GZ_PACKAGES and gz.value in _PAIRS:
-            yield Problem.at(
-                ros.place,
-                "warning",
-                "bridge-type-unknown",
-                f"the types of {entry.ros.value} in ROS and in Gazebo are exchanged "
-                f"({where(gz.place, ros.place)}): nothing arrives on it",
-                together(
-                    f"write {gz.value}, and {ros.value} in Gazebo",
-                    write(ros.place, ros.value, gz.value),
-                    write(gz.place, gz.value, ros.value),
-                ),
-            )
+        exchanged = next(_exchanged(entry), None)
+        if exchanged is not None:
+            yield exchanged
             continue
         for fact, near in (
             (entry.ros_type, _near_ros_type(entry.ros_type.value)),
@@ -67,6 +57,27 @@ def unknown_bridge_types(around: Surroundings) -> Iterator[Problem]:
                     f"the bridge does not know the type {fact.value}: nothing arrives "
                     f"on {entry.ros.value} ({where(entry.ros.place, fact.place)})",
                     write(fact.place, fact.value, near),
+                )
+
+
+def _exchanged(entry: BridgeEntry) -> Iterator[Problem]:
+    """Report a type that stands where another value of the entry belongs."""
+    ros, gz = entry.ros_type, entry.gz_type
+    for wrong, known in ((ros, frozenset(_PAIRS)), (gz, _WHOLE_GZ_TYPES)):
+        for other in (ros, gz, entry.ros, entry.gz):
+            if wrong.value not in known and other.value in known:
+                yield Problem.at(
+                    wrong.place,
+                    "warning",
+                    "bridge-type-unknown",
+                    f"{wrong.value} is no type, but {other.value} is "
+                    f"({where(other.place, wrong.place)}): they are exchanged, and "
+                    f"nothing arrives on {entry.ros.value}",
+                    together(
+                        f"write {other.value}, and {wrong.value} there",
+                        write(wrong.place, wrong.value, other.value),
+                        write(other.place, other.value, wrong.value),
+                    ),
                 )
 
 

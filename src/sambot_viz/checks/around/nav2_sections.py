@@ -22,7 +22,7 @@ _NODES = frozenset(
     """.split()
 )
 _LIKENESS = 0.85
-_LONG = 8
+_LONG = 6
 """So many letters has a name that hardly another one is like."""
 
 
