@@ -270,7 +270,9 @@ class CMakeFile:
         if word and before.endswith(")"):
             hint = f"write {word} without the ) after it in line {closed}"
             return Fault(line, "this ) closes nothing", hint, before[:-1], closed)
-        return Fault(line, "this ) closes nothing", "delete it")
+        code = _code(self._lines[line - 1])
+        better = code[:-1] if code.endswith("))") else None
+        return Fault(line, "this ) closes nothing", "delete it", better)
 
     def _open_quote(self, text: str) -> Fault:
         """Find the first quotation mark whose text does not end in its line."""
