@@ -733,7 +733,6 @@ MISTAKES = [
             (CMAKE, at),
             ("", ""),
             advice,
-            fixed=((CMAKE, new, old),) if advice == "delete it" else (),
             name=name,
         )
         for name, old, new, at, advice, _ in (

@@ -51,6 +51,8 @@ def package(copied: Callable[[str], Path]) -> Path:
     launch.write_text(f"{head}{given}{rest.partition('],')[2]}")
     files = {
         SETUP: SETUP_TEXT,
+        "setup.cfg": "[develop]\nscript_dir=$base/lib/cart_description\n"
+        "[install]\ninstall_scripts=$base/lib/cart_description\n",
         "resource/cart_description": "",
         "cart_description/__init__.py": "",
         "cart_description/drive.py": "def main():\n    pass\n",

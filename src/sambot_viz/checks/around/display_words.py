@@ -50,9 +50,13 @@ def _settings(around: Surroundings) -> Iterator[_Settings]:
 
 
 def _in_config(file: YamlFile) -> Iterator[_Settings]:
-    waiting, shown = [(file.root, "")], file.shown
+    waiting, shown, met = [(file.root, "")], file.shown, set[int]()
     while waiting:
         node, owner = waiting.pop()
+        # Aliases put one node into many places.
+        if id(node) in met:
+            continue
+        met.add(id(node))
         if isinstance(node, yaml.SequenceNode):
             waiting += [(each, "") for each in reversed(node.value)]
             continue

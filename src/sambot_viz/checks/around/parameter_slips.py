@@ -10,6 +10,7 @@ import yaml
 
 from sambot_viz.checks.around.files.parameters import (
     YamlFile,
+    each_mapping,
     pairs,
     place_of,
 )
@@ -35,16 +36,13 @@ _MUX, _NEEDED = "twist_mux", ("topic", "timeout", "priority")
 def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
     """Report parameters above which the name of a node is missing."""
     for file in around.yaml_files:
-        waiting: list[tuple[str, yaml.Node]] = [("", file.root)]
-        while waiting:
-            above, node = waiting.pop()
-            inner = list(pairs(node))
-            places = [place_of(k, file.shown) for k, _ in inner if k.value == _KEY]
+        for above, node in each_mapping(file.root, left_out=(_KEY,)):
+            keys = (key for key, _ in pairs(node) if key.value == _KEY)
+            places = [place_of(key, file.shown) for key in keys]
             if places and not above:
                 yield _nameless(places[0], "at the top, below no node")
             elif len(places) > 1:
                 yield _nameless(places[1], f"below {above} a second time")
-            waiting += [(k.value, v) for k, v in inner if k.value != _KEY]
 
 
 def _nameless(place: Place, what: str) -> Problem:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -173,6 +173,32 @@ def pairs(node: yaml.Node) -> Iterator[tuple[yaml.ScalarNode, yaml.Node]]:
         for key, value in node.value:
             if isinstance(key, yaml.ScalarNode):
                 yield key, value
+
+
+def each_mapping(
+    root: yaml.Node, left_out: Collection[str] = ()
+) -> Iterator[tuple[str, yaml.Node]]:
+    """Give the mappings of a file in its order, each once, with the keys before them.
+
+    A mapping that aliases put into several places is given where it comes first: so a
+    small file is never endless.
+
+    Args:
+        root: where to begin.
+        left_out: what is below these keys is not given.
+    """
+    waiting, met = [("", root)], set[int]()
+    while waiting:
+        key, node = waiting.pop()
+        if id(node) in met:
+            continue
+        met.add(id(node))
+        if isinstance(node, yaml.SequenceNode):
+            waiting += [(key, each) for each in reversed(node.value)]
+        elif isinstance(node, yaml.MappingNode):
+            yield key, node
+            inner = [(k.value, v) for k, v in pairs(node) if k.value not in left_out]
+            waiting += reversed(inner)
 
 
 def place_of(node: yaml.Node, file: str) -> Place:

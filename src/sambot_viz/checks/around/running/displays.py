@@ -10,7 +10,12 @@ import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.checks.around.files.launch_values import SHARE
-from sambot_viz.checks.around.files.parameters import flag, pairs, place_of
+from sambot_viz.checks.around.files.parameters import (
+    each_mapping,
+    flag,
+    pairs,
+    place_of,
+)
 from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.running.system import RunningNode
@@ -54,16 +59,10 @@ def displays_of(
     package = find(name) if path.startswith(SHARE) else None
     own = installed_as(package, below) if package is not None else None
     file = package.yaml(own) if package is not None and own is not None else None
-    waiting: list[yaml.Node] = [] if file is None else [file.root]
-    while waiting and file is not None:
-        inner = waiting.pop()
-        if isinstance(inner, yaml.SequenceNode):
-            waiting += reversed(inner.value)
-            continue
-        values = {key.value: value for key, value in pairs(inner)}
-        # What is inside of a group comes in the order of the file.
-        waiting += reversed([*values.values()])
-        yield from _topics(values, file.shown)
+    if file is not None:
+        for _, inner in each_mapping(file.root):
+            values = {key.value: value for key, value in pairs(inner)}
+            yield from _topics(values, file.shown)
 
 
 def _topics(values: dict[str, yaml.Node], file: str) -> Iterator[DisplayTopic]:
