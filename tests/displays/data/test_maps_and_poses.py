@@ -231,7 +231,7 @@ def test_of_all_poses_the_newest_are_drawn(
     shown = messages("Odometry", *(odometry(float(x)) for x in range(5)), Keep=0)
     assert kept(shown) == 3
     (keep,) = (one for one in shown.display.properties if one.name == "Keep")
-    assert "here up to 10,000" in keep.help
+    assert "up to 10,000" in keep.help
 
 
 def test_a_quaternion_of_another_length_is_refused(messages: Open) -> None:

@@ -115,9 +115,13 @@ class RobotFraming:
         return found
 
     def _is_much_larger(self) -> bool:
-        """Whether another robot is drawn now, larger than the picture was made for."""
-        drawn = self._scene.context.robot
-        if drawn is self._seen:
+        """Whether another robot is drawn now, larger than the picture was made for.
+
+        What a robot of a source says of itself again is no new one.
+        """
+        context = self._scene.context
+        drawn = context.robot
+        if drawn is self._seen or context.descriptions is not None:
             return False
         self._seen = drawn
         return self._longest_side() > _MUCH_LARGER * self._length
