@@ -27,7 +27,7 @@ import msgspec.msgpack
 import viser
 from page_rows import PageRows, decode
 from protocol_client import CAMERA
-from usage import family, usage
+from usage import family_usage
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
@@ -58,7 +58,7 @@ def test_a_problem_comes_soon_while_thirty_type(
         began = time.perf_counter()
         found = typed(server.port, STUDENTS, SECONDS)
         share = (computing(server.process) - before) / (time.perf_counter() - began)
-        memory = sum(usage(one).memory for one in family(server.process))
+        memory = family_usage(server.process).memory
     one, all_of_them = percentile(alone, 0.95), percentile(found, 0.95)
     print(
         f"\n  key to problem: one student p50 {1e3 * percentile(alone, 0.5):.0f} ms, "
@@ -79,7 +79,7 @@ def percentile(times: Sequence[float], part: float) -> float:
 
 
 def computing(process: int) -> float:
-    return sum(usage(one).cpu for one in family(process))
+    return family_usage(process).cpu
 
 
 def typed(port: int, students: int, seconds: float) -> list[float]:

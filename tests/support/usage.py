@@ -46,11 +46,10 @@ def usage(process: int) -> Usage:
     fields = (folder / "stat").read_text("utf-8").rpartition(")")[2].split()
     cpu = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
     text = (folder / "status").read_text("utf-8")
-    memory, peak = (
-        int(found[1]) / 1024
-        for name in ("VmRSS", "VmHWM")
-        if (found := re.search(rf"{name}:\s+(\d+)", text))
-    )
+    found = [re.search(rf"{name}:\s+(\d+)", text) for name in ("VmRSS", "VmHWM")]
+    if None in found:
+        raise ProcessLookupError(f"process {process} has ended")
+    memory, peak = (int(one[1]) / 1024 for one in found if one is not None)
     return Usage(cpu, memory, peak, time.perf_counter())
 
 
