@@ -125,8 +125,12 @@ def test_a_check_counts_a_try_and_brings_the_hints(learn: Learn) -> None:
     desk.check()
     desk.client.wait_until(lambda: len(desk.value("hints")) == 1)
     assert desk.value("state")["hint_in"] == 2
-    desk.check()
-    desk.check()
+    desk.client.wait_until(lambda: not desk.value("state")["checking"])
+    # A Check while one goes on is none.
+    for tries in (2, 3):
+        desk.check()
+        desk.client.wait_until(lambda n=tries: desk.value("state")["tries"] == n)
+        desk.client.wait_until(lambda: not desk.value("state")["checking"])
     desk.client.wait_until(lambda: len(desk.value("hints")) == 2)
     (block,) = desk.value("hints")[1]
     assert block["lines"][0][1] == ['<box size="0.42 0.31 0.18"/>', "code", ""]
