@@ -25,20 +25,16 @@ def installation(extra: str) -> str:
     return " ".join(["pip install", *(f'"{one}"' for one in PACKAGES[extra])])
 
 
-def require(extra: str, module: str, flag: str) -> None:
-    """Refuse an option whose package is not installed.
+def require(extra: str, module: str, words: str) -> None:
+    """Refuse what needs a package of an extra that is not installed.
 
     Args:
         extra: its name.
         module: of the package.
-        flag: the option.
+        words: what needs it, and that it does.
 
     Raises:
-        UsageError: with the command that installs it.
+        UsageError: these words, with the command that installs it.
     """
     if find_spec(module) is None:
-        package = PACKAGES[extra][0].partition(">")[0]
-        raise UsageError(
-            f"{flag} needs the package {package}, which is not installed: "
-            f"{installation(extra)}"
-        )
+        raise UsageError(f"{words}: {installation(extra)}")

@@ -18,6 +18,7 @@ from patience import until
 from rosbags.typesys import Stores, get_typestore
 from zenoh_peer import ANY_HASH, STAMP_NS, ZenohPeer, type_hash_of
 
+from sambot_viz import extras
 from sambot_viz.errors import DecodeError, UsageError
 from sambot_viz.messages import MessageTypes
 from sambot_viz.sources import registry
@@ -351,7 +352,7 @@ def test_an_address_that_makes_no_sense_is_refused(uri: str, why: str) -> None:
 def test_without_its_package_one_line_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(registry, "find_spec", lambda name: None)
+    monkeypatch.setattr(extras, "find_spec", lambda name: None)
     for uri, package in (("zenoh://robot", "eclipse-zenoh"), ("dds:", "cyclonedds")):
         with pytest.raises(UsageError, match=f'pip install "{package}[^"]+"$'):
             registry.open_source(uri)

@@ -208,7 +208,8 @@ def listen(options: Options, knows: Knows | None = None) -> Listener:
         UsageError: a package of an extra is missing.
     """
     if options.metrics:
-        extras.require("metrics", "prometheus_client", "--metrics")
+        needs = "--metrics needs the package prometheus-client, which is not installed"
+        extras.require("metrics", "prometheus_client", needs)
     host, port = options.host, options.port
     path = None if options.unix_socket is None else os.fspath(options.unix_socket)
     listening: socket.socket | None = bound_socket(options)

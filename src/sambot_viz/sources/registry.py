@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-
 from sambot_viz.errors import UsageError
-from sambot_viz.extras import installation
+from sambot_viz.extras import require
 from sambot_viz.files import LIVE_SOURCES
 from sambot_viz.sources.live.address import Address, parse_address
 from sambot_viz.sources.source import Source
@@ -40,10 +38,9 @@ def live_address(uri: str) -> Address:
         raise UsageError(f"{text(uri)}: {scheme} comes later; known: {KNOWN}")
     if scheme not in _LIVE:
         raise UsageError(f"{text(uri)}: unknown kind of source; known: {KNOWN}")
-    if scheme in _EXTRAS and find_spec(_EXTRAS[scheme]) is None:
-        raise UsageError(
-            f"{text(uri)}: needs {_EXTRAS[scheme]}: {installation(scheme)}"
-        )
+    if scheme in _EXTRAS:
+        needs = f"{text(uri)}: needs {_EXTRAS[scheme]}"
+        require(scheme, _EXTRAS[scheme], needs)
     return parse_address(uri)
 
 

@@ -55,20 +55,24 @@ class FileBytes:
         """Return up to `count` bytes from a place; fewer at the end of the file.
 
         Raises:
-            OSError: the disk does not give them.
+            OSError: the disk, or a web server, does not give them.
             ValueError: the file was closed.
         """
         count = min(count, self.size - at)
         if at < 0 or count <= 0:
             return b""
         with self._lock:
-            self._stream.seek(at)
-            data = self._stream.read(count) or b""
-            while 0 < len(data) < count:
-                more = self._stream.read(count - len(data))
-                if not more:
-                    break
-                data += more
+            return self._read(at, count)
+
+    def _read(self, at: int, count: int) -> bytes:
+        """Read what is in the file; with the lock."""
+        self._stream.seek(at)
+        data = self._stream.read(count) or b""
+        while 0 < len(data) < count:
+            more = self._stream.read(count - len(data))
+            if not more:
+                break
+            data += more
         return data
 
     def close(self) -> None:

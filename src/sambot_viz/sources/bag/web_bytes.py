@@ -96,23 +96,14 @@ class WebBytes(FileBytes):
             "with ros2 bag convert",
         )
 
-    def read_at(self, at: int, count: int) -> bytes:
-        """Return up to `count` bytes from a place; fewer at the end of the file.
-
-        Raises:
-            WebError: the server does not give them.
-            ValueError: the file was closed.
-        """
-        count = min(count, self.size - at)
-        if at < 0 or count <= 0:
-            return b""
-        with self._lock:
-            if self._is_closed:
-                raise ValueError("the file was closed")
-            if count > PIECE:
-                return self._ask(at, at + count - 1)
-            first, last = at // PIECE, (at + count - 1) // PIECE
-            data = b"".join(self._piece(n) for n in range(first, last + 1))
+    def _read(self, at: int, count: int) -> bytes:
+        """Ask for it, or take it from the pieces that are kept."""
+        if self._is_closed:
+            raise ValueError("the file was closed")
+        if count > PIECE:
+            return self._ask(at, at + count - 1)
+        first, last = at // PIECE, (at + count - 1) // PIECE
+        data = b"".join(self._piece(n) for n in range(first, last + 1))
         begin = at - first * PIECE
         return data[begin : begin + count]
 
