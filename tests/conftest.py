@@ -74,6 +74,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
                 self.workqueue.move_to_end(first, last=False)
             super()._assign_work_unit(node)
 
+        def remove_node(self, node: Any) -> str | None:
+            # xdist gives the test in which a worker ended to the next one, and so on.
+            crashed = super().remove_node(node)
+            if crashed is not None:
+                self.workqueue[self._split_scope(crashed)][crashed] = True
+            return crashed
+
     return ByPages(config, log)
 
 
