@@ -124,21 +124,22 @@ def test_a_student_adds_a_file_in_the_own_folder_only(
 
 def test_the_board_follows_each_student(room: Classroom) -> None:
     with closing(Browser(room)) as ada, closing(Browser(room, teaches=True)) as teacher:
-        events = teacher.rows()
-        begin = next(events)
-        assert (begin["steps"], begin["points"], begin["rows"]) == (2, 5, [])
+        board = teacher.board()
+        head = board.head
+        assert (head["steps"], head["points"], head["rows"]) == (2, 5, [])
         ada.join("Ada")
         page = ada.page()
         write(page, WRONG)
-        row = next(e["row"] for e in events if e["row"]["unmet"])
+        board.until(lambda: board.rows and board.rows[1]["unmet"])
+        row = board.rows[1]
         assert (row["name"], row["step"], row["title"]) == ("Ada", 1, "The body")
         assert row["pages"] == 1 and "0.42 0.31 0.2" in row["first"]
         page.act("lesson/check")
-        row = next(e["row"] for e in events if e["row"]["tries"])
-        assert row["stuck"]
+        board.until(lambda: board.rows[1]["tries"])
+        assert board.rows[1]["stuck"]
         ada.close()
-        row = next(e["row"] for e in events if not e["row"]["pages"])
-        assert row["tries"] == 1
+        board.until(lambda: not board.rows[1]["pages"])
+        assert board.rows[1]["tries"] == 1
 
 
 def test_a_step_that_is_left_out_is_left_out_on_the_board_and_after_a_restart(
@@ -148,10 +149,10 @@ def test_a_step_that_is_left_out_is_left_out_on_the_board_and_after_a_restart(
         ada = Browser(room)
         ada.join("Ada")
         page = ada.page()
-        events = teacher.rows()
+        board = teacher.board()
         page.act("lesson/show", 2)
-        row = next(e["row"] for e in events if "row" in e and e["row"]["step"] == 2)
-        assert row["name"] == "Ada"
+        board.until(lambda: board.rows[1]["step"] == 2)
+        assert board.rows[1]["name"] == "Ada"
         ada.close()
     with a_class(folder) as room, closing(Browser(room, cookie=ada.cookie)) as again:
         page = again.page()
@@ -167,13 +168,14 @@ def test_who_is_stuck_for_longest_comes_first(room: Classroom) -> None:
         write(pages[0], RIGHT)
         write(pages[1], RIGHT)
         write(pages[2], "<robot")
-        events = teacher.rows()
-        rows = {row["number"]: row for row in next(events)["rows"]}
-        for found in events:
-            rows[found["row"]["number"]] = found["row"]
+        board = teacher.board()
+        rows = board.rows
+
+        def in_order() -> bool:
             names = [r["name"] for r in sorted(rows.values(), key=lambda r: r["order"])]
-            if names[0] == "Cleo" and not rows[1]["stuck"] and not rows[2]["stuck"]:
-                break
+            return names[0] == "Cleo" and not rows[1]["stuck"] and not rows[2]["stuck"]
+
+        board.until(in_order)
         lines = teacher.get("board/class.csv").text.splitlines()
         assert lines[1].startswith("Cleo,Cleo,1,The body")
         for browser in students:
@@ -494,11 +496,10 @@ def test_a_text_that_cannot_be_saved_is_told(room: Classroom, folder: Path) -> N
         page.wait_until(lambda: shown(page, "model/text") is not None)
         file.unlink()
         file.mkdir()
-        events = teacher.rows()
-        next(events)
+        board = teacher.board()
         write(page, RIGHT)
-        row = next(e["row"] for e in events if e["row"]["trouble"])
-        assert row["trouble"].startswith("not saved: ")
+        trouble = board.until(lambda: board.rows[1]["trouble"])
+        assert trouble.startswith("not saved: ")
 
 
 def test_a_lesson_that_is_changed_meanwhile_stays_as_it_was(tmp_path: Path) -> None:

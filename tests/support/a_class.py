@@ -6,18 +6,21 @@ with a_class(tmp_path) as room:
     page = ada.page()               # a ProtocolClient; ada.type(page, "<robot/>")
     teacher = Browser(room, teaches=True)
     teacher.get("board/class.csv").text
+    board = teacher.board()
+    board.until(lambda: board.rows[1]["stuck"])
 """
 
 from __future__ import annotations
 
 import json
+import time
 import urllib.error
 import urllib.request
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 from urllib.parse import quote, urlencode, urlsplit
 
 from lesson_files import BASE
@@ -28,6 +31,7 @@ from sambot_viz.classroom.classroom import Classroom
 from sambot_viz.lessons.read_lesson import open_lesson
 from sambot_viz.options import Options
 
+T = TypeVar("T")
 ASKED = "Sambot-Class"
 MODEL = "robot.urdf"
 
@@ -113,17 +117,53 @@ class Browser:
         """Close all pages."""
         self._open.close()
 
-    def rows(self) -> Iterator[dict[str, Any]]:
-        """What the board is told, one event after the other."""
+    def board(self) -> BoardRows:
+        """Open the board; it is closed with the pages."""
         asked = urllib.request.Request(
             f"{self._room.url}/board/rows", headers=self.headers
         )
         answer = self._open.enter_context(
             urllib.request.urlopen(asked, timeout=patience(30.0))
         )
-        for line in answer:
-            if line.startswith(b"data: "):
-                yield json.loads(line.removeprefix(b"data: "))
+        return BoardRows(answer)
+
+
+class BoardRows:
+    """What the board shows, from what it is told.
+
+    Attributes:
+        head: the first event: the lesson, and the rows of that time.
+        rows: the row of each student, by number, as it is now.
+    """
+
+    def __init__(self, lines: Iterable[bytes]) -> None:
+        self._lines = iter(lines)
+        self.head: dict[str, Any] = {}
+        self.rows: dict[int, dict[str, Any]] = {}
+        while not self.head:
+            self._read()
+
+    def until(self, condition: Callable[[], T]) -> T:
+        """Read what comes until a condition is true; it may be true already.
+
+        Raises:
+            AssertionError: it was not after some time. A silent board hears something
+                every 15 s, so a limit of the stream alone would never end this.
+        """
+        end = time.monotonic() + patience(30.0)
+        while not (value := condition()):
+            assert time.monotonic() < end, f"the board shows {self.rows}"
+            self._read()
+        return value
+
+    def _read(self) -> None:
+        line = next(self._lines)
+        if not line.startswith(b"data: "):
+            return
+        event = json.loads(line.removeprefix(b"data: "))
+        self.head = self.head or event
+        for row in event.get("rows", [event.get("row")]):
+            self.rows[row["number"]] = row
 
 
 def write(client: ProtocolClient, text: str) -> None:
