@@ -59,6 +59,7 @@ NO_LIMITS = {
         export/recorded_scene.py LONGEST_READ
         export/view_picture.py LONGEST_WAIT
         files.py _LONGEST_SAVE
+        robot/fork_server.py _LONGEST_END
         joints/animation.py LONGEST
         publishing/dead_mans_switch.py LONGEST_STOP
         server/watch.py LONGEST_WAIT _LONGEST_CLOSE

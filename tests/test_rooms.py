@@ -252,6 +252,8 @@ EXCEPTIONS: Mapping[str, str] = {
     "session/worker.py": "asyncio threading",  # each session has one worker thread
     # xacro and graders run in a child process.
     "robot/child_process.py": "signal subprocess",
+    "robot/fork_server.py": "selectors socket subprocess",
+    "robot/xacro/child/forks.py": "select signal socket subprocess",
     # In that child: the one thread of the pure rooms watches for the parent's end.
     "robot/xacro/child/main.py": "_thread signal",
 }

@@ -18,9 +18,8 @@ class ChildTimeoutError(Exception):
 class Child:
     """A script that has started, and waits for its order.
 
-        It runs without site-packages, in a session of its own, and reads the order from
-    standard input: 16 characters of length, then the order. That stays open until the
-    answer is there.
+        It runs in a session of its own, and reads the order from standard input, which
+    stays open until the answer is there.
 
     Args:
         script: what it runs.
@@ -38,7 +37,7 @@ class Child:
         read_end, self._lifeline = os.pipe()
         try:
             self._process = subprocess.Popen(
-                [sys.executable, "-I", "-S", "-X", "utf8", str(script), *arguments],
+                python(script, *arguments),
                 stdin=read_end,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
@@ -50,11 +49,6 @@ class Child:
             raise
         finally:
             os.close(read_end)
-
-    @property
-    def waits(self) -> bool:
-        """Whether it is still there for an order."""
-        return self._process.poll() is None
 
     def ask(self, order: bytes, seconds: float) -> tuple[bytes, int | None]:
         """Give it its only order, and return what it wrote to standard output.
@@ -70,18 +64,24 @@ class Child:
             ChildTimeoutError: it took longer.
         """
         try:
-            _send(self._lifeline, b"%16d" % len(order) + order)
+            _send(self._lifeline, framed(order))
             output, _ = self._process.communicate(timeout=seconds)
         except subprocess.TimeoutExpired:
             raise ChildTimeoutError(f"it took longer than {seconds:g} s") from None
         finally:
-            self.end()
+            os.close(self._lifeline)
+            _end(self._process)
         return output, self._process.returncode
 
-    def end(self) -> None:
-        """End it without an order."""
-        os.close(self._lifeline)
-        _end(self._process)
+
+def python(script: Path, *arguments: str) -> list[str]:
+    """Return the command that runs a script without site-packages."""
+    return [sys.executable, "-I", "-S", "-X", "utf8", str(script), *arguments]
+
+
+def framed(order: bytes) -> bytes:
+    """Return what is sent: 16 characters of length, then the order."""
+    return b"%16d" % len(order) + order
 
 
 def _send(pipe: int, data: bytes) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,9 @@ from typing import Any
 import pytest
 from patience import until
 
+from sambot_viz.robot.xacro import expansion
 from sambot_viz.robot.xacro.child_result import ExpansionError
-from sambot_viz.robot.xacro.expansion import Limits, SpareChild, expand_model
+from sambot_viz.robot.xacro.expansion import Limits, expand_model
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ENDLESS = f"""{HEAD}
@@ -26,6 +28,7 @@ ENDLESS = f"""{HEAD}
   <link name="a"/>
 </robot>
 """
+GOOD = HEAD + "<link name='${1 + 1}'/></robot>"
 TELLING = """
 import subprocess, sys
 
@@ -41,8 +44,8 @@ load_robot(sys.argv[1])
 
 
 @pytest.fixture
-def started(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen[bytes]]:
-    """The children that were started so far."""
+def started(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[subprocess.Popen[bytes]]]:
+    """The processes that were started so far; the one that forks is not there yet."""
     children: list[subprocess.Popen[bytes]] = []
     popen: Any = subprocess.Popen
 
@@ -50,8 +53,21 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[subprocess.Popen[bytes]]:
         children.append(popen(*args, **options))
         return children[-1]
 
+    expansion._forks().end()  # pyright: ignore[reportPrivateUsage]
     monkeypatch.setattr(subprocess, "Popen", start)
-    return children
+    yield children
+    expansion._forks().end()  # pyright: ignore[reportPrivateUsage]
+    assert all(child.returncode is not None for child in children)
+
+
+@pytest.fixture(params=[True, False], ids=["forks", "without fork"])
+def forks(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
+    """Whether this system can fork; Windows cannot."""
+    if not request.param:
+        monkeypatch.setattr(expansion, "CAN_FORK", False)
+    elif not expansion.CAN_FORK:
+        pytest.skip("this system has no fork")
+    return request.param
 
 
 LIMITS = Limits()
@@ -83,50 +99,78 @@ def test_every_limit_ends_the_child_and_collects_it(
     limits: Limits,
     kind: str,
     trusted: bool,
+    forks: bool,
     started: list[subprocess.Popen[bytes]],
 ) -> None:
-    files = len(os.listdir("/proc/self/fd")) if sys.platform == "linux" else 0
+    expand(GOOD)
+    before = processes_and_files(started)
     found = failure(text, limits, trusted)
     # What cannot end well is refused beforehand in an untrusted model.
     assert found.startswith(kind) or (found == "Refused" and not trusted)
-    assert [child.returncode is not None for child in started] == [True]
-    if files:
-        assert len(os.listdir("/proc/self/fd")) <= files
+    assert processes_and_files(started) == before
+    assert len(started) == (1 if forks else 2)
 
 
-def test_two_loads_at_once_do_not_wait_for_each_others_children(
+def processes_and_files(
     started: list[subprocess.Popen[bytes]],
-) -> None:
-    good = HEAD + "<link name='${1 + 1}'/></robot>"
+) -> tuple[int, int] | None:
+    """How many processes run below this one, and how many files this one has open."""
+    if sys.platform != "linux":
+        return None
+    running = [child.pid for child in started if child.returncode is None]
+    below = [pid for each in running for pid in [each, *children_of(each)]]
+    return len(below), len(os.listdir("/proc/self/fd"))
+
+
+def children_of(process: int) -> list[int]:
+    text = Path(f"/proc/{process}/task/{process}/children").read_text()
+    return [int(word) for word in text.split()]
+
+
+def test_two_loads_at_once_do_not_wait_for_each_others_children(forks: bool) -> None:
     with ThreadPoolExecutor(4) as pool:
         endless = pool.submit(failure, ENDLESS, Limits(seconds=3.0), True)
-        texts = list(pool.map(expand, [good] * 6))
+        texts = list(pool.map(expand, [GOOD] * 6))
         assert not endless.done()
         assert endless.result() == "Timeout"
     assert all('name="2"' in text for text in texts)
-    assert all(child.returncode is not None for child in started)
 
 
-def test_a_child_that_was_started_ahead_expands_the_next_model(
+def test_one_process_is_started_for_all_models(
+    forks: bool, started: list[subprocess.Popen[bytes]]
+) -> None:
+    for _ in range(3):
+        assert 'name="2"' in expand(GOOD)
+    assert len(started) == (1 if forks else 3)
+
+
+@pytest.mark.skipif(not expansion.CAN_FORK, reason="needs fork")
+def test_a_process_that_has_ended_meanwhile_is_no_loss(
     started: list[subprocess.Popen[bytes]],
 ) -> None:
-    good, spare = HEAD + "<link name='${1 + 1}'/></robot>", SpareChild()
-    for count in (2, 3):
-        with spare.used():
-            assert 'name="2"' in expand(good)
-        assert len(started) == count
-    # One that has ended meanwhile is no loss.
-    started[-1].kill()
-    started[-1].wait()
-    with spare.used():
-        assert 'name="2"' in expand(good)
-    # In other threads, and behind the block, it is left alone.
-    expand(good)
-    spare.end()
-    assert all(child.returncode is not None for child in started)
+    expand(GOOD)
+    for known in (True, False):
+        started[-1].kill()
+        if known:
+            started[-1].wait()
+        assert 'name="2"' in expand(GOOD)
+    assert len(started) == 3
 
 
-def test_a_large_text_is_handed_over_whole() -> None:
+def test_names_are_relative_to_where_the_program_is_now(
+    forks: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("a", "b"):
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / "part.xacro").write_text(f"{HEAD}<link name='{name}'/></robot>")
+        monkeypatch.chdir(folder)
+        assert f'name="{name}"' in expand(
+            f"{HEAD}<xacro:include filename='part.xacro'/></robot>"
+        )
+
+
+def test_a_large_text_is_handed_over_whole(forks: bool) -> None:
     comment = f"<!-- {'x' * 3_000_000} -->"
     assert comment in expand(f"{HEAD}{comment}<link name='a'/></robot>")
 
@@ -135,7 +179,9 @@ def test_a_large_text_is_handed_over_whole() -> None:
 @pytest.mark.parametrize(
     "text", [ENDLESS, HEAD + "<link name='${sum(range(10**10))}'/></robot>"]
 )
-def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> None:
+def test_the_children_end_when_their_parent_is_killed(
+    text: str, tmp_path: Path
+) -> None:
     model = tmp_path / "endless.urdf.xacro"
     model.write_text(text.replace("sum(", "python.sum("))
     with subprocess.Popen(
@@ -143,8 +189,10 @@ def test_the_child_ends_when_its_parent_is_killed(text: str, tmp_path: Path) -> 
     ) as parent:
         assert parent.stdout is not None
         child = int(parent.stdout.readline())
+        (fork,) = until(lambda: children_of(child))
         parent.kill()
-    until(lambda: not is_running(child), why="the child goes on without its parent")
+    for each in (fork, child):
+        until(lambda p=each: not is_running(p), why="it goes on without its parent")
 
 
 def is_running(process: int) -> bool:

@@ -6,19 +6,20 @@ child with limits on time, memory and output does it.
 
 from __future__ import annotations
 
+import atexit
 import importlib.util
 import json
 import os
 import re
-from collections.abc import Generator, Mapping, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sambot_viz import limits as table
 from sambot_viz.robot.child_process import Child, ChildTimeoutError
+from sambot_viz.robot.fork_server import CAN_FORK, ForkServer
 from sambot_viz.robot.xacro.child_result import (
     ExpandedModel,
     ExpansionError,
@@ -86,8 +87,17 @@ def expand_model(
         "seconds": int(limits.seconds) + 1,
         "output_limit": limits.characters,
         "edited": dict(edited or {}),
+        "working_folder": _working_folder(),
     }
     return read_result(_run_child(job, limits), file)
+
+
+def _working_folder() -> str:
+    """The folder that names are relative to; empty when that was removed."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return ""
 
 
 def _environment(trusted: bool) -> dict[str, str]:
@@ -109,59 +119,19 @@ def _import_path() -> list[str]:
     return list(dict.fromkeys(folders))
 
 
-class SpareChild:
-    """Starts the child of the next expansion ahead, so that its answer comes sooner.
-
-    It costs memory as long as it waits; it ends by itself after some time.
-    """
-
-    def __init__(self) -> None:
-        self._child: Child | None = None
-
-    @contextmanager
-    def used(self) -> Generator[None]:
-        """Expand with the child that waits, in this thread until the block ends.
-
-        Then the next one is started.
-        """
-        token = _SPARE.set(self)
-        try:
-            yield
-        finally:
-            _SPARE.reset(token)
-            if self._child is None:
-                self._child = _new_child()
-
-    def take(self) -> Child | None:
-        """Return the child that waits; None when there is none."""
-        child, self._child = self._child, None
-        if child is None or child.waits:
-            return child
-        child.end()
-        return None
-
-    def end(self) -> None:
-        """End the child that waits."""
-        if (child := self.take()) is not None:
-            child.end()
-
-
-_SPARE: ContextVar[SpareChild | None] = ContextVar("spare child", default=None)
-
-
-def _new_child() -> Child:
-    return Child(_CHILD, _import_path())
+@cache
+def _forks() -> ForkServer:
+    """Return what expands for this process, and ends with it."""
+    server = ForkServer(_CHILD, ["forks", *_import_path()])
+    atexit.register(server.end)
+    return server
 
 
 def _run_child(job: Job, limits: Limits) -> ChildAnswer:
     order = json.dumps(job).encode()
-    spare = _SPARE.get()
-    waiting = None if spare is None else spare.take()
+    child = _forks() if CAN_FORK else Child(_CHILD, ["once", *_import_path()])
     try:
-        output, status = (waiting or _new_child()).ask(order, limits.seconds)
-        if waiting is not None and not output:
-            # It may have ended by itself when the order came.
-            output, status = _new_child().ask(order, limits.seconds)
+        output, status = child.ask(order, limits.seconds)
     except ChildTimeoutError:
         text = f"expansion took longer than {limits.seconds:g} s"
         raise _own_failure("Timeout", text, job) from None

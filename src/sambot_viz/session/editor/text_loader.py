@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.xacro.expansion import SpareChild
 from sambot_viz.session.background import Background
 from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.robot.robot_state import RobotState
@@ -80,7 +79,7 @@ class TextLoader:
         self.checked: Mapping[str, int] = {}
         self.suspects: tuple[Path, ...] = ()
         self._background = Background("sambot-viz-text")
-        self._spare, self._closed = SpareChild(), False
+        self._closed = False
         state = wanted()
         self._shown = self._of_model(state)
         self._loaded = state._replace(texts=self._shown)
@@ -88,7 +87,6 @@ class TextLoader:
     def close(self) -> None:
         """Show nothing more."""
         self._closed = True
-        self._spare.end()
 
     def wait(self, timeout: float) -> bool:
         """Wait until each text is shown, or its problems; False for longer [s]."""
@@ -121,16 +119,13 @@ class TextLoader:
             self._load(state)
         except Exception as error:
             self._problems.report_error(error)
-        finally:
-            if self._closed:
-                self._spare.end()
 
     def _load(self, state: ModelState) -> None:
         files, texts, arguments = state.files, state.texts, state.arguments
         is_own = state.is_other or bool(texts or arguments)
         trusted = self._trusts_typed or state.typed.isdisjoint(texts)
         try:
-            with unsaved(texts), self._spare.used():
+            with unsaved(texts):
                 robot = files.load(files.model, trusted, texts, arguments)
         except RobotError as error:
             with self._change():

@@ -36,6 +36,7 @@ class Job(TypedDict):
     seconds: int
     output_limit: int
     edited: dict[str, str]
+    working_folder: str
 
 
 class ExpandedAnswer(TypedDict):

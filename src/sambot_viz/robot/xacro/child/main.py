@@ -1,9 +1,10 @@
 """The program of the child process that runs xacro.
 
-`xacro/expansion.py` starts it as a script, with the folders of what it imports: a job
-as JSON on standard input (its length first), the answer as JSON on standard output.
-Only what this needs is imported, never the package's own `__init__` files, so that it
-starts fast. It may be started ahead of its job, and waits for it.
+`xacro/expansion.py` starts it as a script, with the folders of what it imports after a
+first word: "forks" when standard input is a socket, and each job is for a fork; "once"
+without forks. A job comes as JSON on standard input (its length first), the answer goes
+as JSON to standard output. Only what this needs is imported, never the package's own
+`__init__` files, so that it starts fast.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from sambot_viz.robot.xacro.child.exchange import Job
 
-WAIT = 30
+WAIT = 60.0
 """It ends when no job comes for this time [s]."""
 
 
@@ -98,28 +99,26 @@ def _wait_for_end() -> None:
     os._exit(1)
 
 
-def end_without_job(seconds: int) -> None:
-    """End this process unless this is called again in time; 0 waits for good."""
-    if hasattr(signal, "alarm"):
-        signal.alarm(seconds)
-
-
 def main() -> None:
     """Read the job, expand, write the answer."""
-    sys.path.extend(sys.argv[1:])
+    sys.path.extend(sys.argv[2:])
     root = os.path.abspath(__file__)
     for _ in range(4):
         root = os.path.dirname(root)
     make_packages(root, "sambot_viz", "sambot_viz.robot")
     from sambot_viz.robot.xacro.child.run import run
 
-    end_without_job(WAIT)
+    if sys.argv[1] == "forks":
+        from sambot_viz.robot.xacro.child.forks import serve
+
+        serve(WAIT)
     size = int(sys.stdin.buffer.read(16))
     job: Job = json.loads(sys.stdin.buffer.read(size))
-    end_without_job(0)
     end_with_parent()
     channel = keep_result_channel()
     limit_resources(job["megabytes"], job["seconds"])
+    if job["working_folder"]:
+        os.chdir(job["working_folder"])
     os.environ.clear()
     os.environ.update(job["environment"])
     answer = run(job)
