@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { framing } from "../../src/sambot_viz/page/view/scene_camera.js";
+import { framing, Settling } from "../../src/sambot_viz/page/view/scene_camera.js";
 
 const NEAR = 0.01;
 const VIEW = {
@@ -75,4 +75,21 @@ test("a camera without numbers has no window", () => {
   assert.equal(framing({ ...VIEW, focus: [0, 0] }, 100, 100), null);
   assert.equal(framing({ ...VIEW, size: [0, 0] }, 100, 100), null);
   assert.equal(framing({ ...VIEW, center: [1e308, 0], zoom: 1e5 }, 100, 100), null);
+});
+
+test("what a message has brought is drawn, however seldom the page draws", () => {
+  const settling = new Settling();
+  assert.ok(!settling.picture(10_000));
+  settling.note(10_000);
+  // viser takes a message up in one picture and shows it in the next; each takes a second here.
+  assert.deepEqual([11_000, 12_000, 13_000, 14_000].map((now) => settling.picture(now)), [
+    true,
+    true,
+    true,
+    false,
+  ]);
+  settling.note(20_000);
+  const often = [...Array(20).keys()].map((n) => settling.picture(20_000 + 20 * n));
+  assert.ok(often.every(Boolean));
+  assert.ok(!settling.picture(20_600));
 });

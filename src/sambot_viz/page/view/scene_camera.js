@@ -16,8 +16,10 @@ import { followMessages } from "./messages.js";
 const NEAR = 0.01;
 /** So often the scene is drawn at most [ms]. */
 const PERIOD = 66;
-/** So long after a message what it has brought may still come into the scene [ms]. */
+/** So long after a message what it has brought may still come into the scene [ms] … */
 const SETTLES = 500;
+/** … and in so many pictures of the view in any case: one may take a second on a slow page. */
+const PICTURES = 3;
 /** More pixels than these in a CSS pixel nobody sees. */
 const MOST = 2;
 /** The part of a node's name that says which display has drawn it; a tool has no number. */
@@ -56,11 +58,25 @@ export function framing({ focus, center, size, roi, zoom }, width, height) {
 
 /** The cameras whose pictures are on the screen. @type {Set<SceneCamera>} */
 const open = new Set();
-/** Until then the scene may change [ms]. */
-let changing = 0;
-followMessages(() => {
-  changing = performance.now() + SETTLES;
-});
+/** For how long the scene may change after a message. */
+export class Settling {
+  until = 0;
+  pictures = 0;
+
+  /** A message came. @param {number} now [ms] */
+  note(now) {
+    this.until = now + SETTLES;
+    this.pictures = PICTURES;
+  }
+
+  /** Whether the next picture may show something else. @param {number} now [ms] */
+  picture(now) {
+    this.pictures -= 1;
+    return now < this.until || this.pictures >= 0;
+  }
+}
+const settling = new Settling();
+followMessages(() => settling.note(performance.now()));
 
 /** The picture of a camera, on a canvas: the image alone, or with the scene. */
 export class SceneCamera {
@@ -182,9 +198,11 @@ others.has = (camera) => camera === eye;
 function drawSceneCameras(renderer, scene, main, helpers, names) {
   if (!open.size || main !== window.__viserMutable?.camera) return;
   const now = performance.now();
+  const changes = settling.picture(now);
   for (const camera of open) {
-    if (!camera.view || !(camera.isNew || now < changing)) continue;
+    if (!camera.view || !(camera.isNew || changes)) continue;
     if (now < camera.drawn + PERIOD) {
+      camera.isNew = true;
       camera.ask();
       continue;
     }
