@@ -22,6 +22,7 @@ SCRIPTS = re.compile(r'^(?:import|export|\}) .*?"(\.[^"]+\.js)";', re.MULTILINE)
 """Finds the scripts that one of the page imports."""
 FOUNDATIONS = {
     "advice",
+    "cached",
     "edits",
     "errors",
     "extras",
@@ -205,6 +206,7 @@ ROOMS: Mapping[str, Row] = {
         "yourdfpy",
         "concurrent threading",
     ),
+    "cached": Row(),
     "flags": Row("frames joints"),
     "limits": Row(),
     "matrices": Row("", "numpy"),

@@ -13,11 +13,12 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import Edit, Fix, Place
 from sambot_viz.files import read_limited, relative_path
 from sambot_viz.unsaved import unsaved_text

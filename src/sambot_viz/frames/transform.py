@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import FrameError
 from sambot_viz.frames.frame_errors import TransformRefused
 from sambot_viz.geometry import (

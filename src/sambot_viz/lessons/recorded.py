@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import DecodeError
 from sambot_viz.frames.hierarchy import plain_name
 from sambot_viz.geometry import PlainPose, Vector3

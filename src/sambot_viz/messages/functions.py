@@ -5,10 +5,10 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from threading import Lock
 from typing import TYPE_CHECKING, Any, cast
 
+from sambot_viz.cached import cached_property
 from sambot_viz.messages.definition import NAME, SEQUENCE
 from sambot_viz.messages.flat_types import leaves_of
 from sambot_viz.messages.kept_elements import ElementReader, KeptElements

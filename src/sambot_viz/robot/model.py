@@ -8,10 +8,11 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property, partial
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import JointError, Problem
 from sambot_viz.geometry import Matrix, PlainPose
 from sambot_viz.meshes.asset import Asset

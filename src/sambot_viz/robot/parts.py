@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import Place
 from sambot_viz.geometry import (
     Matrix,

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 from sambot_viz import bundled
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import Edit, UsageError
 from sambot_viz.files import is_below, reason_of, write_atomically
 from sambot_viz.fixes import EditRefused, FileChange, changes, write_changes

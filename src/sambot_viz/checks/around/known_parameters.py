@@ -6,10 +6,11 @@ import math
 import re
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import nearest
 
 _TABLE = Path(__file__).parents[1] / "vocabularies" / "parameters.txt"

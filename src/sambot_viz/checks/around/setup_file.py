@@ -9,12 +9,13 @@ import posixpath
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.cached import cached_property
 from sambot_viz.checks.around.launching.python_calls import CALLS
 from sambot_viz.checks.around.launching.python_parts import (
     Call,

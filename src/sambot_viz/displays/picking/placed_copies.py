@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.cached import cached_property
 from sambot_viz.displays.picking.pick_buffer import PickBuffer
 from sambot_viz.displays.picking.placed import HERE, Parts, Placed, within
 from sambot_viz.displays.picking.rasterise import covered, nearness

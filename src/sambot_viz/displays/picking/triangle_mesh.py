@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from sambot_viz.cached import cached_property
 from sambot_viz.displays.picking.box_lines import box_lines
 from sambot_viz.displays.picking.rays import Array, Indices
 from sambot_viz.geometry import Matrix

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 import viser
 
+from sambot_viz.cached import cached_property
 from sambot_viz.displays.picking.placed_copies import Items, PlacedCopies
 from sambot_viz.displays.picking.triangle_mesh import TriangleMesh
 from sambot_viz.displays.scene.frame_nodes import placed

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
+from sambot_viz.cached import cached_property
 from sambot_viz.edits import write_path
 from sambot_viz.errors import Fix, Problem
 from sambot_viz.files import is_below

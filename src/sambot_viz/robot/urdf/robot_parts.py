@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
 
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import Fix, Place
 from sambot_viz.robot.findings import ModelFindings
 from sambot_viz.robot.parts import Joint, Link

@@ -6,10 +6,10 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 
 from sambot_viz import limits
+from sambot_viz.cached import cached_property
 from sambot_viz.errors import UsageError
 from sambot_viz.files import is_below
 from sambot_viz.lessons.study import TEXTS

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cached_property
 from typing import NamedTuple
 
+from sambot_viz.cached import cached_property
 from sambot_viz.checks.around.files.fault import Fault
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.errors import Place, nearest

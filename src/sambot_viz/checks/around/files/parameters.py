@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import yaml
 
 from sambot_viz import limits
+from sambot_viz.cached import cached_property
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 

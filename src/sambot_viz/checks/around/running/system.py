@@ -8,9 +8,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Literal
 
+from sambot_viz.cached import cached_property
 from sambot_viz.checks.around.files.gazebo import Fact
 from sambot_viz.errors import Place
 

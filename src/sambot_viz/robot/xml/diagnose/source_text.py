@@ -6,8 +6,8 @@ import bisect
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 
+from sambot_viz.cached import cached_property
 from sambot_viz.edits import together, write_between
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xml.diagnose.lexer import Reading, Token, tokenize
