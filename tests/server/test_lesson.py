@@ -19,6 +19,7 @@ from sambot_viz.lessons.progress import PROGRESS_FILE
 from sambot_viz.lessons.read_lesson import open_lesson
 from sambot_viz.lessons.study import Study
 from sambot_viz.options import Options
+from sambot_viz.robot import load as load_module
 
 RIGHT = (
     '<robot name="sam_bot"><link name="base_link"><visual><geometry>'
@@ -270,3 +271,37 @@ def test_a_lesson_may_keep_the_fixes_of_problems_away(
         lambda: not problems.value.checking and bool(problems.value.listed)
     )
     assert any(problem.edits for problem in problems.value.listed) is fixes
+
+
+def test_each_text_is_loaded_once(
+    learn: Learn, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The view, the lesson, and what follows the saved file take the same robot."""
+    desk = learn(WRONG)
+    client, session = desk.client, session_of(desk.viz)
+    client.act("model/show", True)
+    client.wait_until(lambda: "model/text" in client.rows)
+    loads: list[str] = []
+    load = load_module.load_model
+
+    def counted(*arguments: Any) -> Any:
+        loads.append("a load")
+        return load(*arguments)
+
+    monkeypatch.setattr(load_module, "load_model", counted)
+    at = WRONG.index("0.2")
+    client.act("model/type", "robot.urdf", 0, at, at + 3, "0.18", False)
+    client.wait_until(lambda: not desk.faults)
+    assert len(loads) == 1
+    client.act("model/save", "robot.urdf")
+    client.wait_until(lambda: desk.passed == [True, False])
+    client.wait_until(lambda: session.saved.value)
+    at = RIGHT.index("0.18")
+    client.act("model/type", "robot.urdf", 1, at, at + 4, "<", False)
+    client.wait_until(lambda: any("cannot be read" in one for one in desk.faults))
+    assert len(loads) == 2
+    # What another program saves is read.
+    desk.write("")
+    client.act("model/revert", "robot.urdf")
+    client.wait_until(lambda: any("the file is empty" in one for one in desk.faults))
+    assert len(loads) > 2

@@ -42,6 +42,7 @@ class Study:
         lesson: the lesson.
         track: the way through it.
         progress: how far the student is.
+        trusted: as for `load_robot`.
 
     Raises:
         UsageError: the folder does not exist, or the lesson has no such track.
@@ -63,7 +64,7 @@ class Study:
         self.track = found.track if track is None else track
         self.progress = Progress(folder, lesson.name)
         self.folder = folder.absolute()
-        self._trusted = trusted
+        self.trusted = trusted
 
     @classmethod
     def begun(
@@ -190,7 +191,7 @@ class Study:
         return Work(
             given.model_of(step),
             given.folder_of(step),
-            trusted=self._trusted,
+            trusted=self.trusted,
             loaded=loaded,
             problems=problems,
             edited=edited,

@@ -125,12 +125,7 @@ class ClientSessions:
             return None
         facts = [session.saved, *([] if text is None else [text.followed])]
         return ShownLesson(
-            study,
-            lambda: {} if text is None else text.texts,
-            facts,
-            session.change,
-            session.problems.report_error,
-            None if text is None else text.follow,
+            study, text, facts, session.change, session.problems.report_error
         )
 
     def take_edit(self, client_id: int, edit: object) -> None:

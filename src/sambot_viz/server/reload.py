@@ -166,19 +166,26 @@ class Reloader:
         gone = any(not os.path.isfile(path) for path in changed & assets)
         if self._model is None:
             return
-        if changed & model or gone or (appeared and self._waiting_for_files):
-            self._reload_model(self._model)
+        anew = gone or bool(appeared and self._waiting_for_files)
+        if changed & model or anew:
+            self._reload_model(self._model, anew=anew)
             return
         if changed & assets:
             self._sessions.refresh()
         if changed & self._files_around():
             self._sessions.for_each(lambda session: session.checks.run_again())
 
-    def _reload_model(self, path: Path) -> None:
+    def _reload_model(self, path: Path, *, anew: bool) -> None:
+        """Show the model again.
+
+        Args:
+            path: its file.
+            anew: whether another file than those of its text came or went.
+        """
         try:
             if reload_problems.is_pipe(path):
                 raise RobotError([reload_problems.unreadable("model-unreadable", path)])
-            robot = self._sources.load(path)
+            robot = self._load(path, anew=anew)
             is_first = self._sessions.robot is None
             if is_first:
                 # What the command line says of joints could not be checked before.
@@ -197,6 +204,19 @@ class Reloader:
             self._of_model = robot.problems
             self._describe(robot)
         self._report_changed()
+
+    def _load(self, path: Path, *, anew: bool) -> Robot:
+        session, text = self._sessions.shared, self._sessions.model_text
+        known = None
+        if session is not None and text is not None:
+            with session.lock:
+                if anew:
+                    text.forget()
+                # A text that was saved has been loaded already.
+                known = text.known(path, {}, self._sessions.options.trusted)
+        if isinstance(known, RobotError):
+            raise known
+        return self._sources.load(path) if known is None else known
 
     def _reload_reference(self) -> None:
         if (reference := self._sessions.reference) is not None:

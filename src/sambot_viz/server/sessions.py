@@ -24,6 +24,7 @@ from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.reference import ReferenceModel
 from sambot_viz.session import Audience, Reloaded, Session
 from sambot_viz.session.editor.model_files import ModelFiles
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.model_edits import ModelEdits
 from sambot_viz.session.session_copy import SessionCopy
 from sambot_viz.session.signals import connect
@@ -184,6 +185,12 @@ class Sessions:
             present = self.all(copies=False)
         for session in present:
             action(session)
+
+    @property
+    def model_text(self) -> ModelText | None:
+        """The texts of the session in which they may be saved; None without one."""
+        place = self.shared_place
+        return None if place is None or place.window is None else place.window.text
 
     def for_each(
         self, action: Callable[[Session], object], *, copies: bool = True

@@ -108,6 +108,7 @@ class ShownInputs:
                 options.xacro_args,
                 None if study is None else study.folder,
                 tuple if study is None else study.texts,
+                options.trusted,
             )
         if inputs.reference is not None:
             reference = ReferenceModel(inputs.reference, inputs.load)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from sambot_viz.lessons.evaluation import DemandResult, faults_in
 from sambot_viz.lessons.lesson import LessonStep
 from sambot_viz.lessons.study import Study
 from sambot_viz.session.background import Background
+from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.signals import Change, Signal, connect
 from sambot_viz.unsaved import unsaved
 
@@ -41,11 +41,10 @@ class ShownLesson:
 
     Args:
         study: the student's way through it.
-        texts: whole path of a file → its text in the page, where that is not saved.
+        text: those of the page; None where it has none.
         facts: after a change of one of these the student may have written something.
         change: of the session.
         report: shows an error that nobody expected.
-        follow: shows another model file; None where the view has one only.
 
     Attributes:
         study: the student's way through it.
@@ -61,14 +60,12 @@ class ShownLesson:
     def __init__(
         self,
         study: Study,
-        texts: Callable[[], Mapping[str, str]],
+        text: ModelText | None,
         facts: Iterable[Signal[Any]],
         change: Change,
         report: Callable[[Exception], object],
-        follow: Callable[[Path], object] | None = None,
     ) -> None:
-        self._follow = follow
-        self.study, self._texts = study, texts
+        self.study, self._text = study, text
         self._change, self._report = change, report
         self.changed = Signal(change, None)
         self.step = study.step
@@ -118,8 +115,8 @@ class ShownLesson:
         self.step = self.study.lesson.step(number)
         self.outcomes = None
         model = self.study.model_of(self.step)
-        if self._follow is not None:
-            self._follow(model)
+        if self._text is not None:
+            self._text.follow(model)
         elif model != self._model:
             self.other_model = model.name
         else:
@@ -175,10 +172,16 @@ class ShownLesson:
                 self.changed.touch()
 
     def _read(self, step: LessonStep) -> list[DemandResult]:
+        model, trusted = self.study.model_of(step), self.study.trusted
         with self._change.lock:
-            texts = dict(self._texts())
+            text, texts = self._text, dict(self._texts())
+            loaded = None if text is None else text.known(model, texts, trusted)
+        work = self.study.work_of(step, loaded, edited=texts)
         with unsaved(texts):
-            return self.study.outcomes(step, self.study.work_of(step, edited=texts))
+            return self.study.outcomes(step, work)
+
+    def _texts(self) -> Mapping[str, str]:
+        return {} if self._text is None else self._text.texts
 
     def _count(self, step: LessonStep, outcomes: Iterable[DemandResult]) -> None:
         self._keep(self.study.count, step, faults_in(outcomes))

@@ -33,6 +33,7 @@ class ModelFiles:
         folder: the whole path of a student's folder, whose files are all there to be
             written; None for the package of the model.
         others: further files that are there to be written.
+        trusted: whether the files of the server are evaluated as trusted ones.
     """
 
     model: Path
@@ -40,6 +41,7 @@ class ModelFiles:
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     folder: Path | None = None
     others: Callable[[], Iterable[Path]] = tuple
+    trusted: bool = True
 
     def named(self, paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:
         """Yield the name of each file that is in the package, and its whole path.

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
-from sambot_viz.errors import Edit, Place, UsageError
+from sambot_viz.errors import Edit, Place, RobotError, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
@@ -76,6 +76,7 @@ class ModelText:
         edits: ModelEdits | None = None,
     ) -> None:
         self._robot, self._checks, self._problems = robot, checks, problems
+        self._saved = saved
         self._files = self._of_server = files
         self._edits, self._saves, self._was_other = edits, 0, False
         self._paths: dict[str, Path] = {}
@@ -117,6 +118,22 @@ class ModelText:
     def wait(self, timeout: float) -> bool:
         """Wait until each text is shown, or its problems; False for longer [s]."""
         return self._loader.wait(timeout)
+
+    def known(
+        self, model: Path, texts: Texts, trusted: bool
+    ) -> Robot | RobotError | None:
+        """Return what loading a model would give; None where that is not known.
+
+        Args:
+            model: its file.
+            texts: those that differ from the disk.
+            trusted: as for `load_robot`.
+        """
+        return self._loader.known(model.absolute(), texts, trusted)
+
+    def forget(self) -> None:
+        """Forget what is known of the model: a file that it needs came or went."""
+        self._loader.forget()
 
     @property
     def checked(self) -> Mapping[str, int]:
@@ -397,6 +414,9 @@ class ModelText:
         """Compare with the disk what another program may have saved."""
         self._find()
         looked = [buffer.look() for buffer in self._buffers.values()]
+        # What this session has saved is what it has loaded.
+        own = {b.path for b in self._buffers.values() if b.theirs is None}
+        self._loader.forget(None if any(looked) else self._saved.value - own)
         if self._was_other:
             # The server follows its own model only.
             self._saves += 1

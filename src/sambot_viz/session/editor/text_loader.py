@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from sambot_viz.errors import RobotError
 from sambot_viz.robot.model import Robot
 from sambot_viz.session.background import Background
+from sambot_viz.session.editor.file_text import read_file_text
 from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.robot.robot_state import RobotState
 from sambot_viz.session.shown_problems import Checks, Problems
@@ -41,6 +42,12 @@ class ModelState(NamedTuple):
     arguments: Mapping[str, str]
     typed: frozenset[str]
     versions: Mapping[str, int]
+
+
+class _Result(NamedTuple):
+    robot: Robot | RobotError
+    state: ModelState
+    trusted: bool
 
 
 class TextLoader:
@@ -81,8 +88,9 @@ class TextLoader:
         self._background = Background("sambot-viz-text")
         self._closed = False
         state = wanted()
-        self._shown = self._of_model(state)
+        self._shown = self._of_model(state.files.model, state.texts)
         self._loaded = state._replace(texts=self._shown)
+        self._result: _Result | None = None
 
     def close(self) -> None:
         """Show nothing more."""
@@ -91,6 +99,47 @@ class TextLoader:
     def wait(self, timeout: float) -> bool:
         """Wait until each text is shown, or its problems; False for longer [s]."""
         return self._background.wait(timeout)
+
+    def known(
+        self, model: Path, texts: Texts, trusted: bool, arguments: Texts | None = None
+    ) -> Robot | RobotError | None:
+        """Return what a model gives with some texts; None where that is not known.
+
+        It is known when these texts, or the same ones in the files by now, were loaded
+        last.
+
+        Args:
+            model: the whole path of its file.
+            texts: as in `ModelState`; those of other files do not count.
+            trusted: as for `load_robot`.
+            arguments: as in `ModelState`.
+        """
+        result = self._result
+        if result is None or (model, trusted, arguments or {}) != (
+            result.state.files.model,
+            result.trusted,
+            result.state.arguments,
+        ):
+            return None
+        asked, loaded = self._of_model(model, texts), result.state.texts
+        # What no text is known of may have been saved by another program.
+        if not loaded or not asked.keys() <= loaded.keys():
+            return None
+        now = (
+            asked[file] if file in asked else read_file_text(Path(file)).text
+            for file in loaded
+        )
+        return result.robot if [*now] == [*loaded.values()] else None
+
+    def forget(self, saved: Iterable[Path] | None = None) -> None:
+        """Load again what was loaded last.
+
+        Args:
+            saved: only if one of these files is of the model; None in any case.
+        """
+        files = self._files_of(self._loaded.files.model)
+        if saved is None or not files.isdisjoint(saved):
+            self._result = None
 
     def begin(self, *, rests: bool = True) -> None:
         """Show what is wanted now, soon; then check it.
@@ -102,18 +151,22 @@ class TextLoader:
         self._background.do(self, self._load_newest)
         self._background.do(self._checks, self._check, after=0.0 if rests else REST)
 
-    def _of_model(self, state: ModelState) -> Texts:
+    def _of_model(self, model: Path, texts: Texts) -> Texts:
         """Return the texts of the files that the robot is loaded from."""
+        known = self._files_of(model)
+        return {file: text for file, text in texts.items() if Path(file) in known}
+
+    def _files_of(self, model: Path) -> set[Path]:
         robot = self._robot.model
         files = (() if robot is None else robot.files, self.suspects)
-        known = {state.files.model, *(p.absolute() for each in files for p in each)}
-        return {file: text for file, text in state.texts.items() if Path(file) in known}
+        return {model, *(p.absolute() for each in files for p in each)}
 
     def _load_newest(self) -> None:
         try:
             with self._change.lock:
                 state = self._wanted()
-                state = state._replace(texts=self._of_model(state))
+                texts = self._of_model(state.files.model, state.texts)
+                state = state._replace(texts=texts)
                 if self._closed or _of_robot(state) == _of_robot(self._loaded):
                     return
             self._load(state)
@@ -124,18 +177,24 @@ class TextLoader:
         files, texts, arguments = state.files, state.texts, state.arguments
         is_own = state.is_other or bool(texts or arguments)
         trusted = self._trusts_typed or state.typed.isdisjoint(texts)
-        try:
-            with unsaved(texts):
-                robot = files.load(files.model, trusted, texts, arguments)
-        except RobotError as error:
-            with self._change():
-                self._loaded, self.suspects = state, error.files
-                self._problems.set_text(error.problems if is_own else None)
-            return
+        as_trusted = trusted and files.trusted
+        robot, result = self.known(files.model, texts, as_trusted, arguments), None
+        if robot is None:
+            try:
+                with unsaved(texts):
+                    robot = files.load(files.model, trusted, texts, arguments)
+            except RobotError as error:
+                robot = error
+            result = _Result(robot, state, as_trusted)
         with self._change():
+            self._loaded, self._result = state, result or self._result
+            if isinstance(robot, RobotError):
+                self.suspects = robot.files
+                self._problems.set_text(robot.problems if is_own else None)
+                return
             if self._closed:
                 return
-            self._loaded, self._shown = state, texts
+            self._shown = texts
             self._checks.texts, self.suspects = texts, ()
             self._problems.set_text(() if is_own else None)
             self._show(robot, is_own)
@@ -143,7 +202,7 @@ class TextLoader:
     def _check(self) -> None:
         with self._change.lock:
             state = self._wanted()
-            of_model = self._of_model(state)
+            of_model = self._of_model(state.files.model, state.texts)
             if self._closed:
                 return
             around = {f: t for f, t in state.texts.items() if f not in of_model}
