@@ -6,6 +6,7 @@ with the problem beside it. Nothing is written to the disk but by `save`.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -170,8 +171,8 @@ class ModelText:
         """Return the name of a file; "" for what is no file of the model."""
         if file is None:
             return ""
-        found = (n for n, _ in self._files.named([Path(file)]) if n in self._paths)
-        return next(found, "")
+        whole = Path(os.path.abspath(file))
+        return next((name for name, path in self._paths.items() if path == whole), "")
 
     @property
     def expanded(self) -> str:
