@@ -94,6 +94,18 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
         (PARAMETERS, "radius: 0.1", "radius: 0,1", "radius is the text 0,1"),
         (PARAMETERS, "PathAlign.for", "PaathAlign.for", "FollowPath lists PathAlign"),
         (PARAMETERS, "twist_mux:", "twist_mx:", "but probably twist_mux is meant"),
+        (
+            PARAMETERS,
+            "tracker:\n  ros__parameters:\n    debug: true\n    kind: tree\n    r",
+            "tracker:\nros__parameters:\n  debug: true\n  kind: tree\n  r",
+            "ros__parameters is beside tracker (line 1), not below it",
+        ),
+        (
+            PARAMETERS,
+            "  ros__parameters:\n    debug: true\n    kind: tree\n    radius",
+            "  ros__parameters:\n  debug: true\n  kind: tree\n  radius",
+            "debug is beside ros__parameters (line 2), not below it",
+        ),
         (MAP, "image: map", "image: maps", "has the image maps.pgm, which is not"),
         (MAP, "negate:", "neagte:", "this map has no negate"),
     ],

@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Iterator
 
 from sambot_viz.checks.around.files.gazebo import facts
-from sambot_viz.checks.around.files.parameters import YamlFile
+from sambot_viz.checks.around.files.parameters import YamlFile, pairs
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.includes import installed_as
 from sambot_viz.checks.around.running.known import known_nodes
@@ -30,6 +30,9 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
             continue
         # What another launch file chooses is its own question.
         is_named = posixpath.basename(shown) in _text_of(around, place.file)
+        if node.name in {key.value for key, _ in pairs(file.root)} or "" in file.nodes:
+            # It is named, or could be: what is below its name is another question.
+            continue
         alone = len({node.path for node, _ in users}) == 1
         if alone and is_named and node.starts == "yes" and _is_called(node):
             yield _unread(node, place, file)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import yaml
@@ -15,6 +16,7 @@ from sambot_viz.checks.around.files.parameters import (
     place_of,
 )
 from sambot_viz.checks.around.node_parts import parts_by_node
+from sambot_viz.checks.around.place import moved_right, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
 from sambot_viz.edits import write
@@ -39,6 +41,11 @@ def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
         for above, node in each_mapping(file.root, left_out=(_KEY,)):
             keys = (key for key, _ in pairs(node) if key.value == _KEY)
             places = [place_of(key, file.shown) for key in keys]
+            level = list(pairs(node))
+            for (key, value), (below, _) in pairwise(level):
+                if _KEY in (key.value, below.value) and _is_empty(value):
+                    yield _beside(key, below, file.shown)
+                    places.clear()
             if places and not above:
                 yield _nameless(places[0], "at the top, below no node")
             elif len(places) > 1:
@@ -54,6 +61,24 @@ def _nameless(place: Place, what: str) -> Problem:
         "level above; the node that the file is for stops, or has no parameters",
         "write the name of the node and a colon above this line, two blanks further "
         "to the left",
+    )
+
+
+def _is_empty(node: yaml.Node) -> bool:
+    return isinstance(node, yaml.ScalarNode) and not node.value and not node.style
+
+
+def _beside(key: yaml.ScalarNode, below: yaml.ScalarNode, shown: str) -> Problem:
+    """Report what is beside a key that has nothing below it."""
+    place = place_of(below, shown)
+    return Problem.at(
+        place,
+        "error",
+        "parameters-key",
+        f"{below.value} is beside {key.value} "
+        f"({where(place_of(key, shown), place)}), not below it: the node that the file "
+        "is for stops, or has no parameters",
+        moved_right(place, 2, whole=key.value == _KEY),
     )
 
 

@@ -6,7 +6,7 @@ import ast
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
-from sambot_viz.edits import together, write_between
+from sambot_viz.edits import source_of, together, write_between
 from sambot_viz.errors import Fix, Place
 
 # A model that is in no package needs no YAML.
@@ -67,3 +67,28 @@ def rewritten(node: ast.expr | ast.stmt, file: str, right: str, hint: str = "") 
     line, column = node.end_lineno or node.lineno, node.end_col_offset or 0
     end = Place(file, line, column + 1)
     return write_between(begin, end, right, hint or f"write {right}")
+
+
+def moved_right(place: Place, blanks: int, *, whole: bool) -> Fix:
+    """Return the fix that moves lines of YAML to the right.
+
+    Args:
+        place: where the first of them begins, with its column.
+        blanks: by how many.
+        whole: move what follows at the same level too, not only what is below it.
+    """
+    hint = f"write {blanks} blanks more before this line and those that belong to it"
+    source, column = source_of(place.file), (place.column or 1) - 1
+    if source is None:
+        return Fix(hint)
+    lines = source.text.split("\n")[place.line - 1 :]
+    fixes: list[Fix] = []
+    for number, line in enumerate(lines, place.line):
+        depth, text = len(line) - len(line.lstrip()), line.strip()
+        is_beside = depth == column and number > place.line
+        if text and text[0] != "#" and (depth < column or is_beside and not whole):
+            break
+        if text and depth >= column:
+            at = Place(place.file, number, 1)
+            fixes.append(write_between(at, at, " " * blanks, hint))
+    return together(hint, *fixes)
