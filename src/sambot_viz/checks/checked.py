@@ -82,7 +82,10 @@ def check_all(
         around += _of_configs(target, robot)
         loaded.append(_Loaded(target, robot, tuple(around)))
     problems += _of_packages(targets, loaded)
-    problems += [p for package in _alone(targets, loaded) for p in _of_config(package)]
+    for package in _alone(targets, loaded):
+        problems += _of_config(package)
+        for path in _others(package):
+            problems += _of_config(package, path=path)
     return Checked(targets.models, tuple(in_order(problems)))
 
 
@@ -224,24 +227,37 @@ def _of_configs(target: CheckedModel, robot: Robot) -> list[Problem]:
     around = Surroundings(robot, target.packages)
     found = [p for each in target.packages for p in _of_config(each, around)]
     for package in target.packages:
-        for path in _opened(package):
-            of_file = _of_config(package, around, path)
-            found += [p for p in of_file if p.code == "setup-fixed-frame"]
+        opened = _opened(package)
+        for path in _others(package):
+            # Which robot the others are for is known of those that are opened.
+            of_file = _of_config(package, around if path in opened else None, path)
+            found += [p for p in of_file if p.code not in _OF_FIRST]
     return found
+
+
+_OF_FIRST = frozenset(
+    """
+    config-class setup-description-topic setup-description-volatile
+    setup-no-robot-model
+    """.split()
+)
+"""What the first .rviz file of a package alone is for, or another rule reports."""
+
+
+def _others(package: Package) -> list[Path]:
+    """Return the .rviz files of a package but its first."""
+    first = config_in(package.folder)
+    files = [package.folder / path for path in package.ending(".rviz")]
+    return [file for file in files if file != first]
 
 
 def _opened(package: Package) -> list[Path]:
     """Return the other .rviz files of a package that its launch files open."""
-    first = config_in(package.folder)
     said = [text for launch in package.launches for text in launch.strings]
     for root in package.frontends:
         said += [v for e in root.iter() for v in e.attributes.values()]
-    return [
-        package.folder / path
-        for path in package.ending(".rviz")
-        if any(text.endswith(path.rpartition("/")[2]) for text in said)
-        and package.folder / path != first
-    ]
+    others = _others(package)
+    return [each for each in others if any(text.endswith(each.name) for text in said)]
 
 
 def _of_config(

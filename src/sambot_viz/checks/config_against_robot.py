@@ -177,7 +177,9 @@ def _is_robot_model(display: DisplayConfig) -> bool:
 
 def _fixed_frame(robot: Robot, config: RvizConfig) -> Iterator[Problem]:
     frame = str(config.global_options.get("Fixed Frame")).lstrip("/")
-    if not frame or frame in robot.links:
+    said = {*config.global_options.node.keys()}
+    misspelt = "Fixed Frame" not in said and nearest("Fixed Frame", said, _LIKENESS)
+    if not frame or frame in robot.links or misspelt:
         return
     near = did_you_mean(frame, robot.links)
     better = f"{near}; " if near.startswith("did you mean") else ""

@@ -42,6 +42,8 @@ Visualization Manager:
       Topic:
         Depth: 5
         Value: /map
+    - Class: rviz_imu_plugin/Imu
+      Enabled: false
   Tools:
     - Class: rviz_default_plugins/SetGoal
       Topic:
@@ -70,6 +72,10 @@ def package(tmp_path: Path) -> Path:
         ("Value: /map", "Vlaue: /map", "config-property"),
         ("Depth: 5", "Dept: 5", "config-property"),
         ("Class: rviz_default_plugins/Map", "Cllass: rviz_default_plugins/Map", NAME),
+        ("    Fixed Frame", "    Fxed Frame", NAME),
+        ("      Enabled: true\n      Topic", "      Topic", NAME),
+        ("Enabled: true\n      L", "Enabled: ture\n      L", "config-value"),
+        ("rviz_imu_plugin/Imu\n      E", "rviz_imu_plugin/Imu\n      Ee", NAME),
         ("<Fixed Frame>", "<Fiexd Frame>", "frame-unknown"),
         ("plugins/SetGoal", "plugin/SetGoal", "config-class"),
         ("Source: Topic", "Source: File", "setup-description-topic"),
@@ -100,6 +106,25 @@ def test_all_properties_that_are_declared_are_in_the_vocabulary() -> None:
         names.add(one.name.replace(" ", "_"))
         waiting += one.children
     assert names <= {*vocabulary("rviz_classes")["properties"]}
+
+
+def test_settings_of_a_second_config_count_too(package: Path) -> None:
+    text = (package / CONFIG).read_text()
+    second = package / "rviz/second.rviz"
+    second.write_text(text.replace("Enabled: true\n      L", "Enabled: ture\n      L"))
+    (problem,) = check(package)
+    assert problem.code == "config-value"
+    assert edited_files(problem.edits)[str(second)].decode() == text
+
+
+def test_a_class_at_another_key_is_put_back(package: Path) -> None:
+    path, text = package / CONFIG, (package / CONFIG).read_text()
+    right = "Class: rviz_default_plugins/Map\n      Color: 1; 2; 3"
+    text = text.replace("Class: rviz_default_plugins/Map", right)
+    exchanged = "Class: 1; 2; 3\n      Color: rviz_default_plugins/Map"
+    path.write_text(text.replace(right, exchanged))
+    problem = next(p for p in check(package) if "no class 1; 2; 3" in p.message)
+    assert edited_files(problem.edits)[str(path)].decode() == text
 
 
 def test_the_fixed_frame_counts_in_each_config_that_is_opened(package: Path) -> None:

@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import yaml
 
 from sambot_viz.checks.around.files.gazebo import Fact
-from sambot_viz.checks.around.files.parameters import YamlFile, pairs, place_of
+from sambot_viz.checks.around.files.parameters import (
+    YamlFile,
+    each_mapping,
+    pairs,
+    place_of,
+)
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.words import meant_word
 from sambot_viz.checks.vocabulary import vocabulary
-from sambot_viz.edits import write
-from sambot_viz.errors import Problem, nearest
+from sambot_viz.edits import together, write, write_between
+from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _OWN = ("rviz_default_plugins", "rviz_common")
 _OPEN = frozenset(
-    {"Frames", "Links", "Namespaces", "Transformation", "Tree", "Visibility"}
-)
-"""What names in a robot or a topic are below."""
+    """
+    Displays Frames Links Namespaces Saved Tools Transformation Tree Views Visibility
+    """.split()
+) | {"Global Options"}
+"""What names in a robot or a topic are below, or other displays, tools and views."""
+_GLOBAL = {
+    name: f"rviz_common/{name}" for name in ("Visualization Manager", "Global Options")
+}
+"""Maps without a class that RViz itself reads."""
+_CLASS = re.compile(r"[A-Za-z][\w: /-]*")
+_OF_ALL = ("Class", "Enabled", "Name", "Topic")
+"""Properties that the displays of other packages have too."""
+_ON = ("Enabled", "Value")
+"""Either of them switches a display on."""
 _LIKE_PROPERTY, _LIKE_CLASS = 0.8, 0.87
 _FRAMES, _FIXED = ("Target Frame", "Reference Frame"), "<Fixed Frame>"
 """Properties that name a frame, and what stands there for the fixed one."""
@@ -33,13 +50,13 @@ class _Settings(NamedTuple):
         owner: the class of the display, tool or view that it belongs to.
         values: its keys and values, those that are texts.
         keys: the keys, with their places.
-        is_whole: it is that display, tool or view itself.
+        above: the key that this display, tool or view is below; empty for a map in it.
     """
 
     owner: str
     values: Mapping[str, Fact]
     keys: Mapping[str, Fact]
-    is_whole: bool
+    above: str
 
 
 def _settings(around: Surroundings) -> Iterator[_Settings]:
@@ -50,28 +67,25 @@ def _settings(around: Surroundings) -> Iterator[_Settings]:
 
 
 def _in_config(file: YamlFile) -> Iterator[_Settings]:
-    waiting, shown, met = [(file.root, "")], file.shown, set[int]()
-    while waiting:
-        node, owner = waiting.pop()
-        # Aliases put one node into many places.
-        if id(node) in met:
-            continue
-        met.add(id(node))
-        if isinstance(node, yaml.SequenceNode):
-            waiting += [(each, "") for each in reversed(node.value)]
-            continue
-        both = list(pairs(node))
-        keys = {key.value: Fact(key.value, place_of(key, shown)) for key, _ in both}
-        values = {
-            key.value: Fact(value.value, place_of(value, shown))
-            for key, value in both
-            if isinstance(value, yaml.ScalarNode)
-        }
+    for above, node in each_mapping(file.root):
+        values = _values(node, file.shown)
         kind = values.get("Class") or _misspelt_class(values)
-        owner = kind.value if kind is not None else owner
-        if owner:
-            yield _Settings(owner, values, keys, kind is not None)
-        waiting += [(v, owner) for k, v in both[::-1] if k.value not in _OPEN]
+        owner = (kind.value if kind is not None else "") or _GLOBAL.get(above, "")
+        for _, inner in each_mapping(node, left_out=_OPEN) if owner else ():
+            both = ((key.value, place_of(key, file.shown)) for key, _ in pairs(inner))
+            keys = {name: Fact(name, place) for name, place in both}
+            yield _Settings(
+                owner, _values(inner, file.shown), keys, above * (inner is node)
+            )
+
+
+def _values(node: yaml.Node, shown: str) -> dict[str, Fact]:
+    """Return the keys of a mapping with their values that are texts."""
+    return {
+        key.value: Fact(value.value, place_of(value, shown))
+        for key, value in pairs(node)
+        if isinstance(value, yaml.ScalarNode)
+    }
 
 
 def _misspelt_class(values: Mapping[str, Fact]) -> Fact | None:
@@ -119,9 +133,16 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
                 f"RViz has no {what}{one.owner}: it shows an error in its place",
                 write(kind.place, one.owner, near),
             )
-        for key in one.keys.values() if package in _OWN else ():
+        elif kind is not None and not _CLASS.fullmatch(one.owner):
+            yield _no_class(kind, one, classes)
+        known = table["properties"]
+        for key in one.keys.values():
             word = key.value.replace(" ", "_")
-            right = meant_word(table["properties"], word, _LIKE_PROPERTY)
+            if package in _OWN:
+                right = meant_word(known, word, _LIKE_PROPERTY)
+            else:
+                slips = (each for each in _OF_ALL if is_one_slip(word, each))
+                right = None if word in known else next(slips, None)
             right = (right or "").replace("_", " ")
             if right and right not in one.keys:
                 follows = "which it needs: RViz leaves it out"
@@ -136,10 +157,48 @@ def unknown_settings(around: Surroundings) -> Iterator[Problem]:
                 )
 
 
+def _no_class(kind: Fact, one: _Settings, classes: list[str]) -> Problem:
+    """Report a Class without a package; the class may be at another key."""
+    other = next((each for each in one.values.values() if each.value in classes), None)
+    fix = Fix("write a class such as rviz_default_plugins/Grid")
+    if other is not None:
+        fix = together(
+            f"write {other.value}, and {kind.value} there",
+            write(kind.place, kind.value, other.value),
+            write(other.place, other.value, kind.value),
+        )
+    return Problem.at(
+        kind.place,
+        "warning",
+        "config-class",
+        f"RViz has no class {kind.value}: it shows an error in its place",
+        fix,
+    )
+
+
+def switched_off(around: Surroundings) -> Iterator[Problem]:
+    """Report displays that nothing switches on or off, which RViz leaves off."""
+    for one in _settings(around):
+        kind = one.values.get("Class")
+        given = any(is_one_slip(key, on) for key in one.keys for on in _ON)
+        if one.above == "Displays" and kind is not None and not given:
+            key = one.keys["Class"].place
+            below, blanks = Place(key.file, key.line + 1, 1), (key.column or 1) - 1
+            line = f"{' ' * blanks}Enabled: true\n"
+            yield Problem.at(
+                kind.place,
+                "warning",
+                "config-property",
+                f"the display {kind.value.rpartition('/')[2]} has no Enabled: RViz "
+                "leaves it switched off",
+                write_between(below, below, line, "add Enabled: true"),
+            )
+
+
 def robots_without_source(around: Surroundings) -> Iterator[Problem]:
     """Report displays of a robot that name no file, or a prefix that no frame has."""
     for one in _settings(around):
-        if not one.is_whole or one.owner.rpartition("/")[2] != "RobotModel":
+        if not one.above or one.owner.rpartition("/")[2] != "RobotModel":
             continue
         source, file = (one.values.get(f"Description {n}") for n in ("Source", "File"))
         if source is not None and source.value == "File" and not (file and file.value):

@@ -86,7 +86,7 @@ def moved_right(place: Place, blanks: int, *, whole: bool) -> Fix:
     for number, line in enumerate(lines, place.line):
         depth, text = len(line) - len(line.lstrip()), line.strip()
         is_beside = depth == column and number > place.line
-        if text and text[0] != "#" and (depth < column or is_beside and not whole):
+        if text and text[0] != "#" and (depth < column or (is_beside and not whole)):
             break
         if text and depth >= column:
             at = Place(place.file, number, 1)

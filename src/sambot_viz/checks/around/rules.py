@@ -51,6 +51,7 @@ from sambot_viz.checks.around.dependencies import (
 from sambot_viz.checks.around.display_topics import unseen_topics
 from sambot_viz.checks.around.display_words import (
     robots_without_source,
+    switched_off,
     unknown_frames_of_views,
     unknown_settings,
 )
@@ -318,6 +319,7 @@ OF_FILES: tuple[Check, ...] = (
     missing_files,
     unread_parameters,
     unknown_settings,
+    switched_off,
     unknown_frames_of_views,
     undeclared_controllers,
     unknown_controllers,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, SupportsFloat, cast
 
+from sambot_viz.errors import nearest
 from sambot_viz.rviz.properties.number_text import (
     INT_LIMIT,
     float32,
@@ -65,10 +66,12 @@ def read_bool(node: Scalar, report: Report, name: str) -> bool:
         )
         return False
     if text not in _MEANT_TRUE:
+        near = nearest(text, ("true", "false"), 0.7) or ""
         report(
             node,
             f"'{name}' is {node.text!r}, which RViz reads as true",
-            "write true or false",
+            f"write {near or 'true or false'}",
+            near,
         )
     return True
 
