@@ -104,6 +104,7 @@ CASES = [
     (CMAKE, "VERSION", "version", "cmake_minimum_required( … ) has version"),
     (CMAKE, "project(", "projcet(", "there is no command projcet()"),
     (CMAKE, "install(", "instal(", "there is no command instal()"),
+    (CMAKE, "REQUIRED", "required", "find_package knows no word required"),
     (CMAKE, "DESTINATION", "destination", "install( … ) has destination"),
     (CMAKE, "DIRECTORY", "DIRECTROY", "install( … ) has DIRECTROY"),
     (CMAKE, "ament_package()", "ament_package(", "the ( of ament_package is not"),

@@ -36,6 +36,8 @@ controller_manager:
 wheels:
   ros__parameters:
     wheel_separation: 0.3
+    left_wheel_names: [left]
+    right_wheel_names: [right]
 """
 
 

@@ -68,6 +68,8 @@ controller_manager:
       type: diff_drive_controller/DiffDriveController
 drive:
   ros__parameters:
+    left_wheel_names: [left]
+    right_wheel_names: [right]
     wheel_radius: 0.1
     linear.x.max_velocity: .NAN
 ekf_filter_node:

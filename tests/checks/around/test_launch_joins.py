@@ -70,6 +70,7 @@ def generate_launch_description():
             gazebo,
             spawn,
             ExecuteProcess(cmd=["sh", "-c", "echo a b"]),
+            ExecuteProcess(cmd=["ros2", "control", "load_controller", "a"]),
             RegisterEventHandler(OnProcessExit(target_action=spawn, on_exit=[first])),
             RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[second])),
             TimerAction(period=5.0, actions=[teleop]),
@@ -104,6 +105,10 @@ def test_what_is_right_is_left_alone(package: Path) -> None:
         ("' sim:='", "'sim:='", "becomes a part of the word before it"),
         ("'-r '", "'-r'", "without a blank: -r and what follows"),
         ("'/launch', '/gz_sim", "'launch', 'gz_sim", "without a slash"),
+        ('"control"', '"cotnrol"', "ros2 has no command cotnrol, but control"),
+        ('"load_', '"laod_', "ros2 control has no command laod_controller"),
+        ("('cmd_vel'", "('cmdvel'", "uses no name cmdvel, but cmd_vel"),
+        ("n('model')\n", "n(model)\n", "model is used here, but gets its first"),
         ("5.0", "'5s'", "the period '5s' is not a number of seconds"),
         ("target_action=spawn", "target_action='spawn'", "not the text 'spawn'"),
         (
@@ -131,6 +136,7 @@ def test_what_launch_takes_otherwise(
     good = launch.read_text().replace('" sim:="', "' sim:='")
     good = good.replace('"-r "', "'-r '").replace('"/launch", "/gz', "'/launch', '/gz")
     good = good.replace('sim.launch.py"', "sim.launch.py'")
+    good = good.replace('n("model")\n', "n('model')\n")
     launch.write_text(good.replace(right, wrong, 1))
     assert launch.read_text() != good
 
@@ -146,6 +152,22 @@ def test_a_handler_of_what_never_starts(package: Path) -> None:
     (problem,) = check(package)
     assert "waits for the end of spawn, which nothing starts" in problem.message
     assert problem.hint == "add spawn to that list (line 42)"
+
+
+def test_an_option_of_a_spawner_needs_its_value(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    launch.write_text(PYTHON.replace('["b"]', '["b", "--param-file"]'))
+    (problem,) = check(package)
+    assert "--param-file of the spawner has no value after it" in problem.message
+
+
+def test_parts_of_a_path_in_a_misspelt_call_need_no_slash(package: Path) -> None:
+    launch = package / "launch" / "all.launch.py"
+    right = '[FindPackageShare("ros_gz_sim"), "/launch", "/gz_sim.launch.py"]'
+    path = '[PathJoinSubstituton([FindPackageShare("ros_gz_sim"), "launch", "a"])]'
+    launch.write_text(PYTHON.replace(right, path))
+    (problem,) = check(package)
+    assert "neither imported nor defined" in problem.message
 
 
 def test_a_command_in_xml_without_a_blank(package: Path) -> None:

@@ -10,6 +10,7 @@ from edited import edited_files
 from sambot_viz.checks import check
 from sambot_viz.errors import Problem
 
+EKF = "config/ekf.yaml"
 PARAMETERS, MAP, SLAM = "config/params.yaml", "maps/map.yaml", "config/slam.yaml"
 FILES = {
     "package.xml": """\
@@ -41,6 +42,14 @@ twist_mux:
         topic: cmd_vel_joy
         timeout: 0.5
         priority: 10
+""",
+    EKF: """\
+ekf_filter_node:
+  ros__parameters:
+    odom0: odom
+    map_frame: map
+    odom_frame: odom
+    world_frame: odom
 """,
     SLAM: """\
 slam_toolbox:
@@ -93,6 +102,9 @@ def found(package: Path, file: str, right: str, wrong: str) -> Problem:
         (PARAMETERS, "debug: true", "debug: ture", "debug is the text ture"),
         (PARAMETERS, "radius: 0.1", "radius: 0,1", "radius is the text 0,1"),
         (PARAMETERS, "PathAlign.for", "PaathAlign.for", "FollowPath lists PathAlign"),
+        (PARAMETERS, "topics:", "topiics:", "twist_mux has no topiics, but topics"),
+        (PARAMETERS, "timeout:", "time_out:", "has no parameter time_out"),
+        (EKF, "odom_frame: odom", "odom_frame: map", "map_frame and odom_frame are"),
         (PARAMETERS, "twist_mux:", "twist_mx:", "but probably twist_mux is meant"),
         (
             PARAMETERS,
@@ -141,3 +153,15 @@ def test_what_is_missing_has_the_line_where_it_is_needed(
     problem = found(package, file, right, wrong)
     assert cause in problem.message
     assert abs((problem.line or 0) - line) <= 1
+
+
+@pytest.mark.parametrize("given", ["left_wheel_names: [l]", "right_wheel_names: [r]"])
+def test_a_controller_needs_the_wheels_of_both_sides(package: Path, given: str) -> None:
+    (package / "config/wheels.yaml").write_text(
+        "controller_manager:\n  ros__parameters:\n    wheels:\n"
+        "      type: diff_drive_controller/DiffDriveController\n"
+        f"wheels:\n  ros__parameters:\n    {given}\n"
+    )
+    (problem,) = problems(package)
+    assert (problem.severity, problem.line) == ("warning", 7)
+    assert "_wheel_names, which its class needs" in problem.message

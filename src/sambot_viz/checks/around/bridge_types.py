@@ -12,6 +12,7 @@ from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write
 from sambot_viz.errors import Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _PAIRS = vocabulary("ros_gz_bridge")
 """ROS type → the types of Gazebo that ros_gz_bridge turns it into."""
@@ -106,7 +107,9 @@ def _near_gz_type(written: str) -> str | None:
 
 
 def _near_name(name: str, names: Sequence[str]) -> str | None:
-    same = (known for known in names if known.lower() == name.lower())
+    # Int32 is another type than UInt32, and no slip.
+    slips = names if name.isalpha() else ()
+    same = (k for k in slips if is_one_slip(k.lower(), name.lower()))
     return (
         name if name in names else next(same, None) or nearest(name, names, _LIKE_TYPE)
     )

@@ -11,8 +11,10 @@ from sambot_viz.checks.around.manifest import named_as_its_folder
 from sambot_viz.checks.around.place import line_fix, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.rule import listed
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import together, write, write_between
 from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _FOUND = re.compile(r"\$\(find ([^)\s]+)\)|package://([^/\s\"']+)/")
 _MODELS = (".xacro", ".urdf", ".sdf")
@@ -30,6 +32,8 @@ _WITHOUT_AMENT = frozenset(
     """.split()
 )
 """What CMake finds outside of ROS; packages of ROS bring the commands of ament."""
+_LISTS = frozenset({"COMPONENTS", "OPTIONAL_COMPONENTS", "NAMES", "HINTS", "PATHS"})
+"""Words of find_package that have names after them."""
 _END = "ament_package"
 _PLACES = frozenset({"DESTINATION", "TYPE"})
 _BEFORE = frozenset({"ament_package_xml", "rosidl_generate_interfaces"})
@@ -48,6 +52,29 @@ def unreadable_cmake(around: Surroundings) -> Iterator[Problem]:
             f"CMake cannot read this file: {cmake.fault.cause}; colcon build stops",
             line_fix(cmake.fault, place, around.files.text("CMakeLists.txt") or ""),
         )
+
+
+def misspelt_keywords(around: Surroundings) -> Iterator[Problem]:
+    """Report words of commands that are almost those in capital letters."""
+    cmake, table = around.cmake, vocabulary("cmake_keywords")
+    if cmake is None or cmake.fault is not None:
+        return
+    for command in cmake.commands:
+        known = table.get(command.name, ())
+        for word in command.words[command.name == "find_package" :] if known else ():
+            if word.text in _LISTS:
+                break
+            slips = [each for each in known if is_one_slip(word.text.upper(), each)]
+            if word.text not in known and len(slips) == 1:
+                place = cmake.place(word.line)
+                yield Problem.at(
+                    place,
+                    "error",
+                    "cmake-command-missing",
+                    f"{command.name} knows no word {word.text}, but {slips[0]}: colcon "
+                    "build stops",
+                    write(place, word.text, slips[0]),
+                )
 
 
 def missing_commands(around: Surroundings) -> Iterator[Problem]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.known_parameters import known_parameters
@@ -24,6 +26,7 @@ _WITH_VALUE = frozenset(
     """.split()
 )
 """Options of the spawner that have a value."""
+_OPTION = re.compile(r"--?[a-z-]*")
 _GENERIC = frozenset({"broadcaster", "controller"})
 """Words of many names."""
 _LIKENESS, _LIKE_CLASS = 0.9, 0.5
@@ -85,6 +88,26 @@ def undeclared_controllers(around: Surroundings) -> Iterator[Problem]:
                     write(place, name, near),
                 )
     yield from _unread_sections(around, declared)
+
+
+def options_without_value(around: Surroundings) -> Iterator[Problem]:
+    """Report an option of a spawner whose value is missing."""
+    known = known_nodes().nodes
+    for node in around.running.started:
+        program = known.get((node.package, node.executable))
+        if program is None or not program.does("spawns"):
+            continue
+        words = [*node.placed_arguments, ("--", node.place)]
+        for (word, place), (after, _) in pairwise(words):
+            if word in _WITH_VALUE and _OPTION.fullmatch(after or ""):
+                yield Problem.at(
+                    place,
+                    "error",
+                    "controller-unknown",
+                    f"{word} of the spawner has no value after it: the spawner stops "
+                    "with an error",
+                    f"write the value after {word}, or delete {word}",
+                )
 
 
 def _asked(node: RunningNode) -> Iterator[tuple[str, Place]]:

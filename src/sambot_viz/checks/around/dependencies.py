@@ -169,7 +169,7 @@ def misspelt_packages(around: Surroundings) -> Iterator[Problem]:
         near = _of_ros(name) or (slips[0] if len(slips) == 1 else None)
         required = "REQUIRED" in (word.text for word in call.words)
         known = name in vocabulary("packages") or name in needed
-        if known or near not in needed - found or not (required and call.certain):
+        if known or near not in needed - found or not required:
             continue
         place = cmake.place(call.words[0].line)
         yield Problem.at(

@@ -20,6 +20,7 @@ from sambot_viz.checks.around.running.known import known_nodes
 from sambot_viz.checks.around.running.simulated import possible_node
 from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
+from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem, Severity
 
@@ -27,6 +28,7 @@ _SENSED = frozenset("Image Imu LaserScan NavSatFix Odometry PointCloud2".split()
 """What robots have few sources of; others come from nodes that start later too."""
 _OF_SENSORS = frozenset("Imu LaserScan NavSatFix".split())
 """What hardly a node works out of other messages."""
+_CARRIED = frozenset(kind.rpartition("/")[2] for kind in vocabulary("ros_gz_bridge"))
 _MODEL = "String"
 """The type of robot descriptions, which the check of the config looks at."""
 
@@ -85,6 +87,9 @@ def _wrong(
         return
     fitting = [p for p in published if p.kind == kind]
     shown = {topic for topic, other in others if other is not each}
+    if any(p.is_simulated and p.kind not in _CARRIED for p in sources):
+        # No bridge has this type, which is another finding.
+        return
     if sources and sources[0].kind:
         free = [p for p in fitting if p.topic.value not in shown]
         yield _other_type(each, sources[0], free)

@@ -247,6 +247,9 @@ def world_frames(around: Surroundings) -> Iterator[Problem]:
         world = one.given.get("world_frame")
         if world is None or one.world_frame in (one.odom_frame, one.map_frame):
             continue
+        if one.odom_frame == one.map_frame:
+            # Another rule says which of the two it is.
+            continue
         other = one.given.get("odom_frame")
         if other is not None and _is_odd(around, one):
             users = [user for _, user in _used_odoms(around)]

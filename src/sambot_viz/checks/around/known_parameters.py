@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from sambot_viz.cached import cached_property
 from sambot_viz.errors import nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _TABLE = Path(__file__).parents[1] / "vocabularies" / "parameters.txt"
 _DISTRIBUTIONS: tuple[str, ...] = (
@@ -88,6 +89,8 @@ class KnownParameter:
         at_most: the parameter that is not smaller.
         counts: so many items a list has; empty for any number.
         age: the distributions that have it.
+        needed: the node does not start without it; for a name with *, without one for
+            each of the names that others have there.
         inside: the parameters of a part that it names.
     """
 
@@ -104,6 +107,7 @@ class KnownParameter:
     at_most: str = ""
     counts: tuple[int, ...] = ()
     age: Age = Age()
+    needed: bool = False
     inside: ParameterBlock | None = None
 
 
@@ -138,6 +142,17 @@ class ParameterBlock:
             if "*" in name
         ]
 
+    def _with_star(self, name: str) -> str | None:
+        """Return the name that differs in one part from one with a part of any name."""
+        parts, starred = name.split("."), (k for k in self.parameters if "*" in k)
+        for known in (each.split(".") for each in starred):
+            if len(known) == len(parts):
+                both = list(zip(known, parts, strict=True))
+                slips = [(a, b) for a, b in both if a not in ("*", b)]
+                if len(slips) == 1 and is_one_slip(*slips[0]):
+                    return ".".join(b if a == "*" else a for a, b in both)
+        return None
+
     @cached_property
     def parts(self) -> ParameterBlock:
         """All that the parts which it lists may have."""
@@ -163,6 +178,8 @@ class ParameterBlock:
         """
         if self.find(name) is not None:
             return None
+        if "." in name and (right := self._with_star(name)) is not None:
+            return None if right in given else right
         shape, digits = _NUMBER.sub("N", name), _NUMBER.search(name)
         near = nearest(shape, self.parameters, _LIKENESS) or (
             nearest(name, self.parameters, _LIKENESS)
@@ -274,6 +291,8 @@ def _known(name: str, kind: str, rest: list[str]) -> KnownParameter:
             known = replace(known, at_most=word[2:])
         elif word.startswith(("@", "->")):
             known = replace(known, age=Age.of(word.removeprefix("@")))
+        elif word == "needed":
+            known = replace(known, needed=True)
         elif word.startswith(":"):
             known = replace(known, base=word[1:])
         elif word.startswith("="):

@@ -233,11 +233,19 @@ def _advice(
     if name in _MODULES:
         return _imported(f"import {name}", file)
     near = nearest(name, sorted(own), 0.7) or nearest(name, known, 0.85)
+    if name in _texts(file.tree):
+        # It is quoted elsewhere: the name of an argument, of a package, of a node.
+        return rewritten(node, file.shown, f"'{name}'")
     if near in own:
         return write(file.place(node), name, near)
     if near is not None:
         return Fix(f"write {near}")
     return Fix("import it at the top of the file, or define it above this line")
+
+
+def _texts(tree: ast.Module) -> set[str]:
+    nodes = (n for n in ast.walk(tree) if isinstance(n, ast.Constant))
+    return {n.value for n in nodes if isinstance(n.value, str)}
 
 
 def _imported(line: str, file: LaunchFile | SetupFile) -> Fix:

@@ -12,7 +12,7 @@ from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import together, write, write_attribute, write_between
-from sambot_viz.errors import Place, Problem
+from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.robot.xml.element import Element
 
 _CODE = "launch-code"
@@ -21,6 +21,7 @@ _OPTION = re.compile(r"-{1,2}[A-Za-z][\w-]*\s+\S.*")
 _NUMBERS = re.compile(r"(-?[\d.]+\s+){3,}.*")
 _ASSIGNED = re.compile(r"\w+:=.*")
 _COMMAND = re.compile(r"\$\(command\s+(['\"]?)(\w+)\$\(")
+_LIKENESS = 0.85
 _FOLDERS = frozenset({"FindPackageShare", "ThisLaunchFileDir"})
 _PATHS = frozenset({"PathJoinSubstitution", "join"})
 
@@ -208,8 +209,11 @@ def joined_paths(around: Surroundings) -> Iterator[Problem]:
     for launch in around.launches:
         inner = {
             id(part)
-            for call in launch.called(*_PATHS)
-            for part in (*call.node.args, *(k.value for k in call.node.keywords))
+            for call in ast.walk(launch.tree)
+            if isinstance(call, ast.Call)
+            # One that is misspelt has another finding.
+            if nearest(call_name(call.func) or "", _PATHS, _LIKENESS)
+            for part in (*call.args, *(k.value for k in call.keywords))
         }
         for node in ast.walk(launch.tree):
             if isinstance(node, ast.List) and id(node) not in inner:

@@ -11,8 +11,11 @@ from sambot_viz.checks.around.launching.actions import Action, Expression, Joine
 from sambot_viz.checks.around.launching.python_parts import Call, Listing, Table
 from sambot_viz.checks.around.place import bracketed, rewritten
 from sambot_viz.checks.around.running.bridge_entries import bare
+from sambot_viz.checks.around.running.system import RunningNode
 from sambot_viz.checks.around.surroundings import Surroundings
-from sambot_viz.errors import Fix, Problem, nearest
+from sambot_viz.edits import write
+from sambot_viz.errors import Fix, Place, Problem, nearest
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 
 _CODE = "launch-code"
 _STOPS = "ros2 launch stops with it"
@@ -28,6 +31,8 @@ _LISTS = {
     "arguments": "the program gets each of its letters as an argument",
 }
 """Argument of a node that is a list → what happens when it is none."""
+_SHORT = 3
+"""So long a name may be one letter from many others."""
 _TRUTH = frozenset({"true", "false", "1", "0"})
 _SUBSTITUTION = re.compile(r"\$\(\s*(find|find-pkg-share|var|arg)\s+([\w.-]+)\s*\)")
 _IN_PYTHON = {
@@ -123,7 +128,10 @@ def reversed_remappings(around: Surroundings) -> Iterator[Problem]:
                 if len(parts) != 2 or not isinstance(pair, ast.Tuple) or node is None:
                     continue
                 old, new = (launch.values.said(part) or "" for part, _ in parts)
-                if not old or bare(old) in own or bare(new) not in own:
+                if not old or bare(old) in own:
+                    continue
+                if bare(new) not in own:
+                    yield from _misspelt(node, old, own, launch.place(parts[0][1]))
                     continue
                 right = ", ".join(ast.unparse(part) for part in reversed(pair.elts))
                 yield Problem.at(
@@ -134,6 +142,23 @@ def reversed_remappings(around: Surroundings) -> Iterator[Problem]:
                     "the name in the node to the new one, and this one has no effect",
                     rewritten(pair, launch.shown, f"({right})"),
                 )
+
+
+def _misspelt(
+    node: RunningNode, old: str, own: set[str], place: Place
+) -> Iterator[Problem]:
+    """Report a remapping from what is almost a name of the node."""
+    near = [name for name in own if is_one_slip(bare(old), name)]
+    is_word = near and not any(map(str.isdigit, old + near[0]))
+    if len(near) == 1 and is_word and len(near[0]) > _SHORT:
+        right = old.replace(bare(old), near[0])
+        yield Problem.at(
+            place,
+            "warning",
+            _CODE,
+            f"{node.name} uses no name {old}, but {right}: this has no effect",
+            write(place, old, right),
+        )
 
 
 def plain_conditions(around: Surroundings) -> Iterator[Problem]:

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from sambot_viz.checks.around.launch_code import PREDEFINED, names_in
+from sambot_viz.checks.around.launch_file import LaunchFile
+from sambot_viz.checks.around.place import rewritten
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.launch_files import call_name
 from sambot_viz.edits import write_between
@@ -91,6 +93,7 @@ def names_before_values(around: Surroundings) -> Iterator[Problem]:
         for node in ast.walk(launch.tree):
             if isinstance(node, ast.FunctionDef):
                 bodies.append((node.body, frozenset(names_in(node.args))))
+        quoted = {id(node) for node in _named(launch)}
         for body, known in bodies:
             for name, line in _too_early(body, known).values():
                 yield Problem.at(
@@ -99,8 +102,18 @@ def names_before_values(around: Surroundings) -> Iterator[Problem]:
                     "launch-code",
                     f"{name.id} is used here, but gets its first value in line {line}: "
                     f"{_STOPS}",
-                    f"write another name here, or move line {line} above this one",
+                    rewritten(name, launch.shown, f"'{name.id}'")
+                    if id(name) in quoted
+                    else f"write another name here, or move line {line} above this one",
                 )
+
+
+def _named(launch: LaunchFile) -> Iterator[ast.expr | None]:
+    """Give what names an argument, a package or a program, and so is mostly a text."""
+    for call in launch.called("LaunchConfiguration", "FindPackageShare"):
+        yield from call.node.args[:1]
+    for call in launch.called():
+        yield from map(call.given, ("package", "executable", "name"))
 
 
 def _too_early(

@@ -43,10 +43,11 @@ def _programs(around: Surroundings) -> Iterator[_Program]:
         for call in launch.in_use:
             given, package = call.given("executable"), call.given("package")
             name = launch.text(call, "executable") if call.name in NODES else None
-            if given is not None and name is not None:
+            said = launch.text(call, "package") if package is not None else ""
+            if given is not None and name is not None and said is not None:
                 place = launch.place(given)
                 there = call.place if package is None else launch.place(package)
-                yield _Program(launch.text(call, "package") or "", name, place, there)
+                yield _Program(said, name, place, there)
     for root in (root for package in around.packages for root in package.frontends):
         for node in root.iter():
             name, package = node.get("exec"), node.get("pkg")

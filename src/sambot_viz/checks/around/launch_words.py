@@ -34,6 +34,11 @@ _SUBSTITUTION = WordKind(
     "launch-code",
     f"there is no substitution $({{wrong}} …), but $({{right}} …): {_STOPS}",
 )
+_COMMAND = WordKind(
+    "ros2_commands",
+    "launch-code",
+    "{owner} has no command {wrong}, but {right}: it stops with an error",
+)
 _DOLLAR = re.compile(r"\$\(\s*([\w-]+)")
 _OLD = frozenset({"type", "rosparam", "$find", "$arg"})
 _NEW = frozenset({"exec", "let", "$var", "$find-pkg-share", "composable_node"})
@@ -59,6 +64,21 @@ def _arguments(launch: LaunchFile) -> Iterator[WrittenWord]:
 def _replaced(place: Place, wrong: str, right: str) -> Fix:
     end = Place(place.file, place.line, (place.column or 1) + len(wrong))
     return write_between(place, end, right, f"write {right}")
+
+
+def unknown_commands(around: Surroundings) -> Iterator[Problem]:
+    """Report commands that ros2 does not have, where another one is meant."""
+    for launch in around.launches:
+        for call in launch.called("ExecuteProcess", "ExecuteLocal"):
+            owner = ""
+            for item, node in call.listing("cmd").items:
+                for word in (launch.values.said(item) or "$").split():
+                    fix = partial(write, launch.place(node), word)
+                    shown = owner.replace("_", " ")
+                    place = launch.place(node)
+                    written = WrittenWord(owner, word, (), place, fix, shown)
+                    yield from misspelt([written], _COMMAND)
+                    owner = f"{owner}_{word}".strip("_")
 
 
 def unknown_elements_of_launch(around: Surroundings) -> Iterator[Problem]:

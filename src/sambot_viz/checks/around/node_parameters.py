@@ -30,7 +30,8 @@ def unread_parameters(around: Surroundings) -> Iterator[Problem]:
             continue
         # What another launch file chooses is its own question.
         is_named = posixpath.basename(shown) in _text_of(around, place.file)
-        if node.name in {key.value for key, _ in pairs(file.root)} or "" in file.nodes:
+        empty = {key.value for key, _ in pairs(file.root)} - {*file.keys}
+        if node.name in empty or "" in file.nodes:
             # It is named, or could be: what is below its name is another question.
             continue
         alone = len({node.path for node, _ in users}) == 1

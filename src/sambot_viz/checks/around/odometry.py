@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 from sambot_viz.checks.around.files.gazebo import Plugin
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.frame_names import drive_tf
-from sambot_viz.checks.around.navigation import StateFilter, bare_frame, filters
+from sambot_viz.checks.around.navigation import (
+    StateFilter,
+    bare_frame,
+    filters,
+    is_open,
+)
 from sambot_viz.checks.around.place import where
 from sambot_viz.checks.around.running.bridge_entries import bare
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.edits import write
 from sambot_viz.errors import Fix, Place, Problem
+
+_FRAMES = {"map_frame": "map", "odom_frame": "odom", "base_link_frame": "base_link"}
+"""Frames of a filter, which are all different → their defaults."""
 
 
 def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
@@ -26,7 +35,8 @@ def unpublished_odometry(around: Surroundings) -> Iterator[Problem]:
     started = [one for one in filters(around) if one.started]
     for one in started[:1] if len(started) == 1 else ():
         user, found = _user(around, one.odom_frame), _reason(one)
-        if user is None or found is None or one.moves_base:
+        is_shared = one.odom_frame == one.map_frame
+        if user is None or found is None or one.moves_base or is_shared:
             return
         reason, hint = found
         base = one.frame("base_link_frame", "base_link")
@@ -100,7 +110,8 @@ def _may_publish(around: Surroundings, plugin: Plugin) -> bool:
 
 def frames_from_themselves(around: Surroundings) -> Iterator[Problem]:
     """Report transforms from a frame to itself, by parameters that name it twice."""
-    done: set[Place] = set()
+    shared = shared_frames(around)
+    done = {Place(p.file or "", p.line or 0, p.column) for p in shared}
     for node in around.running.started:
         for one in node.transforms:
             if one.parent == one.child and one.place not in done:
@@ -113,3 +124,24 @@ def frames_from_themselves(around: Surroundings) -> Iterator[Problem]:
                     "to itself, which tf refuses: two of its frames have one name",
                     "write another frame for one of the two",
                 )
+
+
+def shared_frames(around: Surroundings) -> Iterator[Problem]:
+    """Report a filter that has one frame for two of its three."""
+    for one in filters(around):
+        for (first, usual), (second, other) in combinations(_FRAMES.items(), 2):
+            frame = one.frame(first, usual)
+            if is_open(frame) or frame != one.frame(second, other):
+                continue
+            names = [n for n in (second, first) if n in one.given]
+            # The one that is not called as usual is the one that was changed.
+            names.sort(key=lambda name: one.frame(name, "") == _FRAMES[name])
+            wrong = one.given[names[0]]
+            yield Problem.at(
+                wrong.value_place,
+                "warning",
+                "ekf-world-frame",
+                f"{first} and {second} are both {frame}, and {one.node} needs two "
+                "frames: it publishes no transform",
+                write(wrong.value_place, wrong.fact.value, _FRAMES[names[0]]),
+            )

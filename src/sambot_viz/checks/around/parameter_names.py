@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
-from sambot_viz.checks.around.files.parameters import Parameter
+from sambot_viz.checks.around.files.parameters import Parameter, place_of
 from sambot_viz.checks.around.known_parameters import (
     KnownParameter,
     PluginClass,
@@ -36,6 +36,30 @@ def unknown_parameters(around: Surroundings) -> Iterator[Problem]:
                 elif known is not None and known.age.successor:
                     last = newest.get(parameter.place.file, 0)
                     yield from _old(parameter, known, part, last)
+            yield from _unknown_groups(part)
+
+
+def _unknown_groups(part: NodePart) -> Iterator[Problem]:
+    """Report what is almost the first part of names with dots."""
+    block = part.block if part.is_known and part.block is not None else None
+    free = (
+        block.groups - {name.partition(".")[0] for name in part.given} if block else ()
+    )
+    for head, inner in part.sections.items():
+        near = nearest(head, free, _LIKENESS)
+        first = next(iter(inner.values()))
+        key = next((key for key in first.above if key.value == head), None)
+        if near is not None:
+            file = first.place.file
+            place = place_of(key, file) if key is not None else first.place
+            yield Problem.at(
+                place,
+                "warning",
+                "parameter-unknown",
+                f"{part.title} has no {head}, but {near}: it does not read what is "
+                "below it",
+                write(place, head, near),
+            )
 
 
 @lru_cache(maxsize=1)

@@ -10,12 +10,14 @@ from typing import Any
 import yaml
 
 from sambot_viz.checks.around.files.parameters import (
+    Parameter,
     YamlFile,
     each_mapping,
     pairs,
     place_of,
 )
-from sambot_viz.checks.around.node_parts import parts_by_node
+from sambot_viz.checks.around.known_parameters import ParameterBlock
+from sambot_viz.checks.around.node_parts import NodePart, parts_by_node
 from sambot_viz.checks.around.place import moved_right, where
 from sambot_viz.checks.around.surroundings import Surroundings
 from sambot_viz.checks.around.workspace import Package
@@ -31,8 +33,6 @@ WORDS = frozenset({"rue", "tree", "tue"})
 _LONG = 4
 _MAP = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 _IMAGES = (".pgm", ".png", ".bmp", ".jpg")
-_MUX, _NEEDED = "twist_mux", ("topic", "timeout", "priority")
-"""A node with topics, and what each of them needs."""
 
 
 def parameters_of_nobody(around: Surroundings) -> Iterator[Problem]:
@@ -163,22 +163,38 @@ def _no_value(file: YamlFile, name: str, given: list[str]) -> Problem:
     )
 
 
-def incomplete_entries(around: Surroundings) -> Iterator[Problem]:
-    """Report entries of twist_mux without one of the values that it needs."""
-    nodes = ((file, node) for file in around.yaml_files for node in file.nodes)
-    for file, node in nodes:
-        if node.rpartition("/")[2] != _MUX:
-            continue
-        given = file.of(node)
-        entries = {tuple(name.split(".")[:2]): p for name, p in given.items()}
-        for (group, *rest), parameter in entries.items():
-            for value in _NEEDED if group in ("topics", "locks") and rest else ():
-                if f"{group}.{rest[0]}.{value}" not in given:
-                    yield Problem.at(
-                        parameter.place,
-                        "error",
-                        "parameter-value",
-                        f"{rest[0]} has no {value}, which each of the {group} needs: "
-                        f"{_MUX} stops with an error",
-                        f"add {value} to {rest[0]}",
-                    )
+def incomplete_nodes(around: Surroundings) -> Iterator[Problem]:
+    """Report nodes, and entries of theirs, without a parameter that they need."""
+    given = {(p.node.rpartition("/")[2], p.name) for p in around.parameters}
+    for part, *_ in parts_by_node(around):
+        block = part.block or ParameterBlock()
+        meant = {block.meant(name, part.given) for name in part.given}
+        for known in (each for each in block.parameters.values() if each.needed):
+            for name, first in _entries(known.name, part).items():
+                if name in meant or (part.node, name) in given:
+                    continue
+                *above, entry, last = ["", part.node, *name.split(".")]
+                is_entry = "*" in known.name
+                of = f"each of the {above[-1]}" if is_entry else "its class"
+                yield Problem.at(
+                    first.place,
+                    # A controller may get more from files that are not here.
+                    "error" if is_entry else "warning",
+                    "parameter-value",
+                    f"{entry} has no {last}, which {of} needs: {part.node} stops with "
+                    "an error",
+                    f"add {last} to {entry}",
+                )
+
+
+def _entries(name: str, part: NodePart) -> dict[str, Parameter]:
+    """Return what a name with * stands for here, with the first line of each."""
+    found: dict[str, Parameter] = {}
+    before, star, after = name.partition("*")
+    for other, parameter in part.given.items():
+        if star and other.startswith(before):
+            entry = other.removeprefix(before).partition(".")[0]
+            found.setdefault(f"{before}{entry}{after}", parameter)
+        elif not star:
+            found.setdefault(name, parameter)
+    return found

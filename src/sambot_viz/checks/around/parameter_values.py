@@ -223,7 +223,7 @@ def _range(
             ),
             _in_range(parameter, known, value) or f"write {wanted}",
         )
-    elif other is not None and value > (other.fact.number or value):
+    elif other is not None and value > _number(other, value):
         here, there = parameter.value_place, other.value_place
         one, two = parameter.fact.value, other.fact.value
         hint = f"write {two} here and {one} there, or correct one of them"
@@ -235,6 +235,11 @@ def _range(
             f"({where(other.place, here)})",
             together(hint, write(here, one, two), write(there, two, one)),
         )
+
+
+def _number(parameter: Parameter, otherwise: float) -> float:
+    found = parameter.fact.number
+    return otherwise if found is None else found
 
 
 def _in_range(parameter: Parameter, known: KnownParameter, value: float) -> Fix | None:

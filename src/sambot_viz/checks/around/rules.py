@@ -32,6 +32,7 @@ from sambot_viz.checks.around.build_file import (
     malformed_installs,
     missing_commands,
     missing_folders,
+    misspelt_keywords,
     project_name,
     unreadable_cmake,
 )
@@ -39,6 +40,7 @@ from sambot_viz.checks.around.called_modules import called_modules
 from sambot_viz.checks.around.clocks import clock_not_bridged, different_clocks
 from sambot_viz.checks.around.control_interfaces import unfit_interfaces
 from sambot_viz.checks.around.controllers import (
+    options_without_value,
     undeclared_controllers,
     unknown_controllers,
 )
@@ -140,6 +142,7 @@ from sambot_viz.checks.around.launch_uses import (
     unused_actions,
 )
 from sambot_viz.checks.around.launch_words import (
+    unknown_commands,
     unknown_elements_of_launch,
     unknown_keywords,
 )
@@ -164,6 +167,7 @@ from sambot_viz.checks.around.node_parameters import (
 )
 from sambot_viz.checks.around.odometry import (
     frames_from_themselves,
+    shared_frames,
     unpublished_odometry,
 )
 from sambot_viz.checks.around.own_names import (
@@ -178,7 +182,7 @@ from sambot_viz.checks.around.parameter_names import (
     unknown_sections,
 )
 from sambot_viz.checks.around.parameter_slips import (
-    incomplete_entries,
+    incomplete_nodes,
     maps_that_do_not_load,
     parameters_of_nobody,
     texts_for_values,
@@ -222,6 +226,7 @@ OF_BUILD: tuple[Check, ...] = (
     packages_of_ros1,
     misspelt_packages,
     build_types,
+    misspelt_keywords,
     missing_commands,
     unfound_packages,
     commands_after_the_end,
@@ -247,7 +252,7 @@ OF_FILES: tuple[Check, ...] = (
     misspelt_key,
     parameters_of_nobody,
     texts_for_values,
-    incomplete_entries,
+    incomplete_nodes,
     maps_that_do_not_load,
     wrong_values,
     unreadable_parameters,
@@ -270,6 +275,7 @@ OF_FILES: tuple[Check, ...] = (
     names_before_values,
     missing_commas,
     unknown_keywords,
+    unknown_commands,
     other_words,
     misspelt_truths,
     unknown_elements_of_launch,
@@ -310,6 +316,8 @@ OF_FILES: tuple[Check, ...] = (
     launched_parameters,
     spawned_topics,
     planes,
+    world_frames,
+    shared_frames,
     frames_from_themselves,
     inputs_without_config,
     ends_of_other_types,
@@ -321,6 +329,7 @@ OF_FILES: tuple[Check, ...] = (
     unknown_settings,
     switched_off,
     unknown_frames_of_views,
+    options_without_value,
     undeclared_controllers,
     unknown_controllers,
     world_names,
@@ -339,7 +348,6 @@ OF_ROBOT: tuple[Check, ...] = (
     two_parents,
     moved_twice,
     odometry_frames,
-    world_frames,
     unpublished_odometry,
     topics_of_other_types,
     unknown_topics,

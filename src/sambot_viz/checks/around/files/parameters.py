@@ -29,6 +29,7 @@ class Parameter(NamedTuple):
         values: the text of the value, or of each item of a list.
         place: its line.
         written: the value as YAML has it.
+        above: the keys before it, below ros__parameters.
     """
 
     node: str
@@ -36,6 +37,7 @@ class Parameter(NamedTuple):
     values: tuple[str, ...]
     place: Place
     written: yaml.Node
+    above: tuple[yaml.ScalarNode, ...] = ()
 
     @property
     def value_place(self) -> Place:
@@ -123,17 +125,21 @@ class YamlFile:
                 yield from self._parameters(value, (*keys, key.value), budget)
 
     def _below(
-        self, node: yaml.Node, owner: str, keys: tuple[str, ...], budget: _Budget
+        self,
+        node: yaml.Node,
+        owner: str,
+        keys: tuple[yaml.ScalarNode, ...],
+        budget: _Budget,
     ) -> Iterator[Parameter]:
         for key, value in pairs(node):
             if not budget.spend() or len(keys) > limits.YAML_DEPTH.value:
                 return
-            names = (*keys, key.value)
             if isinstance(value, yaml.MappingNode):
-                yield from self._below(value, owner, names, budget)
+                yield from self._below(value, owner, (*keys, key), budget)
             else:
                 place = Place(self.shown, key.start_mark.line + 1)
-                yield Parameter(owner, ".".join(names), _texts(value), place, value)
+                name = ".".join(each.value for each in (*keys, key))
+                yield Parameter(owner, name, _texts(value), place, value, keys)
 
     def entries(self) -> Iterator[dict[str, Fact]]:
         """Give the mappings of a list, such as those of a bridge, key → value.
