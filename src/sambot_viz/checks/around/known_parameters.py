@@ -117,14 +117,17 @@ class ParameterBlock:
 
     Attributes:
         parameters: name → parameter.
+        is_whole: there are no others.
     """
 
     parameters: dict[str, KnownParameter] = field(
         default_factory=dict[str, KnownParameter]
     )
+    is_whole: bool = True
 
     def __or__(self, other: ParameterBlock) -> ParameterBlock:
-        return ParameterBlock({**other.parameters, **self.parameters})
+        both = {**other.parameters, **self.parameters}
+        return ParameterBlock(both, self.is_whole and other.is_whole)
 
     def find(self, name: str) -> KnownParameter | None:
         """Return the parameter with a name; None for an unknown one."""
@@ -178,6 +181,10 @@ class ParameterBlock:
         """
         if self.find(name) is not None:
             return None
+        if not self.is_whole:
+            slips = [known for known in self.parameters if is_one_slip(name, known)]
+            is_certain = len(slips) == 1 and not _NUMBER.search(name)
+            return slips[0] if is_certain and slips[0] not in given else None
         if "." in name and (right := self._with_star(name)) is not None:
             return None if right in given else right
         shape, digits = _NUMBER.sub("N", name), _NUMBER.search(name)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import yaml
 
+from sambot_viz.checks.around.declared_parameters import declared_parameters
 from sambot_viz.checks.around.files.parameters import read_yaml
 from sambot_viz.checks.around.known_parameters import ParameterBlock, known_parameters
 from sambot_viz.checks.around.launch_file import LaunchFile
@@ -51,20 +52,31 @@ def launched_parameters(around: Surroundings) -> Iterator[Problem]:
         for call in launch.called():
             package = launch.text(call, "package") or ""
             program = launch.text(call, "executable") or ""
-            yield from _wrong(package, program, list(_in_call(launch, call)))
+            block = _known(package, program, around)
+            yield from _wrong(block, program, _in_call(launch, call))
     for root in (root for package in around.packages for root in package.frontends):
         for node in root.iter():
             package, program = node.get("pkg") or "", node.get("exec") or ""
-            yield from _wrong(package, program, list(_in_element(node)))
+            block = _known(package, program, around)
+            yield from _wrong(block, program, _in_element(node))
 
 
-def _wrong(package: str, program: str, given: list[_GivenValue]) -> Iterator[Problem]:
-    known = known_nodes().nodes.get((package, program)) if given else None
-    block = known_parameters().nodes.get(known.name) if known is not None else None
+def _known(package: str, program: str, around: Surroundings) -> ParameterBlock | None:
+    """Return the parameters of a program, of a well-known package or of one here."""
+    known = known_nodes().nodes.get((package, program))
+    if known is not None:
+        return known_parameters().nodes.get(known.name)
+    return declared_parameters(around).programs.get((package, program))
+
+
+def _wrong(
+    block: ParameterBlock | None, program: str, found: Iterator[_GivenValue]
+) -> Iterator[Problem]:
+    given = list(found) if block is not None else []
     names = {one.name for one in given}
-    for one in given if block is not None and known is not None else ():
-        if one.name not in _OWN_RULES:
-            yield from _of_block(one, block or ParameterBlock(), names, program)
+    for one in given:
+        if one.name not in _OWN_RULES and block is not None:
+            yield from _of_block(one, block, names, program)
 
 
 def _of_block(

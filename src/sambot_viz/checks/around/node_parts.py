@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from sambot_viz.checks.around.declared_parameters import declared_parameters
 from sambot_viz.checks.around.files.parameters import Parameter
 from sambot_viz.checks.around.known_parameters import (
     LISTS,
@@ -77,6 +78,12 @@ def parts_by_node(around: Surroundings) -> tuple[tuple[NodePart, ...], ...]:
         if (known := known_nodes().nodes.get((node.package, node.executable)))
         and known.name in table.nodes
     }
+    declared = declared_parameters(around)
+    blocks |= {
+        node.name: declared.programs[node.package, node.executable]
+        for node in around.running.started
+        if node.name and (node.package, node.executable) in declared.programs
+    }
     blocks |= {one.node: table.nodes["filter"] for one in filters(around)}
     found: list[tuple[NodePart, ...]] = []
     for file in around.yaml_files:
@@ -89,6 +96,7 @@ def parts_by_node(around: Surroundings) -> tuple[tuple[NodePart, ...], ...]:
         for node in file.nodes:
             name = node.rpartition("/")[2]
             block = blocks.get(node) or blocks.get(name) or table.nodes.get(name)
+            block = block or declared.nodes.get(name)
             block = controllers.get(name, block)
             whole = NodePart(name, "", block or table.common, {}, {}, "", bool(block))
             found.append(tuple(_parts(whole, file.of(node))))
