@@ -148,3 +148,30 @@ def test_a_package_that_is_named_without_a_dollar_is_found_in_its_line(
     (problem,) = check(model)
     assert (problem.code, problem.line) == ("xacro-substitution", 2)
     assert 'filename="$(find arm)/urdf/arm.xacro"' in apply_edits(problem.edits, text)
+
+
+PILLAR = """\
+<sdf version="1.8" xmlns:xacro="http://www.ros.org/wiki/xacro"><model name="m">
+<xacro:macro name="pillar" params="n">
+<link name="${{n}}_link"><pose relative_to="{joint}"/>
+<visual name="v"><pose relative_to="{link}">0 0 1 0 0 0</pose>
+<geometry><sphere><radius>1</radius></sphere></geometry></visual></link>
+<joint name="${{n}}_joint" type="fixed"><parent>base</parent><child>${{n}}_link</child>
+<pose relative_to="base"/></joint>
+</xacro:macro>
+<link name="base"/><xacro:pillar n="one"/><xacro:pillar n="two"/>
+</model></sdf>
+"""
+NAMES = {"joint": "${n}_joint", "link": "${n}_link"}
+
+
+@pytest.mark.parametrize("wrong", [{"joint": "{n}_joint"}, {"link": "link"}])
+def test_a_frame_in_a_macro_is_written_with_its_parameter(
+    wrong: dict[str, str], tmp_path: Path
+) -> None:
+    model = tmp_path / "model.sdf"
+    model.write_text(PILLAR.format(**{**NAMES, **wrong}))
+
+    (problem,) = (p for p in check(model) if p.severity == "error")
+
+    assert apply_edits(problem.edits, model.read_text()) == PILLAR.format(**NAMES)

@@ -19,6 +19,7 @@ INERTIA = '<inertial><mass value="1"/><inertia {}/></inertial>'
         ('<link name="a"\n</link>', '<link name="a">\n</link>'),
         ('<link name="a"\n<!-- b -->', '<link name="a"/>\n<!-- b -->'),
         ("<link name=a/>", '<link name="a"/>'),
+        ('<link name=a"/>', '<link name="a"/>'),
         ("<link name=“a”/>", '<link name="a"/>'),
         ('<link name="a"type=""/>', '<link name="a" type=""/>'),
         ('<link name="a"/> & more', '<link name="a"/> &amp; more'),

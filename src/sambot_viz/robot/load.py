@@ -23,6 +23,7 @@ from sambot_viz.robot.parts import Joint, Language, Link, RobotTree
 from sambot_viz.robot.slips.misspelt import find_slips
 from sambot_viz.robot.slips.needs_xacro import (
     OWN_TAGS,
+    exchanged_name,
     first_own,
     first_substitution,
     left_over,
@@ -109,6 +110,7 @@ class _Loader:
     def load(self) -> LoadedModel:
         problems = list(self.opened.source.problems)
         document, path = self.opened.document, self.opened.source.path
+        problems += exchanged_name(document)
         own = first_own(document)
         undeclared = undeclared_prefix(document, own, path)
         if undeclared is not None:
@@ -184,14 +186,12 @@ class _Loader:
         findings = ModelFindings(calculates=is_xacro or expanded is not None)
         files = FileFinder(source.folder, self.package_path, findings, self.trusted)
         tree = self._tree(root, files, findings, expanded)
-        if expanded is not None and findings.problems:
-            from sambot_viz.robot.xacro.diagnose.given_values import name_given_values
-            from sambot_viz.robot.xacro.diagnose.macro_names import name_with_parameters
+        if expanded is not None and (findings.problems or expanded.macros):
+            from sambot_viz.robot.xacro.diagnose.explain_xacro import in_source
 
             names = (source.label, *map(str, expanded.files))
-            findings.problems[:] = name_with_parameters(
-                name_given_values(findings.problems, names), self.opened.document
-            )
+            document = self.opened.document
+            findings.problems[:] = in_source(findings.problems, document, names)
         problems += findings.problems
         read = expanded.files if expanded is not None else ()
         if tree is None or findings.rejected:

@@ -285,3 +285,29 @@ def test_a_name_in_round_brackets_is_answered_with_the_right_ones(
     (problem,) = changed("r.urdf.xacro", "$(arg arm)", f"$({name})")
 
     assert problem.hint.startswith(f"write {right}; ")
+
+
+def test_a_property_whose_name_and_value_are_exchanged_is_named(
+    changed: Change,
+) -> None:
+    right = '<xacro:property name="size" value="0.5"/><link name="base"/>'
+    wrong = right.replace('"size"', '"0.5"').replace('value="0.5"', 'value="size"')
+
+    (problem,) = changed("r.urdf.xacro", '<link name="base"/>', wrong)
+
+    assert problem.code == "xacro-property-name"
+    assert problem.hint == 'write name="size" value="0.5"'
+
+
+def test_a_definition_that_is_used_nowhere_gets_the_name_that_is(
+    changed: Change,
+) -> None:
+    box = (
+        '<collision><geometry><box size="${width} ${width} 1"/></geometry></collision>'
+    )
+    text = f'<xacro:property name="width1" value="1"/><link name="base">{box}</link>'
+
+    (problem,) = changed("r.urdf.xacro", '<link name="base"/>', text)
+
+    assert problem.hint.startswith('write name="width" on line')
+    assert [edit.text for edit in problem.edits] == ["width"]

@@ -168,9 +168,25 @@ def test_a_closing_tag_that_nothing_opens_names_what_may_be_missing() -> None:
 def test_a_robot_that_was_never_opened_is_one_problem() -> None:
     problem = only('<link name="a"/>\n<link name="b"/>\n</robot>\n')
 
-    assert problem.code == "xml-not-well-formed"
-    assert problem.line == 2
-    assert "nothing outside <robot>" in problem.hint
+    assert (problem.code, problem.line) == ("xml-closing-tag-surplus", 1)
+    assert "</robot> on line 3 closes nothing" in problem.message
+    assert problem.hint.startswith('write <robot name="…"')
+    assert not problem.edits
+
+
+def test_an_sdf_that_was_never_opened_gets_its_opening_tag() -> None:
+    text = '<model name="a">\n<link name="b"/>\n</model>\n</sdf>\n'
+    problem = only(text)
+
+    assert problem.hint == 'write <sdf version="1.8"> before <model name="a"> on line 1'
+
+
+@pytest.mark.parametrize("value", ['imu"', '0 0 1"', "0 0 1'"])
+def test_a_value_with_only_its_closing_quote_gets_the_other(value: str) -> None:
+    problem = only(f'<robot name="r">\n<a type={value} b="c"/>\n</robot>\n')
+
+    assert problem.code == "xml-quotes-missing"
+    assert problem.hint == f'write type="{value[:-1]}"'
 
 
 def test_what_is_read_before_an_unknown_error_is_still_explained() -> None:

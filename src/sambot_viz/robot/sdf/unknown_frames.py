@@ -67,7 +67,7 @@ def unknown_frame(
         meant = meant or nearest(name, near)
         names = names if meant is None else [meant]
     else:
-        meant = nearest(name, names)
+        meant = _own_link(at, name) or nearest(name, names)
     words = f"did you mean '{meant}'?" if meant else _listed(names)
     return FrameWords(
         f"{message} ({words}); {REFUSED}",
@@ -75,6 +75,15 @@ def unknown_frame(
         if meant
         else "name one of these, or delete it",
     )
+
+
+def _own_link(at: Element, name: str) -> str | None:
+    """Return the link around a shape or a sensor, where its name ends as this does."""
+    around = at.parent
+    while around is not None and around.tag != "link":
+        around = around.parent
+    link = "" if around is None else around.get("name") or ""
+    return link if name and link.endswith(f"_{name.lstrip('_')}") else None
 
 
 def joint_is_missing(link: Frame, scope: Scope, root: Frame) -> bool:

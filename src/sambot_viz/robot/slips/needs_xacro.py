@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from sambot_viz.edits import rename_element
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import exchange_attributes, rename_element
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xml.element import Element
 
@@ -142,6 +142,26 @@ def missing_prefix(tag: str, is_macro: bool, place: Place) -> Problem:
         "URDF, where ROS ignores it",
         rename_element(place, tag, f"xacro:{tag}", f"write <xacro:{tag}>"),
     )
+
+
+def exchanged_name(document: Element) -> list[Problem]:
+    """Make the warning for a <robot> whose name is the address of xacro."""
+    name, address = document.get("name") or "", document.get("xmlns:xacro") or ""
+    if "://" not in name or "xacro" not in name or "://" in address:
+        return []
+    if "xmlns:xacro" not in document.attributes:
+        return []
+    hint = f'write name="{address}" and xmlns:xacro="{name}"'
+    return [
+        Problem.at(
+            document.place,
+            "warning",
+            "robot-name-exchanged",
+            f"the values of name and xmlns:xacro are exchanged: the <{document.tag}> "
+            f"is called {name}",
+            Fix(hint, exchange_attributes(document.place, "name", "xmlns:xacro")),
+        )
+    ]
 
 
 def missing_prefixes(document: Element) -> list[Problem]:

@@ -7,20 +7,28 @@ element, and the source files give the place. Most explanations are rows of a ta
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from sambot_viz.errors import Place, Problem
 from sambot_viz.robot.xacro.child_result import XacroFailure
+from sambot_viz.robot.xacro.diagnose.exchanged_arguments import (
+    exchanged_arguments,
+    without_consequences,
+)
 from sambot_viz.robot.xacro.diagnose.failed_expansion import FailedExpansion
 from sambot_viz.robot.xacro.diagnose.failing_values import (
     broken_yaml,
     placeholder,
 )
+from sambot_viz.robot.xacro.diagnose.given_values import name_given_values
+from sambot_viz.robot.xacro.diagnose.macro_names import name_with_parameters
 from sambot_viz.robot.xacro.diagnose.macro_parameters import (
     unknown_parameter,
     unused_block,
 )
 from sambot_viz.robot.xacro.diagnose.reports import CALL, ELEMENT, EXPRESSION, ROWS
+from sambot_viz.robot.xacro.diagnose.source_files import SourceSet
 from sambot_viz.robot.xacro.diagnose.source_slips import source_slip
 from sambot_viz.robot.xacro.diagnose.text_for_number import wrong_value
 from sambot_viz.robot.xacro.diagnose.unknown_names import (
@@ -28,6 +36,7 @@ from sambot_viz.robot.xacro.diagnose.unknown_names import (
     undefined_name,
     unknown_macro,
 )
+from sambot_viz.robot.xml.element import Element
 
 _NAMES: tuple[tuple[str, Callable[[FailedExpansion, str], Problem]], ...] = (
     (r": name '([^']+)' is not defined", undefined_name),
@@ -52,6 +61,10 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
     """
     failed = FailedExpansion.of(failure, main_file)
     causes = (source_slip, broken_yaml, wrong_value, placeholder)
+    lines = {failed.at.line, *(call.line for call in failed.failure.calls)}
+    for call in exchanged_arguments(failed.sources):
+        if call.line in lines:
+            return [replace(call, severity="error")]
     cause = next((p for p in (find(failed) for find in causes) if p is not None), None)
     if cause is not None:
         return [cause]
@@ -67,6 +80,21 @@ def explain_xacro(failure: XacroFailure, main_file: str) -> list[Problem]:
             message, hint = message.format(*groups, x=x), hint.format(*groups, x=x)
             return [x.error(code, message, x.repair(hint))]
     raise AssertionError("the last row fits everything")
+
+
+def in_source(
+    problems: Sequence[Problem], document: Element, files: Sequence[str]
+) -> list[Problem]:
+    """Return the problems of a model that was expanded, as they are in its source.
+
+    Args:
+        problems: those of what xacro made.
+        document: the root element before xacro.
+        files: the files that xacro read, as the user would write them.
+    """
+    exchanged = list(exchanged_arguments(SourceSet.of(files)))
+    found = without_consequences(problems, exchanged)
+    return name_with_parameters(name_given_values(found, files), document)
 
 
 def _place(failed: FailedExpansion, groups: tuple[str, ...], where: str) -> Place:

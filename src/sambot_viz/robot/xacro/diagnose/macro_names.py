@@ -134,10 +134,15 @@ def _unknown(group: Sequence[Problem], document: Element) -> Problem | None:
         for template in _templates(macro):
             words = [_word(problem.hint, _pattern(template)) for problem in group]
             if all(words):
+                word = words[0] or ""
                 return replace(
                     first,
                     message=_OFFER.sub("", first.message),
-                    hint=first.hint.replace(words[0] or "", template),
+                    hint=first.hint.replace(word, template),
+                    edits=tuple(
+                        replace(edit, text=edit.text.replace(word, template))
+                        for edit in first.edits
+                    ),
                 )
     return None
 

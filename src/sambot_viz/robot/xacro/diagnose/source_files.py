@@ -13,6 +13,7 @@ from pathlib import Path
 
 from sambot_viz import limits
 from sambot_viz.errors import Place
+from sambot_viz.files import read_limited
 from sambot_viz.robot.xml.diagnose.lexer import Token
 from sambot_viz.robot.xml.diagnose.source_text import SourceText
 from sambot_viz.unsaved import unsaved_text
@@ -47,7 +48,8 @@ def read_source(file: str | Path) -> SourceText | None:
         path = Path(file)
         if path.stat().st_size > limits.XACRO_SOURCE.value:
             return None
-        text = path.read_bytes().decode("utf-8", "replace")
+        largest = limits.XACRO_SOURCE.value
+        text = read_limited(path, largest).decode("utf-8", "replace")
     except (OSError, ValueError):
         return None
     return SourceText(text.replace("\r\n", "\n"))

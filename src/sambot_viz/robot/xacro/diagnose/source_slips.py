@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 
-from sambot_viz.edits import rename_attribute, rename_element
-from sambot_viz.errors import Place, Problem
+from sambot_viz.edits import exchange_attributes, rename_attribute, rename_element
+from sambot_viz.errors import Fix, Place, Problem
 from sambot_viz.robot.slips.vocabulary import meant
 from sambot_viz.robot.xacro.diagnose.failed_expansion import (
     FailedExpansion,
@@ -43,6 +43,7 @@ def source_slip(failed: FailedExpansion) -> Problem | None:
             here = failed.pointing_at(token_place(source, file, token))
             for problem in (
                 _misspelt_attribute(here, token),
+                _exchanged_values(here, token),
                 _commas_in_params(here, token),
                 _without_prefix(here, token, source),
             ):
@@ -80,6 +81,25 @@ def _misspelt_attribute(here: FailedExpansion, token: Token) -> Problem | None:
         f"the attribute {wrong} of {token.shown} is not known to xacro; did you mean "
         f"{right}?{_seen(here)}",
         fix,
+    )
+
+
+def _exchanged_values(here: FailedExpansion, token: Token) -> Problem | None:
+    """Report a property that has its value as its name, and its name as its value."""
+    name, value = (token.get(each) or "" for each in ("name", "value"))
+    text = here.failure.text
+    if token.name != "xacro:property" or not value.isidentifier():
+        return None
+    if name.isidentifier() or ("Property names must" not in text and value not in text):
+        return None
+    return here.error(
+        "xacro-property-name",
+        f"the name and the value of this property are exchanged: {name} cannot be the "
+        f"name of a property{_seen(here)}",
+        Fix(
+            f'write name="{value}" value="{name}"',
+            exchange_attributes(here.at, "name", "value"),
+        ),
     )
 
 

@@ -10,6 +10,7 @@ from sambot_viz.edits import (
     rename_element,
     source_of,
     write,
+    write_attribute,
 )
 from sambot_viz.errors import Fix, Place, Problem, did_you_mean, nearest
 from sambot_viz.robot.slips.needs_xacro import OWN_TAGS
@@ -136,12 +137,35 @@ def _near_name(failed: FailedExpansion, name: str) -> str | Fix:
     near = next(iter(alike), None) or nearest(name, [*things, *_BUILT_IN])
     if near in things:
         where = line_in(things[near], failed.at)
+        if near not in own and _is_odd(failed, near, name):
+            hint = f'write name="{name}" on {where}: {near} is used nowhere'
+            return write_attribute(things[near], "name", near, name, hint=hint)
         return instead(near, f"did you mean {near} (defined on {where})?")
     if near:
         return instead(near, f"did you mean {near}?")
+    for macro in failed.named("macro"):
+        if name in parameters(macro.params) and not failed.failure.macros:
+            return (
+                f"write its value: {name} is a parameter of the macro {macro.name}, "
+                "and known only in it"
+            )
     return f'add <xacro:property name="{name}" value="…"/> before it' + (
         f"; {did_you_mean(name, things)}" if things else ""
     )
+
+
+def _is_odd(failed: FailedExpansion, defined: str, name: str) -> bool:
+    """Return whether a name is used again and again, and the one defined never."""
+    texts = [source.text for _, source in failed.sources.sources()]
+    used = {
+        each: sum(
+            len(re.findall(rf"(?<![\w.]){re.escape(each)}(?!\w)", expression))
+            for text in texts
+            for expression in re.findall(r"\$\{[^}]*\}", text)
+        )
+        for each in (defined, name)
+    }
+    return used[defined] == 0 and used[name] > 1
 
 
 def _beside(failed: FailedExpansion, name: str) -> str:

@@ -48,6 +48,7 @@ _VALUE_END = re.compile(r"/?>|[\n<]")
 _EQUALS = re.compile(r"\s*=\s*")
 _SPACE = re.compile(r"\s*")
 _UNQUOTED = re.compile(r"(?:(?!/>)[^\s<>])+")
+_CLOSED_ONLY = re.compile(r"([^\s<>\"'=][^<>\"'=\n]*)[\"']")
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,8 +283,12 @@ class _Tokenizer(Reading):
             end += closing is not None and closing[0] not in "<>\n"
             self._note_error("quotes-curly", start, f"{name[0]}={value}", tag, end)
         else:
-            unquoted = _UNQUOTED.match(text, start)
-            value, end = (unquoted[0], unquoted.end()) if unquoted else ("", start)
+            found_text = _CLOSED_ONLY.match(text, start) or _UNQUOTED.match(text, start)
+            value, end = (
+                (found_text[found_text.lastindex or 0], found_text.end())
+                if found_text
+                else ("", start)
+            )
             self._note_error("quotes-missing", start, f"{name[0]}={value}", tag, end)
         found.append(Attribute(name[0], value, position))
         return end

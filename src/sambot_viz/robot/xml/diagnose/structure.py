@@ -40,6 +40,12 @@ _CONTENT = {
 }
 """Element → what is in it and in no other."""
 
+_ROOT_TAGS = {
+    "sdf": '<sdf version="1.8">',
+    "robot": '<robot name="…" xmlns:xacro="http://www.ros.org/wiki/xacro">',
+}
+"""Root element → its opening tag."""
+
 _MOST = 12
 """Most problems reported: further ones usually follow from the first."""
 
@@ -67,6 +73,8 @@ def structure_problems(source: SourceText, file: str) -> list[Problem]:
     walk = _Walk(source, file, frozenset() if root == "sdf" else _LEAVES)
     if root is not None:
         walk.run()
+    elif source.tags and source.tags[-1].name in ROOTS:
+        walk.without_root(source.tags[0], source.tags[-1])
     return walk.problems
 
 
@@ -93,6 +101,20 @@ class _Walk:
                 return
         if self.stack:
             self._end_of_file()
+
+    def without_root(self, first: Token, closed: Token) -> None:
+        """Report a closing tag of the root at the end whose opening tag is missing."""
+        opening = _ROOT_TAGS[closed.name]
+        line = self._line(first)
+        added = [(first.start, first.start, f"{opening}\n")]
+        self._add(
+            "xml-closing-tag-surplus",
+            first.start,
+            f"</{closed.name}> on line {self._line(closed)} closes nothing: the "
+            f"<{closed.name}> before {first.shown} on line {line} is missing",
+            f"write {opening} before {first.shown} on line {line}",
+            *(added if "…" not in opening else []),
+        )
 
     def _add(
         self, code: str, at: int, message: str, hint: str, *changes: Change
