@@ -170,3 +170,53 @@ def test_a_joint_that_is_in_ros2_control_already_is_not_meant_again(
         assert [(p.hint, len(p.edits)) for p in found if p.code == "gazebo-joint"] == [
             (hint, edits)
         ]
+
+
+ALIKE = [("command_interface", "velocity"), ("state_interface", "position")]
+
+
+def _controlled(*interfaces: list[tuple[str, str]]) -> str:
+    joints = "".join(
+        f'<joint name="{name}_joint">'
+        + "".join(f'<{tag} name="{said}"/>' for tag, said in own)
+        + "</joint>"
+        for name, own in zip(("left", "right", "arm"), interfaces, strict=True)
+    )
+    hardware = CONTROL[: CONTROL.index("<joint")]
+    return f'<robot name="r"><link name="base_link"/>{LINKS}{hardware}{joints}' + (
+        "</ros2_control></robot>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("own", "severity", "hint"),
+    [
+        (ALIKE[1:], "info", 'add <command_interface name="velocity"/> to the joint'),
+        ([*ALIKE, ALIKE[1]], "warning", "delete one, or write another one"),
+        ([*ALIKE, ("state_interface", "velocity")], None, ""),
+    ],
+)
+def test_a_joint_that_is_unlike_all_others_is_named(
+    own: list[tuple[str, str]], severity: str | None, hint: str, tmp_path: Path
+) -> None:
+    model = tmp_path / "robot.urdf"
+    model.write_text(_controlled(ALIKE, ALIKE, own))
+
+    problems = check(model)
+
+    assert [p.severity for p in problems] == ([severity] if severity else [])
+    assert all(hint in p.hint for p in problems)
+
+
+def test_an_interface_twice_was_meant_to_be_the_one_that_others_have(
+    tmp_path: Path,
+) -> None:
+    model = tmp_path / "robot.urdf"
+    both = [ALIKE[1], ("state_interface", "velocity")]
+    model.write_text(_controlled(both, both, [ALIKE[1], ALIKE[1]]))
+
+    (problem,) = (p for p in check(model) if p.severity == "warning")
+
+    assert problem.hint == 'write name="velocity"'
+    fixed = apply_edits(problem.edits, model.read_text())
+    assert fixed == _controlled(both, both, both)

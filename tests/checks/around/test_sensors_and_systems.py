@@ -40,6 +40,18 @@ SCAN = LIDAR + "<ray><range><min>0.12</min><max>3.5</max></range></ray>"
             'write name="ignition::gazebo::systems::DiffDrive"',
         ),
         (
+            DRIVE,
+            DRIVE.replace("gz::", "ignition::"),
+            "has no class ignition::sim::systems::DiffDrive",
+            f"write {DRIVE.partition(' ')[2]}",
+        ),
+        (
+            "<wheel_separation>0.4<",
+            "<publish_tf>ture</publish_tf><wheel_separation>0.4<",
+            "<publish_tf>ture</publish_tf> of gz-sim-diff-drive-system is neither",
+            "write true",
+        ),
+        (
             "<wheel_separation>0.4<",
             "<wheel_separation>0,4<",
             "0,4 is no number",
@@ -122,6 +134,51 @@ def test_values_that_are_possible_are_not_reported(copied: Copied, text: str) ->
     model.write_text(model.read_text().replace(LIDAR, text))
 
     assert [p for p in check(model) if p.severity != "info"] == []
+
+
+IMU = """\
+<robot name="r"><link name="imu_link"/>
+<gazebo reference="imu_link">
+<sensor name="imu" type="imu"><gz_frame_id>imu_link</gz_frame_id>
+<plugin name="imu" filename="libgazebo_ros_imu_sensor.so"/></sensor>
+</gazebo>
+<gazebo reference="imu_link"><material>Gazebo/Red</material></gazebo>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "code", "line"),
+    [
+        ("libgazebo_ros_imu_sensor.so", "libgazebo_ros_camera.so", "gazebo-sensor", 4),
+        (
+            'type="imu"><gz_frame_id>imu_link</gz_frame_id>',
+            'type="camera"><imu/>',
+            "gazebo-sensor",
+            3,
+        ),
+        ('<plugin name="imu"', "<plugin", "gazebo-plugin", 4),
+        ("id>imu_link<", "id>ium_link<", "frame-unknown", 3),
+        (
+            '"imu_link"><material',
+            '"imulink"><material',
+            "gazebo-reference",
+            6,
+        ),
+    ],
+)
+def test_a_sensor_of_classic_and_its_plugin_belong_together(
+    right: str, wrong: str, code: str, line: int, tmp_path: Path
+) -> None:
+    model = tmp_path / "robot.urdf"
+    model.write_text(IMU)
+    assert check(model) == []
+    model.write_text(IMU.replace(right, wrong))
+
+    (problem,) = check(model)
+
+    assert (problem.code, problem.line) == (code, line)
+    assert problem.edits
 
 
 def test_a_sensor_of_ros2_control_needs_no_link(copied: Copied) -> None:

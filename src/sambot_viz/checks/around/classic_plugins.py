@@ -15,6 +15,21 @@ from sambot_viz.robot.slips.vocabulary import is_one_slip
 _TABLE = "classic_plugins"
 _CODE = "gazebo-plugin"
 _LIKENESS = 0.75
+_READS = {
+    "libgazebo_ros_bumper.so": ("contact",),
+    "libgazebo_ros_camera.so": ("camera", "depth", "multicamera", "wideanglecamera"),
+    "libgazebo_ros_gps_sensor.so": ("gps",),
+    "libgazebo_ros_imu_sensor.so": ("imu",),
+    "libgazebo_ros_ray_sensor.so": ("ray", "gpu_ray", "sonar"),
+}
+"""Plugin of a sensor → the types of sensors that it reads."""
+_OF_MODELS = (
+    "_drive.so",
+    "_joint_state_publisher.so",
+    "_planar_move.so",
+    "ros2_control.so",
+)
+"""Ends of plugins that belong to a model."""
 _MESSAGES = tuple(
     f"sensor_msgs/{name}"
     for name in ("LaserScan", "PointCloud", "PointCloud2", "Range")
@@ -54,6 +69,50 @@ def words_of_plugins(robot: Robot) -> Iterator[Problem]:
         if known:
             yield from _elements(plugin, known)
             yield from _messages(plugin)
+        if plugin.filename in vocabulary(_TABLE):
+            yield from _nameless(plugin)
+            yield from _of_another_sensor(plugin)
+
+
+def _nameless(plugin: Plugin) -> Iterator[Problem]:
+    """Report a plugin without a name, which SDF up to 1.8 requires."""
+    if plugin.element.get("name") is None:
+        name = plugin.filename.removeprefix("lib").removesuffix(".so")
+        yield Problem.at(
+            plugin.element.place,
+            "warning",
+            _CODE,
+            f"the plugin {plugin.filename} has no name: Gazebo Classic does not load "
+            "the robot with it",
+            f'add name="{name}"',
+        )
+
+
+def _of_another_sensor(plugin: Plugin) -> Iterator[Problem]:
+    """Report a plugin that reads another type of sensor than that around it."""
+    sensor, place, reads = plugin.sensor, plugin.element.place, plugin.filename
+    kind = "" if sensor is None else sensor.get("type") or ""
+    own = [name for name, kinds in _READS.items() if kind in kinds]
+    if sensor is None or not own or reads in own:
+        return
+    what = "is not for a sensor"
+    fix = write_attribute(place, "filename", reads, own[0])
+    if reads in _READS:
+        other, *_ = _READS[reads]
+        what = f"reads sensors of type {other}"
+        if sensor.find(kind) is None and any(map(sensor.find, _READS[reads])):
+            place = sensor.place
+            fix = write_attribute(place, "type", kind, other)
+    elif not reads.endswith(_OF_MODELS):
+        return
+    yield Problem.at(
+        place,
+        "warning",
+        "gazebo-sensor",
+        f"{reads} {what}, and {sensor.get('name') or 'this one'} is of type {kind}: "
+        "Gazebo Classic does not load it",
+        fix,
+    )
 
 
 def _elements(plugin: Plugin, known: tuple[str, ...]) -> Iterator[Problem]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from sambot_viz.checks.around.place import where
-from sambot_viz.edits import write, write_attribute
+from sambot_viz.edits import put_into, write, write_attribute
 from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.misspelt import find_slips
@@ -65,6 +65,7 @@ def words_of_control(robot: Robot) -> Iterator[Problem]:
                     yield from _attribute(interface, "name", _INTERFACES, what)
         yield from _hardware(part)
         yield from _twice(part, robot)
+        yield from _unlike_others(part)
 
 
 def _attribute(
@@ -133,3 +134,54 @@ def _twice(part: Element, robot: Robot) -> Iterator[Problem]:
             f"{where(other.place, joint.place)}): the hardware does not start",
             fix,
         )
+
+
+def _unlike_others(part: Element) -> Iterator[Problem]:
+    """Report interfaces that a joint has twice, or lacks while all others have them."""
+    joints = part.find_all("joint")
+    usual = [_interfaces(joint) for joint in joints if joint.find("param") is None]
+    for joint in joints:
+        own = _interfaces(joint)
+        for at, each in enumerate(own):
+            if each in own[:at]:
+                yield _again(joint, each, usual)
+        others = [found for found in usual if set(found) != set(own)]
+        same = len(usual) - len(others) == 1 and len(others) > 1
+        lacks = [each for each in others[0] if each not in own] if same else []
+        if len(set(map(frozenset, others))) == 1 and len(lacks) == 1:
+            ((tag, name),) = lacks
+            if len(set(own)) < len(others[0]) and joint.find("param") is None:
+                added = f'<{tag} name="{name}"/>'
+                yield Problem.at(
+                    joint.place,
+                    "info",
+                    _CODE,
+                    f"the joint {joint.get('name')} has no {tag.replace('_', ' ')} "
+                    f"{name}, which all other joints of this <ros2_control> have",
+                    Fix(f"add {added} to the joint", put_into(joint.place, added)),
+                )
+
+
+def _interfaces(joint: Element) -> list[tuple[str, str]]:
+    tags = ("command_interface", "state_interface")
+    return [(e.tag, e.get("name") or "") for e in joint.children if e.tag in tags]
+
+
+def _again(
+    joint: Element, said: tuple[str, str], usual: Sequence[Sequence[tuple[str, str]]]
+) -> Problem:
+    """Report an interface that a joint has twice."""
+    tag, name = said
+    wrong = [e for e in joint.find_all(tag) if e.get("name") == name][-1]
+    have = {n for found in usual for t, n in found if t == tag}
+    missing = [n for n in (*_INTERFACES, *have) if (tag, n) not in _interfaces(joint)]
+    right = next((n for n in missing if n in have), missing[0])
+    return Problem.at(
+        wrong.place,
+        "warning",
+        _CODE,
+        f"the joint {joint.get('name')} has the {tag.replace('_', ' ')} {name} twice",
+        write_attribute(wrong.place, "name", name, right)
+        if right in have or len({n for _, n in _interfaces(joint)}) == 1
+        else f"delete one, or write another one, such as {right}",
+    )

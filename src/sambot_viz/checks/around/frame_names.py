@@ -60,6 +60,7 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
         return
     links = around.robot.links
     named = {s.get("name") for _, s in sensors(around.robot.gazebo)}
+    joints = around.robot.joints.keys()
     prefixed = {link.rpartition("/")[2] for link in links}
     for fact, user, meant in _robot_frames(around):
         name = bare_frame(fact.value)
@@ -67,7 +68,7 @@ def unknown_frames(around: Surroundings) -> Iterator[Problem]:
             name in prefixed
             or is_open(name)
             or "/" in name
-            or (around.said_elsewhere(name) and name not in named)
+            or (around.said_elsewhere(name) and name not in (named | joints))
         ):
             continue
         near = _turned(name, meant, around.robot) or meant or nearest(name, links)

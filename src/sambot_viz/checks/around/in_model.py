@@ -25,7 +25,7 @@ from sambot_viz.checks.around.sensors import (
 )
 from sambot_viz.checks.around.systems import (
     both_generations,
-    malformed_numbers,
+    malformed_values,
     unknown_systems,
 )
 from sambot_viz.checks.around.wheels import wheel_sizes
@@ -40,7 +40,7 @@ IN_MODEL: tuple[Callable[[Robot], Iterable[Problem]], ...] = (
     misspelt_elements,
     both_generations,
     unknown_systems,
-    malformed_numbers,
+    malformed_values,
     sensors_without_link,
     unknown_types,
     lidars_of_the_other,

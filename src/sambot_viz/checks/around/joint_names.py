@@ -13,6 +13,7 @@ from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import Fix, Place, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Joint, Link
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 if TYPE_CHECKING:
@@ -195,6 +196,8 @@ def unknown_references(robot: Robot) -> Iterator[Problem]:
         near = near or next((each for each in ends if each in free), None)
         if matters and near is None:
             near = _with_its_words(name, [link for link in robot.links if link in free])
+        # One link may have several <gazebo>, with other words in each.
+        near = near or next((each for each in known if is_one_slip(name, each)), None)
         if near is None and not matters:
             continue
         place = Place(part.place.file, part.line_of("reference"))

@@ -21,6 +21,7 @@ from sambot_viz.errors import Fix, Problem, nearest
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.slips.exchanged_words import exchanged
 from sambot_viz.robot.slips.units import usual_degrees
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 _SIMULATORS = ("Gazebo", "Gazebo Classic")
@@ -206,8 +207,20 @@ def _exchanged(sensor: Element, element: Element) -> Iterator[Problem]:
 
 
 def misspelt_frames(robot: Robot) -> Iterator[Problem]:
-    """Report a frame of a sensor in an element that Gazebo does not read."""
+    """Report a frame that is misspelt, or in an element that Gazebo does not read."""
     for _, sensor in sensors(robot.gazebo):
+        for fact in facts(sensor, *SENSOR_FRAMES):
+            near = [link for link in robot.links if is_one_slip(fact.value, link)]
+            if fact.value not in robot.links and len(near) == 1:
+                yield Problem.at(
+                    fact.place,
+                    "warning",
+                    "frame-unknown",
+                    f"the sensor {_named(sensor)} uses the frame {fact.value}, which "
+                    f"is not a link of the model: it has {near[0]} "
+                    f"({where(robot.links[near[0]].place, fact.place)})",
+                    write(fact.place, fact.value, near[0]),
+                )
         if facts(sensor, *SENSOR_FRAMES) or sensor.find("plugin") is not None:
             continue
         for fact in facts(sensor, *_FRAMES):

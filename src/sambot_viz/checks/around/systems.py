@@ -11,6 +11,7 @@ from sambot_viz.checks.vocabulary import vocabulary
 from sambot_viz.edits import write, write_attribute
 from sambot_viz.errors import Problem, nearest
 from sambot_viz.robot.model import Robot
+from sambot_viz.robot.slips.vocabulary import is_one_slip
 from sambot_viz.robot.xml.element import Element
 
 _FILE = re.compile(r"(?:lib)?(gz-sim\d*|ignition-gazebo\d*)-([a-z-]+)-system(?:\.so)?")
@@ -78,18 +79,25 @@ def faulty_system(plugin: Element) -> Problem | None:
     if near is not None:
         what = f"Gazebo has no plugin {filename}: it does not load it"
         fix = write_attribute(plugin.place, "filename", filename, near)
-    elif right is not None and name.rpartition("::")[2] != right.rpartition("::")[2]:
+    elif right is not None and not _is_class(name, right):
         holds = _file_of(name, filename)
         what = (
             f"{filename} has no class {name or 'without a name'}: in Gazebo the name "
             "of a plugin is that of its class, and it does not load this one"
         )
         fix = write_attribute(plugin.place, "name", name, right)
-        if holds is not None:
+        if holds is not None and holds != filename:
             fix = write_attribute(plugin.place, "filename", filename, holds)
     else:
         return None
     return Problem.at(plugin.place, "warning", "gazebo-plugin", what, fix)
+
+
+def _is_class(name: str, right: str) -> bool:
+    """Return whether a name is that of a class, in a namespace that Gazebo has."""
+    space, _, last = name.rpartition("::")
+    plain = re.sub(r"::v\d+(?=::|$)", "", space)
+    return last == right.rpartition("::")[2] and plain in ("", *_SPACE.values())
 
 
 def _class_of(filename: str) -> str | None:
@@ -158,9 +166,21 @@ _DRIVES = (
 )
 
 
-def malformed_numbers(robot: Robot) -> Iterator[Problem]:
-    """Report numbers of a drive with a comma, or with a unit."""
+def malformed_values(robot: Robot) -> Iterator[Problem]:
+    """Report numbers of a drive with a comma or a unit, and misspelt true or false."""
     for plugin in plugins(robot.gazebo):
+        for element in plugin.element.iter() if plugin.generation else ():
+            said = element.text.strip()
+            near = [w for w in ("true", "false") if is_one_slip(said.lower(), w)]
+            if near and not element.children and said.lower() != near[0]:
+                yield Problem.at(
+                    element.place,
+                    "warning",
+                    "gazebo-plugin",
+                    f"<{element.tag}>{said}</{element.tag}> of {plugin.filename} is "
+                    "neither true nor false: Gazebo uses another value",
+                    write(element.place, said, near[0]),
+                )
         for fact in facts(plugin.element, *_NUMBERS) if plugin.is_drive else ():
             if fact.number is None:
                 yield _malformed(plugin, fact)
