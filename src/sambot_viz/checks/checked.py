@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from sambot_viz.bundled import config_in
 from sambot_viz.checks.around import built_wrongly, wrong_files
+from sambot_viz.checks.launched_models import launched, load_launched, wrong_variants
 from sambot_viz.checks.model_rules import (
     AROUND,
     RULES,
@@ -71,13 +71,16 @@ def check_all(
         load = partial(
             load_robot, target.model, package_path=package_path, trusted=trusted
         )
+        variants, given = launched(target), xacro_args or {}
         try:
-            robot = _load(load, target, xacro_args or {})
+            robot = load_launched(load, target, variants[0], given)
         except RobotError as error:
             problems += error.problems
             continue
         subject = subject_of(robot, target.model, None, target.packages)
-        problems += [*robot.problems, *find_problems(subject, RULES)]
+        of_model = [*robot.problems, *find_problems(subject, RULES)]
+        problems += of_model
+        problems += wrong_variants(load, target, variants[1:], given, of_model)
         around = find_problems(subject, AROUND)
         around += _of_configs(target, robot)
         loaded.append(_Loaded(target, robot, tuple(around)))
@@ -87,47 +90,6 @@ def check_all(
         for path in _others(package):
             problems += _of_config(package, path=path)
     return Checked(targets.models, tuple(in_order(problems)))
-
-
-def _load(
-    load: Callable[..., Robot], target: CheckedModel, given: Mapping[str, str]
-) -> Robot:
-    """Load a model with the arguments of launch files, where they are known.
-
-    Where xacro refuses it, with what they may be.
-
-    Raises:
-        RobotError: as `load_robot`.
-    """
-    launched = _launched(target)
-    if launched.keys() - given.keys():
-        # What is worked out from a launch file may be wrong.
-        with suppress(RobotError):
-            return load(xacro_args={**launched, **given})
-    try:
-        return load(xacro_args=given)
-    except RobotError as error:
-        if not any(p.code.startswith("xacro-") for p in error.problems):
-            raise
-        # The import is late: most models need no arguments.
-        from sambot_viz.checks.around.xacro_arguments import xacro_arguments
-
-        first = error
-        for found in xacro_arguments(target.model, target.packages):
-            try:
-                return load(xacro_args={**found, **given})
-            except RobotError as other:
-                first = other if first is error else first
-        raise first from None
-
-
-def _launched(target: CheckedModel) -> dict[str, str]:
-    if not target.packages or not target.model.name.endswith((".xacro", ".urdf")):
-        return {}
-    # The import is late: many models are in no package.
-    from sambot_viz.checks.around.xacro_arguments import launched_arguments
-
-    return launched_arguments(target.model, target.packages)
 
 
 @each_file_once()

@@ -504,3 +504,55 @@ def generate_launch_description():
     _write(package, "rviz/a.rviz", config)
     codes = {p.code for p in check(package)}
     assert ("setup-fixed-frame" in codes) is is_found
+
+
+STARTING = """\
+from launch import LaunchDescription
+from launch.substitutions import Command, FindPackageShare
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    model = [FindPackageShare('a_description'), '/urdf/a.urdf.xacro']
+    command = Command(['xacro ', *model, {}])
+    return LaunchDescription([
+        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{{'robot_description': command}}]),
+    ])
+"""
+VARIED = """\
+name="a">
+<xacro:arg name="sim" default="false"/>
+<link name="base_link"/>
+<xacro:if value="$(arg sim)">
+<link name="lidar"/>
+<joint name="j" type="fixed"><parent link="base_link"/><child link="{}"/></joint>
+</xacro:if>"""
+
+
+@pytest.mark.parametrize(
+    ("child", "given", "found"),
+    [
+        ("lidar", "' sim:=', 'true'", []),
+        ("lider", "' sim:=', 'false'", []),
+        ("lider", "' sim:=', unknown", []),
+        ("lider", "' sim:=', 'true'", ["joint-child-unknown"]),
+    ],
+)
+def test_each_variant_of_a_model_that_launch_files_start_is_checked(
+    child: str, given: str, found: list[str], tmp_path: Path
+) -> None:
+    package = _package(
+        tmp_path / "a_description", launch__a_launch_py=STARTING.format("")
+    )
+    _write(package, "launch/b.launch.py", STARTING.format(given))
+    _write(package, "urdf/a.urdf.xacro", XACRO.format(VARIED.format(child)))
+
+    problems = [p for p in check(package) if p.code.startswith("joint-")]
+
+    assert [problem.code for problem in problems] == found
+    for problem in problems:
+        assert problem.message.startswith("with sim:=true, as a launch file has it: ")
+        assert problem.edits
+    asked = check(package, xacro_args={"sim": "false"})
+    assert not any(p.code.startswith("joint-") for p in asked)

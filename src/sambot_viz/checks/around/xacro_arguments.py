@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from sambot_viz.checks.around.files.launch_values import SHARE
@@ -16,18 +16,26 @@ from sambot_viz.checks.around.running.assemble import system_of
 from sambot_viz.checks.around.running.system import Starts
 from sambot_viz.checks.around.workspace import Package
 
+_MOST = 3
+"""Variants of one model that are read beside the first."""
 _DECLARED = re.compile(r"<xacro:arg\s[^>]*>")
 _ATTRIBUTE = re.compile(r"""\b(name|default)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 
 
-def launched_arguments(model: Path, packages: Sequence[Package]) -> dict[str, str]:
-    """Return what all launch files that open a model give to xacro for it.
+def launched_arguments(
+    model: Path, packages: Sequence[Package]
+) -> tuple[dict[str, str], ...]:
+    """Return what launch files that open a model give to xacro for it.
 
-    Only what is known there, the same in each of them, and not the default.
+    Only what is known there, and not the default.
+
+    Returns:
+        First what is the same in all of them, and with what the model is checked; then
+        what others give, each once.
     """
     # Most launch files give nothing, and need not be followed for that.
     if not any(":=" in text for p in packages for text in _said(p)):
-        return {}
+        return ({},)
     files = [(each, path) for each in packages for path in each.launch_paths]
     named = {package.name: package for package in packages}
     running = system_of(files, packages, named.get)
@@ -38,14 +46,22 @@ def launched_arguments(model: Path, packages: Sequence[Package]) -> dict[str, st
             if any(word.endswith(f"/{model.name}") for word in command.split()):
                 given.append(dict(_arguments(command)))
                 starts.add(node.starts)
-    found: dict[str, str] = {}
     defaults = _defaults(packages) if given else {}
-    for name, value in given[0].items() if "yes" in starts else ():
-        same = all(each.get(name) == value for each in given)
-        path = _path(value, packages) if UNKNOWN not in value and same else None
+    changed = [dict(_changes(each, defaults, packages)) for each in given]
+    first = dict(changed[0]) if "yes" in starts else {}
+    for each in changed:
+        first = {n: v for n, v in first.items() if each.get(n) == v}
+    return tuple([first, *(each for each in changed if each != first)][: _MOST + 1])
+
+
+def _changes(
+    given: Mapping[str, str], defaults: Mapping[str, str], packages: Sequence[Package]
+) -> Iterator[tuple[str, str]]:
+    """Yield the arguments that are known, and not the defaults of a model."""
+    for name, value in given.items():
+        path = None if UNKNOWN in value else _path(value, packages)
         if path is not None and defaults.get(name, path) != path:
-            found[name] = path
-    return found
+            yield name, path
 
 
 def _said(package: Package) -> Iterator[str]:

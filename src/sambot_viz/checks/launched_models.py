@@ -1,0 +1,105 @@
+"""A model with the arguments that launch files give to xacro for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+from sambot_viz.checks.model_rules import AROUND, RULES, find_problems, subject_of
+from sambot_viz.checks.targets import CheckedModel
+from sambot_viz.errors import Problem, RobotError
+from sambot_viz.robot.model import Robot
+
+_OF_ARGUMENTS = ("xacro-argument", "xacro-include", "xacro-package", "xacro-yaml")
+"""Beginnings of codes of what another value of an argument may bring about."""
+
+
+def launched(target: CheckedModel) -> tuple[dict[str, str], ...]:
+    """Return what launch files give for a model: first all of them, then single ones.
+
+    See `launched_arguments`.
+    """
+    if not target.packages or not target.model.name.endswith((".xacro", ".urdf")):
+        return ({},)
+    # The import is late: many models are in no package.
+    from sambot_viz.checks.around.xacro_arguments import launched_arguments
+
+    return launched_arguments(target.model, target.packages)
+
+
+def load_launched(
+    load: Callable[..., Robot],
+    target: CheckedModel,
+    launched: Mapping[str, str],
+    given: Mapping[str, str],
+) -> Robot:
+    """Load a model with the arguments of launch files, where they are known.
+
+    Where xacro refuses it, with what they may be.
+
+    Args:
+        load: `load_robot` for the model.
+        target: the model, with its packages.
+        launched: what all launch files give.
+        given: what the user gives.
+
+    Raises:
+        RobotError: as `load_robot`.
+    """
+    if launched.keys() - given.keys():
+        # What is worked out from a launch file may be wrong.
+        with suppress(RobotError):
+            return load(xacro_args={**launched, **given})
+    try:
+        return load(xacro_args=given)
+    except RobotError as error:
+        if not any(p.code.startswith("xacro-") for p in error.problems):
+            raise
+        # The import is late: most models need no arguments.
+        from sambot_viz.checks.around.xacro_arguments import xacro_arguments
+
+        first = error
+        for found in xacro_arguments(target.model, target.packages):
+            try:
+                return load(xacro_args={**found, **given})
+            except RobotError as other:
+                first = other if first is error else first
+        raise first from None
+
+
+def wrong_variants(
+    load: Callable[..., Robot],
+    target: CheckedModel,
+    variants: Sequence[Mapping[str, str]],
+    given: Mapping[str, str],
+    known: Sequence[Problem],
+) -> list[Problem]:
+    """Return what is wrong only with the arguments that single launch files give.
+
+    Args:
+        load: `load_robot` for the model.
+        target: the model.
+        variants: what these launch files give.
+        given: what the user gives, who then asks for no other variant.
+        known: the problems of the model itself.
+    """
+    found: list[Problem] = []
+    places = {(problem.code, problem.place) for problem in known}
+    for variant in variants if not given else ():
+        try:
+            robot = load(xacro_args=variant)
+        except RobotError as error:
+            own = [p for p in error.problems if not p.code.startswith(_OF_ARGUMENTS)]
+        else:
+            subject = subject_of(robot, target.model)
+            own = [*robot.problems, *find_problems(subject, (*RULES, *AROUND))]
+        words = [f"{name}:={value}" for name, value in variant.items()]
+        how = " ".join(words) or "the defaults"
+        for problem in own:
+            place = (problem.code, problem.place)
+            if problem.severity != "info" and place not in places:
+                places.add(place)
+                message = f"with {how}, as a launch file has it: {problem.message}"
+                found.append(replace(problem, message=message))
+    return found
