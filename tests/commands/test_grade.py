@@ -35,9 +35,20 @@ def test_a_wrong_model_exits_with_1_and_says_why(capsys: Capture, broken: Path) 
     assert main(["grade", str(broken), "--lesson", str(BASE), "--step", "1"]) == 1
     assert capsys.readouterr().out.splitlines() == [
         "failed  1. The body (body)",
-        "        base_link has no <visual>; expected: a box of 0.42 0.31 0.18",
+        "        base_link has no <visual>, and no other link has one: only axes are "
+        "shown; expected: a box of 0.42 0.31 0.18",
         "base: 0 of 1 steps hold, 0 of 2 points",
     ]
+
+
+def test_a_model_that_cannot_be_read_is_named_once(
+    capsys: Capture, tmp_path: Path
+) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text("<robot name='r'/>")
+    assert main(["grade", str(file), "--lesson", str(BASE)]) == 1
+    out = capsys.readouterr().out
+    assert out.count(str(file)) == out.count("as in the step before") == 1
 
 
 @pytest.mark.parametrize(

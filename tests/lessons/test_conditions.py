@@ -83,7 +83,10 @@ DO_NOT_HOLD = [
         "base_link → imu_link",
     ),
     ("shape: {link: base_link, sphere: 0.1}", "is a box of 0.42 0.31 0.18"),
-    ("shape: {link: imu_link, box: [1, 1, 1]}", "imu_link has no <visual>"),
+    (
+        "shape: {link: imu_link, box: [1, 1, 1]}",
+        "imu_link is invisible: it has no <visual>",
+    ),
     ("shape: {link: drivewhl_l_link, along: [0, 0, 1]}", "is along 0 -1 0"),
     ("shape: {link: base_link, xyz: [0, 0, 0.09]}", "is at 0 0 0 in the link"),
     ("shape: {link: base_link, mesh: body.stl}", "is a box"),

@@ -67,11 +67,15 @@ def parser() -> Parser:
 
 
 def _in_words(found: Grade) -> Iterator[Line]:
+    before = ""
     for step in found.steps:
         mark = Painted("passed", "added") if step.passed else Painted("failed", "error")
         yield [mark, f"  {step.number}. {step.title} ({step.name})"]
-        for message in step.message.splitlines():
+        again = step.message == before != ""
+        text = "as in the step before" if again else step.message
+        for message in text.splitlines():
             yield f"        {message}"
+        before = step.message
     points = f"{found.score:g} of {found.max_score:g} points"
     count = sum(step.passed for step in found.steps)
     yield f"{found.lesson}: {count} of {len(found.steps)} steps hold, {points}"

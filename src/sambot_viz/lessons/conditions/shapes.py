@@ -27,6 +27,7 @@ from sambot_viz.lessons.reading.values import (
 )
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.balance.solid_feet import half_sides, solid_foot
+from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import (
     Geometry,
     Link,
@@ -83,10 +84,19 @@ class ShapeCondition:
         shapes = link.visuals if self.of == "visual" else link.collisions
         if not shapes:
             expected = self._size() or f"a <{self.of}>"
-            yield Unmet(f"{link.name} has no <{self.of}>", expected, link.place)
+            yield Unmet(self._without(link, work.robot), expected, link.place)
             return
         faults = [list(self._faults(link, shape)) for shape in shapes]
         yield from min(faults, key=len)
+
+    def _without(self, link: Link, robot: Robot) -> str:
+        """Say what is seen of a link that lacks the shapes."""
+        lacks = f"{link.name} has no <{self.of}>"
+        if self.of != "visual":
+            return lacks
+        if not any(each.visuals for each in robot.links.values()):
+            return f"{lacks}, and no other link has one: only axes are shown"
+        return f"{link.name} is invisible: it has no <visual>"
 
     def _size(self) -> str:
         if self.mesh:
