@@ -12,7 +12,7 @@ from inside import session_of, viser_server
 from lower_limit import lower
 from protocol_client import ProtocolClient
 
-from sambot_viz import Visualizer
+from sambot_viz import Visualizer, bundled
 from sambot_viz.inputs import Inputs
 from sambot_viz.options import Options
 
@@ -227,6 +227,53 @@ def test_what_another_program_saved_is_never_overwritten_unasked(
     editor.client.act("model/save", "urdf/leg.xacro")
     editor.client.wait_until(file.exists)
     assert file.read_text() == editor.text
+
+
+def test_who_has_control_adds_a_file_in_the_package_and_over_none(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    options = {"presenter": "teach-the-class", "edit": True}
+    editor = edit(**options, path="/?token=teach-the-class")
+    viewer = edit(editor.viz)
+    viewer.client.act("model/create", "a.urdf")
+    viewer.client.wait_until(lambda: viewer.notice.startswith("View only"))
+    (package / "out").symlink_to(package.parent)
+    (package / "gone.xacro").symlink_to(package / "nowhere")
+    before = {*package.rglob("*")}
+    refused = {
+        ".a.urdf": "Name it as",
+        "../a.urdf": "Name it as",
+        ".vscode/a.xml": "Name it as",
+        "urdf/a.sh": "Name it as",
+        "urdf/leg.xacro": "is there already",
+        "gone.xacro": "is there already",
+        "out/a.urdf": "outside of the package",
+    }
+    for name, why in refused.items():
+        editor.client.act("model/create", name)
+        editor.client.wait_until(lambda why=why: why in editor.notice)
+    assert {*package.rglob("*")} == before
+    # A text may include a file before it is there.
+    name = "urdf/parts/hand.xacro"
+    editor.replace("</robot>", '<xacro:include filename="parts/hand.xacro"/>\n</robot>')
+    assert any("hand.xacro" in problem["message"] for problem in editor.problems())
+    editor.client.act("model/create", name)
+    editor.client.wait_until(lambda: editor.value("text")["file"] == name)
+    assert (package / name).read_bytes() == b"" and editor.text == ""
+    editor.client.act("model/type", name, 0, 0, 0, LEG.replace("leg", "hand"), False)
+    editor.client.wait_until(lambda: '"hand"' in editor.text)
+    editor.replace('"k"', '"h"')
+    editor.client.wait_until(lambda: "hand" in editor.links)
+    editor.client.act("model/save", name)
+    editor.client.wait_until((package / name).read_text)
+
+
+def test_the_bundled_robot_gets_no_new_files(
+    edit: Callable[..., Editor], show: Callable[..., Visualizer]
+) -> None:
+    editor = edit(show(bundled.model_path(), edit=True))
+    assert "model/save" in editor.client.rows
+    assert "model/create" not in editor.client.rows
 
 
 def test_viewers_read_and_who_has_control_writes(

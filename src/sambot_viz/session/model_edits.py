@@ -2,27 +2,32 @@
 
 Only files in the package of the model are written, and only while they are as they were
 when the problem was found. A model without a package has the folder that it is in.
+New files are texts as the editor shows them.
 """
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from sambot_viz import bundled
+from sambot_viz import bundled, limits
 from sambot_viz.cached import cached_property
 from sambot_viz.errors import Edit, UsageError
 from sambot_viz.files import is_below, reason_of, write_atomically
 from sambot_viz.fixes import EditRefused, FileChange, changes, write_changes
+from sambot_viz.lessons.study import TEXTS
 from sambot_viz.robot.packages.package_index import package_of
 from sambot_viz.session.undo import History
 from sambot_viz.text import text
 
 T = TypeVar("T")
 _LONGEST_NAME = 60
+_LONGEST_NEW = limits.CLASS_FOLDER.value
+_NEW = re.compile(rf"(\w[\w-]*/){{0,4}}\w[\w.-]*({'|'.join(map(re.escape, TEXTS))})")
 _MOST_LINES = 3
 """More are counted."""
 
@@ -66,15 +71,39 @@ class ModelEdits:
             raise EditRefused(name, "is read-only")
         _write([FileChange(os.fspath(file), before, after, "", ())])
 
+    @property
+    def can_create(self) -> bool:
+        """Whether there is a folder for new files: the bundled robots have none."""
+        return bool(self._folders)
+
+    def create(self, name: str) -> Path:
+        """Write an empty file; return its whole path.
+
+        Args:
+            name: its path in the package, with slashes.
+
+        Raises:
+            UsageError: it is not such a path, or a file is there.
+            EditRefused: it cannot be written.
+        """
+        if not _NEW.fullmatch(name) or len(name) > _LONGEST_NEW:
+            raise UsageError(
+                "name it as launch/robot.launch.py: letters, digits, '_' and '-', and "
+                f"one of the endings {', '.join(TEXTS)}"
+            )
+        # Of an installed model that is a link, the package with its source is the last.
+        file = self._folders[-1] / name
+        if os.path.lexists(file):
+            raise UsageError(f"{name} is there already")
+        self.save(file, None, b"")
+        return file
+
     @cached_property
     def _folders(self) -> tuple[Path, ...]:
-        """The packages of the model: where it is, and where a link to it leads."""
         if self._folder is not None:
             return (self._folder,)
-        real = Path(os.path.realpath(self._model))
-        if _is_bundled(real):
-            return ()
-        return tuple(dict.fromkeys(map(package_of, (self._model, real))))
+        is_bundled = _is_bundled(Path(os.path.realpath(self._model)))
+        return () if is_bundled else packages_of(self._model)
 
     def may_write(self, edits: Sequence[Edit]) -> bool:
         """Return whether all edits are in files of the package."""
@@ -104,6 +133,12 @@ class ModelEdits:
             of_document=False,
         )
         return " and ".join(map(_places, made))
+
+
+def packages_of(model: Path) -> tuple[Path, ...]:
+    """Return the packages of a model: where it is, and where a link to it leads."""
+    files = (model, Path(os.path.realpath(model)))
+    return tuple(dict.fromkeys(map(package_of, files)))
 
 
 def _save_new(file: Path, after: bytes) -> None:

@@ -47,7 +47,7 @@ export function ModelPanel() {
   return html`<div class="model">
     <${ModelNumbers} write=${editor ? () => editor.write() : undefined} />
     <${Files} editor=${editor} open=${content?.file} expanded=${expanded} expand=${expand} />
-    <${NewFile} />
+    <${NewFile} open=${content?.file} editor=${editor} />
     ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
     <${Conflict} content=${content} />
     <${Called} file=${content?.file} />
@@ -99,23 +99,34 @@ function Called({ file }) {
   </div>`;
 }
 
-/** Asks for the name of a new file, where files may be added. */
-function NewFile() {
+/** Asks for the name of a new file, where files may be added, until the file is there.
+ * @param {{open: string | undefined, editor: Editor | null}} props the file that is open */
+function NewFile({ open, editor }) {
   const may = useCommand("model/create");
   const [asks, setAsks] = useState(false);
+  const name = useRef("");
+  /** @type {Ref} */
+  const field = useRef(null);
+  useEffect(() => {
+    if (!asks || open !== name.current) return;
+    setAsks(false);
+    editor?.view.focus();
+  }, [open]);
+  useEffect(() => {
+    if (asks) field.current.focus();
+  }, [asks]);
   if (!may) return null;
   if (!asks)
     return html`<div class="new-file"><button class="flat" onClick=${() => setAsks(true)}>
       New file…</button></div>`;
   const create = (/** @type {Event} */ event) => {
     event.preventDefault();
-    const field = /** @type {HTMLFormElement} */ (event.target).querySelector("input");
-    act("model/create", [/** @type {any} */ (field).value.trim()]);
-    setAsks(false);
+    name.current = field.current.value.trim();
+    act("model/create", [name.current]);
   };
   return html`<form class="new-file" onSubmit=${create}>
-    <input class="field" autofocus required maxlength="60" spellcheck=${false} autocomplete="off"
-      aria-label="Name of the new file" placeholder="launch/robot.launch.py" />
+    <input class="field" ref=${field} required maxlength="60" spellcheck=${false}
+      autocomplete="off" aria-label="Name of the new file" placeholder="launch/robot.launch.py" />
     <button type="submit">Create</button>
     <button type="button" onClick=${() => setAsks(false)}>Cancel</button></form>`;
 }

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from sambot_viz import limits
 from sambot_viz.cached import cached_property
-from sambot_viz.errors import UsageError
 from sambot_viz.files import is_below
-from sambot_viz.lessons.study import TEXTS
 from sambot_viz.robot.model import Robot
-from sambot_viz.robot.packages.package_index import package_of
-
-_LONGEST = limits.CLASS_FOLDER.value
-_NEW = re.compile(rf"(\w[\w-]*/){{0,4}}\w[\w.-]*({'|'.join(map(re.escape, TEXTS))})")
+from sambot_viz.session.model_edits import packages_of
 
 
 @dataclass(frozen=True)
@@ -56,32 +49,9 @@ class ModelFiles:
             folder = next(beside, whole.parent)
             yield whole.relative_to(folder).as_posix(), whole
 
-    def new(self, name: str) -> Path:
-        """Return the whole path of a file that is not there yet.
-
-        Args:
-            name: its path in the folder, with slashes.
-
-        Raises:
-            UsageError: it is no such path, or there is a file.
-        """
-        if self.folder is None or not _NEW.fullmatch(name) or len(name) > _LONGEST:
-            raise UsageError(
-                "name it as launch/robot.launch.py: letters, digits, '_' and '-', and "
-                f"one of the endings {', '.join(TEXTS)}"
-            )
-        path = self.folder / name
-        if path.exists() or not is_below(path, self._real):
-            raise UsageError(f"{name} is there already")
-        return path
-
     @cached_property
     def _folders(self) -> tuple[Path, ...]:
-        """The packages of the model: where it is, and where a link to it leads."""
-        if self.folder is not None:
-            return (self.folder,)
-        real = Path(os.path.realpath(self.model))
-        return tuple(dict.fromkeys(map(package_of, (self.model, real))))
+        return packages_of(self.model) if self.folder is None else (self.folder,)
 
     @cached_property
     def _real(self) -> tuple[Path, ...]:

@@ -326,13 +326,13 @@ class ModelText:
     @property
     def can_create(self) -> bool:
         """Whether users may add files."""
-        return self._edits is not None and self._files.folder is not None
+        return self._edits is not None and self._edits.can_create
 
     def create(self, name: str) -> None:
-        """Write an empty file.
+        """Write an empty file, and open it.
 
         Args:
-            name: as for `ModelFiles.new`.
+            name: as for `ModelEdits.create`.
 
         Raises:
             UsageError: it may not be written, or there are too many.
@@ -340,8 +340,12 @@ class ModelText:
         """
         if self._edits is None or len(self._paths) >= limits.EDITED_FILES.value:
             raise UsageError("no file can be added here")
-        self._edits.save(self._files.new(name), None, b"")
+        self._paths[name] = self._edits.create(name)
+        self.buffer(name)
         self._find()
+        # The model may include a file that was missing.
+        self._saves += 1
+        self._tell()
 
     # What follows
 
