@@ -96,6 +96,38 @@ def test_a_mistake_is_marked_as_it_is_typed_and_its_fix_mends_the_text(
     viewer.wait_for(f"{offered}?.innerText.includes('joint')")
 
 
+def test_what_another_program_has_changed_too_is_chosen_and_undone(
+    viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url)
+    user, page = viewer.user, viewer.page
+    user.click("tab", "Model")
+    viewer.wait_for("document.querySelector('.model .cm-line')")
+    focus = "document.querySelector('.model .cm-content').focus()"
+    page.evaluate(focus)
+    user.keys("Control+Home", "ArrowDown", "End")
+    page.keyboard.insert("<!-- mine -->")
+    user.reads("Not saved")
+    # The same line, and others, of which nobody is asked.
+    model.write_text(GOOD.replace("hull", "body"))
+    user.reads("changed lines that are changed here too")
+    viewer.wait_for("document.querySelectorAll('.cm-conflict').length === 1")
+    text = "document.querySelector('.model .cm-content').innerText"
+    assert "<!-- mine -->" in page.evaluate(text)
+    user.click("button", "Take the saved text")
+    viewer.wait_for("!document.querySelector('.conflict, .cm-conflict')")
+    viewer.wait_for(f"{text}.includes('link name=\"body\"/>\\n')")
+    page.evaluate(focus)
+    user.keys("Control+z")
+    viewer.wait_for(f"{text}.includes('<!-- mine -->')")
+    user.reads("Not saved")
+    user.click("button", "Revert")
+    viewer.wait_for(f"!{text}.includes('<!-- mine -->')")
+    page.evaluate(focus)
+    user.keys("Control+z")
+    viewer.wait_for(f"{text}.includes('<!-- mine -->')")
+
+
 WITH_NUMBERS = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
 <xacro:property name="tilt" value="0"/>
 <xacro:property name="reach" value="0.20"/>

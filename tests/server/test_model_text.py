@@ -11,6 +11,7 @@ import pytest
 from inside import session_of, viser_server
 from lower_limit import lower
 from protocol_client import ProtocolClient
+from written import write_wanted
 
 from sambot_viz import Visualizer, bundled
 from sambot_viz.inputs import Inputs
@@ -82,6 +83,10 @@ class Editor:
         self.client.act("model/type", file, version, *place, new, False)
         self.client.wait_until(lambda: self.value("text")["version"] == version + 1)
 
+    def take(self, command: str, *values: object) -> None:
+        """Ask for a text, and write it as the page does."""
+        write_wanted(self.client, f"model/{command}", *values)
+
     def problems(self) -> list[dict[str, Any]]:
         """What is wrong with the text, once it is checked."""
 
@@ -140,9 +145,9 @@ def test_the_text_comes_when_the_panel_is_open_and_the_robot_follows_it(
     assert not [p for p in editor.problems() if p["severity"] == "error"]
     # Nothing is written.
     assert (package / "urdf/leg.xacro").read_text() == LEG
-    editor.client.act("model/revert", "urdf/leg.xacro")
+    editor.take("revert", "urdf/leg.xacro")
     editor.client.wait_until(lambda: editor.links == {"hull", "armm", "leg"})
-    editor.client.act("model/revert", MODEL)
+    editor.take("revert", MODEL)
     editor.client.wait_until(lambda: editor.links == {"hull", "arm", "leg"})
     assert not session_of(editor.viz).own_model
     assert "model/save" not in editor.client.rows
@@ -209,12 +214,13 @@ def test_what_another_program_saved_is_never_overwritten_unasked(
     file.write_text(theirs)
     editor.client.wait_until(lambda: editor.text == theirs)
     editor.replace('"k"', '"kk"')
-    mine, others = editor.text, theirs.replace('"leg"', '"paw"')
+    mine, others = editor.text, theirs.replace('"k"', '"paw"')
     file.write_text(others)
     editor.client.act("model/save", "urdf/leg.xacro")
     editor.client.wait_until(lambda: "another program" in editor.notice)
-    assert file.read_text() == others
-    assert (editor.text, editor.value("text")["theirs"]) == (mine, others)
+    assert (file.read_text(), editor.text) == (others, mine)
+    (conflict,) = editor.value("text")["conflicts"]
+    assert conflict["line"] == 3 and 'name="paw"' in conflict["theirs"]
     editor.client.act("model/resolve", "urdf/leg.xacro", False)
     editor.client.act("model/save", "urdf/leg.xacro")
     editor.client.wait_until(lambda: file.read_text() == mine)
@@ -227,6 +233,49 @@ def test_what_another_program_saved_is_never_overwritten_unasked(
     editor.client.act("model/save", "urdf/leg.xacro")
     editor.client.wait_until(file.exists)
     assert file.read_text() == editor.text
+
+
+def test_changes_of_other_lines_are_merged_and_conflicts_ask_one_by_one(
+    edit: Callable[..., Editor], package: Path
+) -> None:
+    editor, name = edit(edit=True), "urdf/leg.xacro"
+    file, more = package / name, "".join(f"<!-- {n} -->\n" for n in range(6))
+    editor.open(name)
+    base = LEG.replace("</robot>", f"{more}</robot>")
+    file.write_text(base)
+    editor.client.wait_until(lambda: editor.text == base)
+    for number in (0, 2, 4):
+        editor.replace(f"<!-- {number} -->", f"<!-- mine {number} 🤖 -->")
+    file.write_text(base.replace("<!-- 1", "<!-- theirs"))
+    editor.client.wait_until(lambda: "theirs" in editor.text)
+    shown = editor.value("text")
+    assert shown["merges"] == 1 and not shown["asks"]
+    mine = [line for line in editor.text.splitlines() if line.startswith("<!--")]
+    assert mine[:3] == ["<!-- mine 0 🤖 -->", "<!-- theirs -->", "<!-- mine 2 🤖 -->"]
+    # Two of the lines that were changed here are changed there too, and one more.
+    others = file.read_text()
+    for number in (2, 4, 5):
+        others = others.replace(f"<!-- {number}", f"<!-- their {number}")
+    file.write_text(others)
+    editor.client.wait_until(lambda: editor.value("text")["conflicts"])
+    shown = editor.value("text")
+    assert "mine 4 🤖 -->\n<!-- their 5" in shown["text"]
+    first, second = shown["conflicts"]
+    assert (first["theirs"], second["theirs"]) == (
+        "<!-- their 2 -->\n",
+        "<!-- their 4 -->\n",
+    )
+    version = shown["version"]
+    editor.client.act("model/choose", name, version, second["from"], False)
+    editor.client.wait_until(lambda: editor.value("text")["conflicts"] == [first])
+    assert editor.text == shown["text"]
+    editor.take("choose", name, version, first["from"], True)
+    editor.client.wait_until(lambda: not editor.value("text")["asks"])
+    for old, new in (("0", "mine 0 🤖"), ("their 4", "mine 4 🤖")):
+        others = others.replace(f"<!-- {old} -->", f"<!-- {new} -->")
+    assert editor.text == others
+    editor.client.act("model/save", name)
+    editor.client.wait_until(lambda: file.read_text() == editor.text)
 
 
 def test_who_has_control_adds_a_file_in_the_package_and_over_none(

@@ -11,6 +11,7 @@ import pytest
 from inside import session_of, viser_server
 from lower_limit import lower
 from protocol_client import ProtocolClient, Received
+from written import write_wanted
 
 from sambot_viz import RobotError, UsageError, Visualizer, load_robot
 from sambot_viz.cli import main
@@ -204,7 +205,7 @@ def test_a_text_is_compared_with_what_is_saved(show: Callable[..., Page]) -> Non
     mine, theirs = ORIGIN[3], ORIGIN[2]
     page.reads([[*ORIGIN[:2], mine, theirs, ORIGIN[4]]])
     assert len(page.ghosts()) == 1
-    client.act("model/revert", shown["file"])
+    write_wanted(client, "model/revert", shown["file"])
     page.note("The models are the same.")
     assert page.ghosts() == []
 

@@ -13,8 +13,8 @@ from sambot_viz.panels.command import FLAG, TEXT, Argument, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.problems.problems_panel import without_folders
 from sambot_viz.panels.rows.row import Answer, Data, FileContent, Json, Row
-from sambot_viz.session.editor.buffer import Buffer
-from sambot_viz.session.editor.file_text import to_units
+from sambot_viz.session.editor.buffer import Buffer, Replacement
+from sambot_viz.session.editor.file_text import from_units, to_units
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.shown_problems import Problems
 
@@ -106,7 +106,7 @@ class ModelPanel(Panel):
             }
 
     def _content(self, buffer: Buffer) -> Json:
-        theirs = buffer.theirs
+        theirs, text = buffer.theirs, buffer.text
         return {
             "file": buffer.name,
             "version": buffer.version,
@@ -114,8 +114,18 @@ class ModelPanel(Panel):
             "most": limits.EDITED_TEXT.value,
             "why": buffer.why,
             "changed": buffer.is_changed,
-            "theirs": None if theirs is None else FileContent(theirs.text),
+            "merges": buffer.merges,
+            "asks": theirs is not None,
             "gone": theirs is not None and theirs.data is None,
+            "conflicts": [
+                {
+                    "line": 1 + text.count("\n", 0, extent.start),
+                    "from": to_units(text, extent.start),
+                    "to": to_units(text, extent.end),
+                    "theirs": FileContent(theirs),
+                }
+                for extent, theirs in buffer.conflicts
+            ],
         }
 
     def _found(self, buffer: Buffer) -> Json:
@@ -254,29 +264,36 @@ class ModelPanel(Panel):
     def _write(self) -> None:
         """Let the editor of the page write the numbers that were moved.
 
-        It is the page that does, so that they can be undone there like what is typed;
-        of several files it asks again for the next one.
+        Of several files the page asks again for the next one.
         """
         found = [n for n in self._text.numbers.listed() if n.can_write]
         if not found:
             raise UsageError("no number was moved that a file has")
-        self._open = found[0].file
-        buffer = self._text.buffer(self._open)
-        self._want(
+        name = found[0].file
+        own = [n for n in found if n.file == name]
+        changes = [Replacement(n.named.extent, n.written) for n in own]
+        self._want_written(name, changes, more=len(own) < len(found))
+
+    def _want_written(
+        self, name: str, changes: Sequence[Replacement], *, more: bool = False
+    ) -> None:
+        """Let the editor of the page change a text.
+
+        It is the page that does, so that it can be undone there like what is typed.
+        """
+        buffer = self._text.buffer(name)
+        if not changes:
+            return
+        self._open = name
+        made = [
             {
-                "version": buffer.version,
-                "changes": [
-                    {
-                        "from": to_units(buffer.text, n.named.extent.start),
-                        "to": to_units(buffer.text, n.named.extent.end),
-                        "insert": n.written,
-                    }
-                    for n in found
-                    if n.file == self._open
-                ],
-                "more": any(n.file != self._open for n in found),
+                "from": to_units(buffer.text, extent.start),
+                "to": to_units(buffer.text, extent.end),
+                "insert": text,
             }
-        )
+            for extent, text in changes
+        ]
+        self._want({"version": buffer.version, "changes": made, "more": more})
 
     def _want(self, wanted: dict[str, Json]) -> None:
         """Tell the page to show a place of the file that is open, or to write there."""
@@ -309,11 +326,38 @@ class ModelPanel(Panel):
 
     @command("model/revert", TEXT, name="Take the saved text")
     def _revert(self, name: str) -> None:
-        self._text.revert(name)
+        self._want_written(name, self._text.revert(name))
 
     @command("model/resolve", TEXT, FLAG, name="Choose the text")
     def _resolve(self, name: str, take_theirs: bool) -> None:
-        self._text.resolve(name, take_theirs=take_theirs)
+        self._choose(name, None, take_theirs)
+
+    @command(
+        "model/choose", TEXT, _VERSION, _COUNT, FLAG, name="Choose the text of a place"
+    )
+    def _choose_one(
+        self, name: str, version: int, start: int, take_theirs: bool
+    ) -> None:
+        buffer = self._text.buffer(name)
+        if version != buffer.version:
+            raise UsageError(f"{name} has changed meanwhile; choose again")
+        self._choose(name, from_units(buffer.text, start), take_theirs)
+
+    def _choose(self, name: str, place: int | None, take_theirs: bool) -> None:
+        """Choose between the text and what another program has saved.
+
+        Args:
+            name: of the file.
+            place: where the lines begin that both have changed; None for all.
+            take_theirs: whether what is saved is taken; else the text stays.
+        """
+        buffer = self._text.buffer(name)
+        if not take_theirs:
+            self._text.keep(name, place)
+        elif buffer.conflicts:
+            self._want_written(name, buffer.taken(place))
+        else:
+            self._text.revert(name)
 
 
 def _start(edit: Edit) -> tuple[int, int]:

@@ -4,6 +4,7 @@
 import { act, ONLINE, CUT, rows } from "../wire/channel.js";
 import { refusals, tell } from "../window/notices.js";
 import { hovered } from "../panels/pointed_joint.js";
+import { ConflictMarks } from "./conflicts.js";
 import { jointAround } from "./joint_around.js";
 import { lookOf } from "./look.js";
 import { TextSync } from "./text_sync.js";
@@ -13,12 +14,14 @@ const PAUSE = 300;
 
 /**
  * @typedef {{file: string, version: number, text: string, most: number, why: string,
- *   changed: boolean, theirs?: string | null, gone: boolean}} Content of the server
+ *   changed: boolean, merges: number, asks: boolean, gone: boolean,
+ *   conflicts: import("./conflicts.js").Conflict[]}} Content of the server
  * @typedef {{id: string, from: number, to: number, severity: string, message: string, hint: string,
  *   edits: [number, number, string][] | null, fix: boolean}} Found
  */
 
-/** The files that were open in this page. @type {Map<string, {sync: TextSync, state: any}>} */
+/** The files that were open in this page, and how often each was merged.
+ * @type {Map<string, {sync: TextSync, state: any, merges: number}>} */
 const opened = new Map();
 
 /** The editor that is seen: texts that were open before have extensions that ask it.
@@ -34,12 +37,11 @@ export class Editor {
   constructor(cm, host) {
     this.cm = cm;
     this.file = "";
-    this.theirs = "";
     /** The joint that is lit. */
     this.lit = "";
     parts ??= {
       access: new cm.Compartment(),
-      merge: new cm.Compartment(),
+      conflicts: new ConflictMarks(cm),
       fromServer: cm.Annotation.define(),
     };
     current = this;
@@ -144,14 +146,19 @@ export class Editor {
   goTo = () => {
     const { number = 0, file, extent, ...written } = rows.data("model/wanted") ?? {};
     if (number === went || file !== this.file) return;
+    // What was typed before comes first.
+    if (written.version > (this.open?.sync.version ?? 0)) return;
     went = number;
     if (!extent) return this.put(written);
-    const [anchor, head] = extent.map((/** @type {number} */ at) =>
-      Math.min(at, this.view.state.doc.length),
-    );
+    this.select(extent[0], extent[1]);
+  };
+
+  /** Select a part of the text, and show it. @param {number} from @param {number} to */
+  select(from, to) {
+    const [anchor, head] = [from, to].map((at) => Math.min(at, this.view.state.doc.length));
     const shown = this.cm.EditorView.scrollIntoView(anchor, { y: "center" });
     this.view.dispatch({ selection: { anchor, head }, effects: shown });
-  };
+  }
 
   /** @param {any} changes of others */
   change(changes) {
@@ -168,7 +175,6 @@ export class Editor {
   begin(content) {
     if (this.open) this.keep();
     this.file = content.file;
-    this.theirs = "";
     const before = opened.get(content.file);
     if (before) {
       this.view.setState(before.state);
@@ -178,10 +184,10 @@ export class Editor {
       opened.set(content.file, {
         sync: new TextSync(this.cm.ChangeSet, content.text, content.version),
         state,
+        merges: content.merges,
       });
       this.view.setState(state);
     }
-    this.view.dispatch({ effects: parts.merge.reconfigure([]) });
     this.follow();
   }
 
@@ -193,7 +199,7 @@ export class Editor {
       extensions: [
         lookOf(this.cm, file, () => Boolean(current?.save())),
         parts.access.of([]),
-        parts.merge.of([]),
+        parts.conflicts.field,
         EditorState.changeFilter.of((/** @type {any} */ one) => {
           if (one.newDoc.length <= most) return true;
           const limit = most.toLocaleString("en");
@@ -213,12 +219,16 @@ export class Editor {
     this.view.dispatch({ effects: parts.access.reconfigure(reads ? only : []) });
   };
 
-  /** Show how the text differs from what another program has saved. @param {Content} content */
-  compare({ theirs }) {
-    if ((theirs ?? "") === this.theirs) return;
-    this.theirs = theirs ?? "";
-    const other = this.theirs && this.cm.unifiedMergeView({ original: this.theirs });
-    this.view.dispatch({ effects: parts.merge.reconfigure(other || []) });
+  /** Mark what another program has changed too, and say what was merged.
+   * @param {Content} content */
+  compare({ file, version, merges, conflicts }) {
+    const open = this.open;
+    if (!open) return;
+    if (merges > open.merges)
+      tell(`Another program has saved ${file}: the text has its changes and those of here`, "info");
+    open.merges = merges;
+    if (!open.sync.isAhead && version === open.sync.version)
+      this.view.dispatch({ effects: parts.conflicts.of(this.view.state.doc, conflicts) });
   }
 
   /** Mark what is wrong with the text, if that is still the one that was checked. */
@@ -253,10 +263,11 @@ export class Editor {
     };
   }
 
-  /** Write the numbers that were moved; what was typed is sent before. */
-  write() {
+  /** Let the server say what is to be written here; what was typed is sent before.
+   * @param {string} command @param {any[]} [values] */
+  ask(command, values) {
     this.send();
-    act("model/write");
+    act(command, values);
   }
 
   /** @param {{version: number, changes: {from: number, to: number, insert: string}[],
@@ -264,9 +275,9 @@ export class Editor {
   put({ version, changes, more }) {
     const sync = this.open?.sync;
     if (!sync || sync.isAhead || sync.version !== version)
-      return tell("The text has changed meanwhile; write the numbers again", "info");
+      return tell("The text has changed meanwhile; try again", "info");
     const shown = this.cm.EditorView.scrollIntoView(changes[0].from, { y: "center" });
-    this.view.dispatch({ changes, effects: shown, userEvent: "input.number" });
+    this.view.dispatch({ changes, effects: shown, userEvent: "input.written" });
     this.send();
     if (more) act("model/write");
   }

@@ -6,6 +6,7 @@ import { act } from "../wire/channel.js";
 import { Editor } from "../editor/editor.js";
 import { Expanded } from "../editor/expanded.js";
 import { loadCodeMirror } from "../editor/look.js";
+import { ModelConflict } from "./model_conflict.js";
 import { ModelNumbers } from "./model_numbers.js";
 import { useCommand, useData } from "../state.js";
 
@@ -45,11 +46,11 @@ export function ModelPanel() {
   useEffect(() => expand(false), [wanted]);
   const why = content?.why && `This file cannot be shown: ${content.why}.`;
   return html`<div class="model">
-    <${ModelNumbers} write=${editor ? () => editor.write() : undefined} />
+    <${ModelNumbers} write=${editor ? () => editor.ask("model/write") : undefined} />
     <${Files} editor=${editor} open=${content?.file} expanded=${expanded} expand=${expand} />
     <${NewFile} open=${content?.file} editor=${editor} />
     ${(failed || why) && html`<p class="note l-error">${failed || why}</p>`}
-    <${Conflict} content=${content} />
+    <${ModelConflict} editor=${editor} content=${content} />
     <${Called} file=${content?.file} />
     <div class=${`text${why ? " away" : ""}${expanded ? " off" : ""}`} ref=${host}></div>
     ${expanded && html`<${Expanded} />`}
@@ -121,7 +122,7 @@ function NewFile({ open, editor }) {
       New file…</button></div>`;
   const create = (/** @type {Event} */ event) => {
     event.preventDefault();
-    name.current = field.current.value.trim();
+    name.current = /** @type {HTMLInputElement} */ (field.current).value.trim();
     act("model/create", [name.current]);
   };
   return html`<form class="new-file" onSubmit=${create}>
@@ -129,27 +130,6 @@ function NewFile({ open, editor }) {
       autocomplete="off" aria-label="Name of the new file" placeholder="launch/robot.launch.py" />
     <button type="submit">Create</button>
     <button type="button" onClick=${() => setAsks(false)}>Cancel</button></form>`;
-}
-
-/** What another program has saved meanwhile. @param {{content: any}} props */
-function Conflict({ content }) {
-  const may = useCommand("model/resolve");
-  if (!content || content.theirs === null || content.theirs === undefined) return null;
-  const { file, gone } = content;
-  const choose = (/** @type {boolean} */ theirs) => () => act("model/resolve", [file, theirs]);
-  return html`<div class="note l-warn" role="alert">
-    ${
-      gone
-        ? "This file is gone from the disk."
-        : "Another program has saved this file. What it has removed or changed is marked below."
-    }
-    ${
-      may &&
-      html`<div class="buttons">
-        <button onClick=${choose(false)}>Keep this text</button>
-        ${!gone && html`<button onClick=${choose(true)}>Take the saved text</button>`}</div>`
-    }
-  </div>`;
 }
 
 /** @param {{editor: Editor | null, content: any}} props */
@@ -163,8 +143,8 @@ function Buttons({ editor, content }) {
       title="Keep the text as a file of this computer">Download</button>
     ${
       reverts &&
-      html`<button disabled=${off} title="Leave out all that is not saved"
-        onClick=${() => act("model/revert", [content.file])}>Revert</button>`
+      html`<button disabled=${off} title="Leave out all that is not saved; Ctrl+Z takes it back"
+        onClick=${() => editor?.ask("model/revert", [content.file])}>Revert</button>`
     }
     <span class="beside">${content?.changed ? "Not saved" : ""}</span>
   </div>`;

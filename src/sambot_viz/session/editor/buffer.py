@@ -1,13 +1,28 @@
-"""A file that is open in an editor: its text, and what is on the disk."""
+"""A file that is open in an editor: its text, and what is on the disk.
+
+What another program saves is merged with what users have written; where both have
+changed the same lines, they choose.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from sambot_viz import limits
+from sambot_viz.edits import Extent
 from sambot_viz.errors import UsageError
 from sambot_viz.session.editor.file_text import FileText, from_units, read_file_text
+from sambot_viz.session.editor.three_way import Segment, segments
+
+
+class Replacement(NamedTuple):
+    """Lines of a text, and what takes their place."""
+
+    extent: Extent
+    text: str
 
 
 @dataclass(eq=False)
@@ -17,10 +32,13 @@ class Buffer:
     Attributes:
         path: the whole path.
         name: what users call it: its path in the package, with slashes.
-        disk: what was on the disk when the text began, or was saved.
+        disk: what was on the disk when the text began, or was saved, with what was
+            merged since.
         text: as it is in the editor.
         version: another number for another text.
-        theirs: what another program has saved meanwhile; None when nothing has.
+        theirs: what another program has saved meanwhile and could not be merged; None
+            when nothing has.
+        merges: how often something was merged.
     """
 
     path: Path
@@ -29,6 +47,7 @@ class Buffer:
     text: str = field(default="")
     version: int = 0
     theirs: FileText | None = None
+    merges: int = 0
 
     @classmethod
     def opened(cls, path: Path, name: str) -> Buffer:
@@ -44,7 +63,15 @@ class Buffer:
     @property
     def is_changed(self) -> bool:
         """Whether the text is another one than that on the disk was."""
-        return self.text != self.disk.text
+        is_gone = self.disk.data is None and not self.disk.why
+        return self.text != self.disk.text or is_gone
+
+    @property
+    def conflicts(self) -> list[Replacement]:
+        """The lines that another program has changed too, with what it has written."""
+        if self.theirs is None or self.theirs.data is None or self.theirs.why:
+            return []
+        return [made for made, part in self._against(self.theirs) if _is_open(part)]
 
     def take(self, text: str) -> None:
         """Take another text.
@@ -60,6 +87,7 @@ class Buffer:
         if text != self.text:
             self.text = text
             self.version += 1
+            self._end_conflict()
 
     def replace(self, version: int, start: int, end: int, new: str) -> bool:
         """Replace a part of the text.
@@ -91,33 +119,76 @@ class Buffer:
             Whether anything has changed here.
         """
         found = read_file_text(self.path)
-        is_same = found.data == self.disk.data and not (self.why and not found.why)
-        if is_same:
-            changed, self.theirs = self.theirs is not None, None
-            return changed
-        if not self.is_changed or found.text == self.text:
+        seen = self.disk if self.theirs is None else self.theirs
+        if found.data == seen.data and not (self.why and not found.why):
+            return False
+        if found.text == self.text or self.text == self.disk.text:
             self._begin(found)
-            return True
-        changed, self.theirs = self.theirs != found, found
-        return changed
+        elif found.data is None or found.why:
+            self.theirs = found
+        else:
+            self._merge(found)
+        return True
 
-    def resolve(self, *, take_theirs: bool) -> None:
-        """End the difference with what another program has saved.
+    def _merge(self, found: FileText) -> None:
+        parts = [*segments(self.disk.text, self.text, found.text)]
+        merged = "".join(part.merged for part in parts)
+        if len(merged) > limits.EDITED_TEXT.value:
+            self.theirs = found
+            return
+        self.merges += merged != self.text
+        self.take(merged)
+        base = "".join(p.base if p.is_conflict else p.theirs for p in parts)
+        self.disk, self.theirs = replace(self.disk, text=base), found
+        self._end_conflict()
+
+    def keep(self, place: int | None = None) -> None:
+        """Let the text be saved over what another program has saved.
 
         Args:
-            take_theirs: whether their text is taken; else this one may be saved over
-                it.
+            place: where the lines of one conflict begin; None for all.
         """
         if self.theirs is None:
             return
-        if take_theirs:
-            self._begin(self.theirs)
+        if place is not None:
+            parts = self._against(self.theirs)
+            base = (p.theirs if m.extent.start == place else p.base for m, p in parts)
+            self.disk = replace(self.disk, text="".join(base))
+            self._end_conflict()
         else:
             self.disk, self.theirs = replace(self.theirs, why=""), None
 
-    def revert(self) -> None:
-        """Take the text that is on the disk again."""
-        self._begin(read_file_text(self.path))
+    def taken(self, place: int | None = None) -> list[Replacement]:
+        """Return how the text becomes that of another program, where both changed it.
+
+        Args:
+            place: as for `keep`.
+        """
+        return [m for m in self.conflicts if place is None or m.extent.start == place]
+
+    def revert(self) -> list[Replacement]:
+        """Return how the text becomes that on the disk, which counts from now on.
+
+        What cannot be shown as text takes its place at once.
+        """
+        found = read_file_text(self.path)
+        if self.why or found.data is None or found.why:
+            self._begin(found)
+            return []
+        self.disk, self.theirs = found, None
+        return [made for made, part in self._against(found) if part.mine != part.theirs]
+
+    def _against(self, theirs: FileText) -> Iterator[tuple[Replacement, Segment]]:
+        at = 0
+        for part in segments(self.disk.text, self.text, theirs.text):
+            yield Replacement(Extent(at, at + len(part.mine)), part.theirs), part
+            at += len(part.mine)
+
+    def _end_conflict(self) -> None:
+        theirs = self.theirs
+        is_text = theirs is not None and theirs.data is not None and not theirs.why
+        if theirs is not None and is_text and not self.conflicts:
+            self.disk, self.theirs = theirs, None
 
     def saved(self, data: bytes) -> None:
         """Note that the text is on the disk now."""
@@ -127,9 +198,14 @@ class Buffer:
     def _begin(self, disk: FileText) -> None:
         if disk.data is None and self.disk.data is not None:
             # The file is gone, its text is not.
-            self.disk, self.theirs = replace(disk, why=""), None
+            self.disk, self.theirs = replace(disk, text=self.text, why=""), None
             return
         self.disk, self.theirs = disk, None
         if self.text != disk.text:
             self.text = disk.text
             self.version += 1
+
+
+def _is_open(part: Segment) -> bool:
+    """Tell whether another program has changed lines that are otherwise here."""
+    return part.theirs not in (part.base, part.mine)

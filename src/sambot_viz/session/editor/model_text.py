@@ -19,7 +19,7 @@ from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
 from sambot_viz.robot.xacro.diagnose.source_files import read_source
-from sambot_viz.session.editor.buffer import Buffer
+from sambot_viz.session.editor.buffer import Buffer, Replacement
 from sambot_viz.session.editor.file_text import to_units
 from sambot_viz.session.editor.model_files import ModelFiles
 from sambot_viz.session.editor.model_numbers import (
@@ -283,14 +283,15 @@ class ModelText:
         self._find()
         self._tell()
 
-    def revert(self, name: str) -> None:
-        """Take the text that is on the disk."""
-        self.buffer(name).revert()
+    def revert(self, name: str) -> list[Replacement]:
+        """Return how a text becomes that on the disk; see `Buffer.revert`."""
+        changes = self.buffer(name).revert()
         self._tell()
+        return changes
 
-    def resolve(self, name: str, *, take_theirs: bool) -> None:
-        """End the difference with what another program has saved; see `Buffer`."""
-        self.buffer(name).resolve(take_theirs=take_theirs)
+    def keep(self, name: str, place: int | None = None) -> None:
+        """Let a text be saved over what another program has saved; see `Buffer`."""
+        self.buffer(name).keep(place)
         self._tell()
 
     def save(self, name: str) -> None:

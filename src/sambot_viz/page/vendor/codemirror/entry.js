@@ -25,7 +25,6 @@ export {
   syntaxTree,
 } from "@codemirror/language";
 export { forceLinting, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
-export { MergeView, unifiedMergeView } from "@codemirror/merge";
 export { gotoLine, highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 export {
   Annotation,
