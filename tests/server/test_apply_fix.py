@@ -117,6 +117,26 @@ def test_a_press_writes_the_fix_and_the_robot_follows(
     client.wait_until(lambda: not buttons(client))
 
 
+def test_a_mended_warning_does_not_linger_beside_the_error_that_it_uncovers(
+    show: Show, page: Page, model: Path
+) -> None:
+    wrong = '<robot name="r">\n<xacro:proprty name="a" value="1"/>\n\n<link name="l"/>'
+    model.write_text(f"{wrong}\n</robot>\n")
+    viz = show()
+    client = page(viz)
+    client.wait_until(lambda: len(codes(viz)) == 1)
+    (before,) = codes(viz)
+    (row,) = (r["id"] for r in client.rows.values() if r.get("place") == "r.urdf:2")
+    client.act("problems/unfold", row)
+    client.wait_until(lambda: len(buttons(client)) == 1)
+    press(client)
+    client.wait_until(lambda: notice(client).startswith("Applied"))
+    client.wait_until(lambda: codes(viz) and before not in codes(viz))
+    # The file as it was has it again.
+    client.act("edit/undo")
+    client.wait_until(lambda: codes(viz) == [before])
+
+
 def test_two_presses_before_the_file_is_read_again_are_one(
     show: Show, page: Page, model: Path
 ) -> None:

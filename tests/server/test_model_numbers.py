@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from inside import session_of, viser_server
 from protocol_client import ProtocolClient
+from written import write_wanted
 
 from sambot_viz import Visualizer
 from sambot_viz.inputs import Inputs
@@ -173,6 +174,31 @@ def test_moved_numbers_are_written_as_the_editor_of_the_page_does_it(
     page.client.wait_until(lambda: page.value("model/wanted")["file"] != FILE)
     assert not page.value("model/wanted")["more"]
     page.until_height("top", 0.125)
+
+
+def test_undo_after_the_write_undoes_the_write_and_then_the_move(
+    open_page: Callable[..., Page],
+) -> None:
+    page = open_page(watch=False, edit=True)
+    page.move("size", 0.25)
+    page.until_height("top", 0.125)
+    page.client.wait_until(lambda: page.value("numbers/writable") == 1)
+    write_wanted(page.client, "model/write")
+    written = MODEL.replace('name="size" value="0.20"', 'name="size" value="0.25"')
+    page.client.wait_until(partial(page.has_text, written))
+    page.client.wait_until(lambda: not page.value("numbers/moved"))
+    page.client.act("edit/undo")
+    page.client.wait_until(partial(page.has_text, MODEL))
+    # As before the write: moved, and not in the text.
+    page.client.wait_until(lambda: page.value("numbers/moved") == 1)
+    page.client.act("edit/redo")
+    page.client.wait_until(partial(page.has_text, written))
+    page.client.act("edit/undo")
+    page.client.wait_until(lambda: page.value("numbers/moved") == 1)
+    page.client.act("edit/undo")
+    page.client.wait_until(lambda: not page.value("numbers/moved"))
+    page.until_height("top", 0.1)
+    assert page.has_text(MODEL)
 
 
 def test_a_value_that_makes_no_robot_leaves_the_last_one(

@@ -78,7 +78,11 @@ class BrowserPanels:
         panels = [images, *self._panels(session, files, ask_page)]
         if text is not None:
             folders = files is not None and not session.roles.presented
-            panels.append(ModelPanel(text, session.problems, folders, self._remake))
+            panels.append(
+                ModelPanel(
+                    text, session.problems, session.history, folders, self._remake
+                )
+            )
             panels.append(NumbersPanel(text, session.history, self._remake))
         if invite is not None:
             roles, number = session.roles, client.client_id

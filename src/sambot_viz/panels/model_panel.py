@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile
@@ -13,10 +14,11 @@ from sambot_viz.panels.command import FLAG, TEXT, Argument, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.problems.problems_panel import without_folders
 from sambot_viz.panels.rows.row import Answer, Data, FileContent, Json, Row
-from sambot_viz.session.editor.buffer import Buffer, Replacement
+from sambot_viz.session.editor.buffer import Buffer, Replacement, replaced
 from sambot_viz.session.editor.file_text import from_units, to_units
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.shown_problems import Problems
+from sambot_viz.session.undo import History
 
 _COUNT = Argument(int, least=0, most=2 * limits.EDITED_TEXT.value)
 _VERSION = Argument(int, least=0)
@@ -29,6 +31,7 @@ class ModelPanel(Panel):
     Args:
         text: what there is to write.
         problems: those of its files are shown at their lines.
+        history: undoes what the panel writes.
         folders: whether messages may name folders of the server.
         remake: called after another file was opened.
     """
@@ -39,12 +42,13 @@ class ModelPanel(Panel):
         self,
         text: ModelText,
         problems: Problems,
+        history: History,
         folders: bool,
         remake: Callable[[Panel], None],
     ) -> None:
         self.remade_by = (text.changed, problems.shown)
         self._text = text
-        self._problems = problems
+        self._problems, self._history = problems, history
         self._folders = folders
         self._remake = remake
         self._shown = self._expands = False
@@ -272,6 +276,15 @@ class ModelPanel(Panel):
         name = found[0].file
         own = [n for n in found if n.file == name]
         changes = [Replacement(n.named.extent, n.written) for n in own]
+        moved, before = self._text.numbers.moved.value, self._text.buffer(name).text
+        after = replaced(before, changes)
+        left = {key: moved[key] for key in moved.keys() - {n.id for n in own}}
+        self._history.record(
+            f"Write numbers into {name}",
+            partial(self._text.put_back, name, after, before, moved),
+            partial(self._text.put_back, name, before, after, left),
+            of_document=False,
+        )
         self._want_written(name, changes, more=len(own) < len(found))
 
     def _want_written(

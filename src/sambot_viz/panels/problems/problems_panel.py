@@ -128,7 +128,9 @@ class ProblemsPanel(Panel):
             raise
         hint = fix.hint if self._folders else without_folders(fix.hint)
         said = f"Applied: {hint} in {where}"
-        if not self._edits.watched:
+        if self._edits.watched:
+            self._problems.note_applied(fix.edits)
+        else:
             said += "; start the program again to see it (--no-watch)"
         self._applied = fix, Answer(said)
         return self._applied[1]

@@ -6,7 +6,7 @@ changed the same lines, they choose.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -19,10 +19,17 @@ from sambot_viz.session.editor.three_way import Segment, segments
 
 
 class Replacement(NamedTuple):
-    """Lines of a text, and what takes their place."""
+    """A part of a text, and what takes its place."""
 
     extent: Extent
     text: str
+
+
+def replaced(text: str, changes: Iterable[Replacement]) -> str:
+    """Return a text with changes of different parts, in any order."""
+    for (start, end), new in sorted(changes, reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
 
 
 @dataclass(eq=False)

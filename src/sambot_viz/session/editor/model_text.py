@@ -289,6 +289,27 @@ class ModelText:
         self._tell()
         return changes
 
+    def put_back(
+        self, name: str, now: str, before: str, moved: Mapping[str, float]
+    ) -> None:
+        """Undo, or do again, what the editor has written.
+
+        Args:
+            name: of the file.
+            now: its text.
+            before: the text that takes its place.
+            moved: the numbers that are moved then.
+
+        Raises:
+            UsageError: the text is another one by now.
+        """
+        buffer = self.buffer(name)
+        if buffer.text != now:
+            raise UsageError("the text has changed since; Ctrl+Z in the text undoes it")
+        buffer.take(before)
+        self._tell()
+        self.numbers.restore(moved)
+
     def keep(self, name: str, place: int | None = None) -> None:
         """Let a text be saved over what another program has saved; see `Buffer`."""
         self.buffer(name).keep(place)
