@@ -129,6 +129,9 @@ def test_the_board_follows_each_student(room: Classroom) -> None:
         assert (head["steps"], head["points"], head["rows"]) == (2, 5, [])
         ada.join("Ada")
         page = ada.page()
+        # The file to begin with is empty, which is no mistake of the student.
+        board.until(lambda: board.rows and board.rows[1]["errors"])
+        assert not board.rows[1]["stuck"]
         write(page, WRONG)
         board.until(lambda: board.rows and "0.42 0.31 0.2" in board.rows[1]["first"])
         board.until(lambda: board.rows[1]["pages"] == 1)

@@ -74,5 +74,5 @@ class SeatState:
 
     @property
     def stuck(self) -> bool:
-        """Whether something is wrong, or has failed."""
-        return self.errors > 0 or self.tries > 0
+        """Whether something that the student has written is wrong, or has failed."""
+        return self.tries > 0 or (self.errors > 0 and self.changed > 0)
