@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from inside import session_of
 from lesson_files import BASE
 from viewer_page import ViewerPage
 
@@ -44,7 +45,7 @@ def test_a_step_is_tried_mended_and_left_for_the_next_one(
     viewer = open_viewer(viz.url)
     user = viewer.user
     user.reads("What has to hold")
-    user.reads("the model cannot be read: robot.urdf:1:1: the file is empty")
+    user.reads("the model cannot be read: the file is empty")
     # The text to write is beside it.
     viewer.wait_for("document.querySelector('.model .text')")
     user.click("button", "Check")
@@ -59,3 +60,21 @@ def test_a_step_is_tried_mended_and_left_for_the_next_one(
     user.click("tab", "Lesson")
     user.click("button", "Back")
     user.reads("1. The body")
+
+
+def test_in_a_narrow_window_a_mistake_leaves_the_lesson_and_the_text_in_front(
+    viz: Visualizer, model: Path, open_viewer: Callable[..., ViewerPage]
+) -> None:
+    viewer = open_viewer(viz.url, width=1024, height=768)
+    user = viewer.user
+    # The file to begin with is empty, which is an error.
+    user.reads("the model cannot be read")
+    chosen = "[...document.querySelectorAll('[role=tab][aria-selected=true]')]"
+    assert viewer.page.evaluate(f"{chosen}.map((tab) => tab.innerText)") == ["Lesson"]
+    user.click("tab", "Model")
+    viewer.wait_for("document.querySelector('.model .cm-line')")
+    model.write_text(RIGHT)
+    user.until(lambda: session_of(viz).robot.model is not None)
+    model.write_text(RIGHT.replace("</robot>", ""))
+    viewer.wait_for("document.querySelector('.model .cm-lintRange-error')")
+    assert viewer.page.evaluate("document.querySelector('.model .cm-line') !== null")

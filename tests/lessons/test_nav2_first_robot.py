@@ -188,6 +188,19 @@ def test_a_wrong_solution_is_found_in_its_step(
     assert said in "\n".join(verdict(lesson, package, step))
 
 
+def test_a_file_without_the_namespace_of_xacro_is_no_begin(
+    lesson: Lesson, tmp_path: Path
+) -> None:
+    model = tmp_path / f"{MODEL}.urdf"
+    model.parent.mkdir(parents=True)
+    text = '<robot name="sam_bot"{}><link name="base_link"/></robot>'
+    model.write_text(text.format(""))
+    (said,) = verdict(lesson, tmp_path, "file")
+    assert said.endswith("expected: the namespace of xacro")
+    model.write_text(text.format(' xmlns:xacro="http://ros.org/wiki/xacro"'))
+    assert verdict(lesson, tmp_path, "file") == []
+
+
 def test_every_code_that_a_condition_names_exists() -> None:
     known = {sample.code for sample in all_samples()}
     asked = {

@@ -7,7 +7,7 @@ Object.assign(globalThis, {
   addEventListener: () => {},
 });
 const { Blocks } = await import("../../src/sambot_viz/page/panels/lesson_text.js");
-const { earned, verdict } = await import("../../src/sambot_viz/page/panels/lesson.js");
+const { counted, earned, verdict } = await import("../../src/sambot_viz/page/panels/lesson.js");
 
 /** The elements and texts of what a component draws. */
 function drawn(node) {
@@ -67,4 +67,10 @@ test("what is said below the conditions follows the tries", () => {
   assert.equal(verdict({ ...state, outcomes: [fault] }), "A hint comes after 1 try more.");
   assert.equal(verdict({ ...state, outcomes: [fault], tries: 1, hint_in: 0 }), "1 try so far. ");
   assert.equal(verdict({ ...state, passed: true }), "All holds.");
+});
+
+test("steps that hold while another one is read are told", () => {
+  assert.equal(counted([]), "");
+  assert.match(counted([4]), /^Step 4 holds too/);
+  assert.match(counted([2, 4, 7]), /^Steps 2, 4 and 7 hold too/);
 });

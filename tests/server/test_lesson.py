@@ -100,9 +100,7 @@ Learn = Callable[..., Desk]
 def test_a_save_brings_the_tick_and_counts_no_try(learn: Learn) -> None:
     desk = learn()
     assert desk.value("text")["title"] == "The body"
-    assert desk.faults == [
-        "the model cannot be read: robot.urdf:1:1: the file is empty"
-    ]
+    assert desk.faults == ["the model cannot be read: the file is empty"]
     desk.write(WRONG)
     desk.client.wait_until(lambda: any("0.42 0.31 0.2" in one for one in desk.faults))
     assert desk.value("state")["tries"] == 0
@@ -118,6 +116,36 @@ def test_a_save_brings_the_tick_and_counts_no_try(learn: Learn) -> None:
     desk.client.wait_until(lambda: desk.value("text")["title"] == "A wheel")
     desk.until_outcomes()
     assert any("drivewhl_l_joint" in one for one in desk.faults)
+
+
+def test_a_step_that_holds_while_another_one_is_read_counts_at_once(
+    learn: Learn,
+) -> None:
+    desk = learn(RIGHT)
+    desk.client.wait_until(lambda: desk.passed == [True, False])
+    assert desk.value("state")["also"] == []
+    wheel = """<link name="base_footprint"/><joint name="f" type="fixed">
+    <parent link="base_link"/><child link="base_footprint"/>
+    <origin xyz="0 0 -0.15"/></joint>
+    <link name="drivewhl_l_link"><visual><geometry><sphere radius="0.1"/></geometry>
+    </visual></link>
+    <joint name="drivewhl_l_joint" type="continuous"><parent link="base_link"/>
+    <child link="drivewhl_l_link"/><origin xyz="-0.12 0.18 -0.05"/>
+    <axis xyz="0 1 0"/></joint></robot>"""
+    desk.write(RIGHT.replace("</robot>", wheel))
+    desk.client.wait_until(lambda: desk.passed == [True, True])
+    assert desk.value("steps")["shown"] == 1
+    desk.client.wait_until(lambda: desk.value("state")["also"] == [2])
+    desk.client.act("lesson/show", 2)
+    desk.client.wait_until(lambda: desk.value("state")["also"] == [])
+
+
+def test_what_is_wrong_with_the_whole_model_has_its_place_once(learn: Learn) -> None:
+    desk = learn(RIGHT.replace("</robot>", ""))
+    desk.until_outcomes()
+    (outcome,) = desk.value("state")["outcomes"]
+    assert outcome["place"] == "robot.urdf:1"
+    assert "never closed" in outcome["text"] and "robot.urdf" not in outcome["text"]
 
 
 def test_a_check_counts_a_try_and_brings_the_hints(learn: Learn) -> None:

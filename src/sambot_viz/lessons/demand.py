@@ -14,7 +14,7 @@ from sambot_viz.lessons.conditions.condition import (
     Condition,
     Unmet,
     UnmetError,
-    without_answer,
+    of_problem,
 )
 from sambot_viz.lessons.conditions.kinds import KINDS
 from sambot_viz.lessons.reading.records import read_record
@@ -131,8 +131,6 @@ def explained(error: RobotError) -> Unmet:
     """Say why a model cannot be read, without how to fix it."""
     errors = (p for p in error.problems if p.severity == "error")
     problem = next(errors, error.problems[0])
-    place = f"{problem.place}: " if problem.place else ""
-    return Unmet(
-        f"the model cannot be read: {place}{without_answer(problem.message)}",
-        "a model that can be read",
+    return of_problem(
+        problem, "a model that can be read", before="the model cannot be read: "
     )

@@ -7,6 +7,7 @@ import mimetypes
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 
+from sambot_viz.errors import Place
 from sambot_viz.lessons.evaluation import DemandResult
 from sambot_viz.lessons.markdown import TextBlock
 from sambot_viz.panels.command import Argument, command
@@ -79,6 +80,7 @@ class LessonPanel(Panel):
             "passed": progress.passed,
             "checking": shown.checking,
             "trouble": shown.trouble,
+            "also": [self._study.lesson.steps.index(one) + 1 for one in shown.also],
             "hint_in": self._study.tries_to_hint(step),
         }
 
@@ -118,10 +120,14 @@ def _rows(outcomes: Iterable[DemandResult]) -> Iterator[Json]:
         for fault in outcome.faults:
             if fault.message not in said:
                 said.add(fault.message)
-                place = fault.unmet.place
-                where = "" if place is None else place_of_line(place.file, place.line)
-                yield {
-                    "holds": False,
-                    "text": without_folders(fault.message),
-                    "place": where,
-                }
+                yield {"holds": False, **_fault(fault.message, fault.unmet.place)}
+
+
+def _fault(message: str, place: Place | None) -> dict[str, Json]:
+    """Give a sentence, and beside it the place that it may have inside."""
+    if place is None:
+        return {"text": without_folders(message), "place": ""}
+    known = (place.file, place.line, place.column)
+    inside = ":".join(str(part) for part in known if part is not None)
+    words = without_folders(message.replace(f"{inside}: ", "", 1))
+    return {"text": words, "place": place_of_line(place.file, place.line)}

@@ -1,7 +1,8 @@
 """A lesson in a session: the step that is shown, and what holds of it by now.
 
 What the student has written is read in a thread, after each save and each text that is
-typed in the page. That counts no try: only the button Check does.
+typed in the page. That counts no try: only the button Check does. A step that holds in
+the saved files counts, whichever step is read.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 from sambot_viz.lessons.evaluation import DemandResult, faults_in
 from sambot_viz.lessons.lesson import LessonStep
 from sambot_viz.lessons.study import Study
+from sambot_viz.lessons.work import Work
 from sambot_viz.session.background import Background
 from sambot_viz.session.editor.model_text import ModelText
 from sambot_viz.session.signals import Change, Signal, connect
@@ -51,6 +53,7 @@ class ShownLesson:
         changed: told after a change of what is shown.
         step: the step that is shown.
         outcomes: what holds of it, and what does not; None until that is known.
+        also: steps that have come to hold while this one was read.
         checking: whether a try is being counted.
         other_model: the name of its model file, where the view shows another one.
         trouble: why the progress cannot be kept; "" when it is.
@@ -71,6 +74,7 @@ class ShownLesson:
         self.step = study.step
         self._model = study.model_of(self.step)
         self.outcomes: list[DemandResult] | None = None
+        self.also: tuple[LessonStep, ...] = ()
         self.checking = False
         self.trouble = self.other_model = ""
         self.teacher = FromTeacher()
@@ -113,7 +117,7 @@ class ShownLesson:
             UsageError: there is no such step.
         """
         self.step = self.study.lesson.step(number)
-        self.outcomes = None
+        self.outcomes, self.also = None, ()
         model = self.study.model_of(self.step)
         if self._text is not None:
             self._text.follow(model)
@@ -170,6 +174,30 @@ class ShownLesson:
             if outcomes != self.outcomes:
                 self.outcomes = outcomes
                 self.changed.touch()
+        if not texts:
+            self._look_at_others(step)
+
+    def _look_at_others(self, shown: LessonStep) -> None:
+        """Count the steps that hold in the saved files, too."""
+        works: dict[Path, Work] = {}
+        for step in self.study.lesson.steps:
+            if step is shown or self.study.progress.of(step.name).passed:
+                continue
+            model = self.study.model_of(step)
+            if model not in works:
+                works[model] = self.study.work_of(step)
+            try:
+                outcomes = self.study.outcomes(step, works[model])
+            except Exception as error:
+                self._report(error)
+                return
+            with self._change.lock:
+                if self._closed or shown is not self.step:
+                    return
+            if not faults_in(outcomes):
+                with self._change(self.changed):
+                    self._count(step, outcomes)
+                    self.also += (step,)
 
     def _read(self, step: LessonStep) -> list[DemandResult]:
         model, trusted = self.study.model_of(step), self.study.trusted

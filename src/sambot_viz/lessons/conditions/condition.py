@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from sambot_viz.checks.rule import number
-from sambot_viz.errors import Place, nearest
+from sambot_viz.errors import Place, Problem, nearest
 from sambot_viz.geometry import PlainPose, Vector3
 from sambot_viz.lessons.work import Work
 from sambot_viz.robot.model import Robot
@@ -61,9 +61,19 @@ class Condition(Protocol):
         ...
 
 
-def without_answer(message: str) -> str:
-    """Return the message of a problem without what was meant, which is the answer."""
-    return _MEANT.sub("", message)
+def of_problem(problem: Problem, expected: str, before: str = "") -> Unmet:
+    """Say what a problem says, without what was meant, which is the answer.
+
+    Args:
+        problem: the problem.
+        expected: what there has to be.
+        before: the first words.
+    """
+    where = f"{problem.place}: " if problem.place else ""
+    place = None
+    if problem.file is not None and problem.line is not None:
+        place = Place(problem.file, problem.line, problem.column)
+    return Unmet(f"{before}{where}{_MEANT.sub('', problem.message)}", expected, place)
 
 
 def link_of(robot: Robot, name: str) -> Link:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
-from sambot_viz.errors import Place, Problem, nearest
-from sambot_viz.lessons.conditions.condition import Unmet, without_answer
+from sambot_viz.errors import Place, nearest
+from sambot_viz.lessons.conditions.condition import Unmet, of_problem
 from sambot_viz.lessons.reading.records import given
 from sambot_viz.lessons.reading.values import COUNT, TEXT, TEXTS
 from sambot_viz.lessons.work import Work
@@ -100,7 +100,7 @@ class NoProblemCondition:
         for problem in work.problems:
             named = any(fnmatchcase(problem.code, code) for code in self.code)
             if named and problem.severity != "info":
-                yield _of(problem, "no such finding")
+                yield of_problem(problem, "no such finding")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,9 +114,4 @@ class NoErrorsCondition:
         for problem in work.problems:
             is_free = any(fnmatchcase(problem.code, code) for code in self.but)
             if problem.severity == "error" and not is_free:
-                yield _of(problem, "no errors")
-
-
-def _of(problem: Problem, expected: str) -> Unmet:
-    place = f"{problem.place}: " if problem.place else ""
-    return Unmet(f"{place}{without_answer(problem.message)}", expected)
+                yield of_problem(problem, "no such finding")

@@ -11,7 +11,7 @@ import { Blocks } from "./lesson_text.js";
  * @typedef {{title: string, points: number, passed: boolean}} Step
  * @typedef {{holds: boolean, text: string, place: string}} Outcome
  * @typedef {{outcomes: Outcome[] | null, tries: number, passed: boolean, checking: boolean,
- *   trouble: string, hint_in: number}} State
+ *   trouble: string, hint_in: number, also: number[]}} State
  * @typedef {{number: number, text: string, link: string, name: string}} Teacher
  */
 
@@ -32,6 +32,16 @@ export function verdict({ outcomes, tries, passed, checking, hint_in }) {
   return `${before}A hint comes after ${hint_in} ${hint_in === 1 ? "try" : "tries"} more.`;
 }
 
+/** What is said of other steps that have come to hold. @param {number[]} also their numbers */
+export function counted(also) {
+  if (!also.length) return "";
+  const [last, ...others] = [...also].reverse();
+  const numbers = others.length ? `${others.reverse().join(", ")} and ${last}` : `${last}`;
+  return also.length === 1
+    ? `Step ${numbers} holds too: it has its points.`
+    : `Steps ${numbers} hold too: they have their points.`;
+}
+
 export function LessonPanel() {
   const all = useData("lesson/steps");
   const text = useData("lesson/text");
@@ -44,6 +54,7 @@ export function LessonPanel() {
   return html`<div class="panel lesson">
     <${FromTeacher} />
     <${Steps} title=${all.title} shown=${all.shown} steps=${all.steps} />
+    <${News} steps=${all.steps} />
     <div class="page" ref=${scrolled}>
       <h2>${`${all.shown}. ${text.title}`}</h2>
       <${Blocks} blocks=${text.blocks} />
@@ -102,6 +113,15 @@ function Steps({ title, shown, steps }) {
       )}
     </ol>
   </details>`;
+}
+
+/** What has come to hold besides the step that is read. @param {{steps: Step[]}} props */
+function News({ steps }) {
+  /** @type {State | undefined} */
+  const state = useData("lesson/state");
+  const isDone = steps.every(({ passed }) => passed);
+  const said = isDone ? "All steps hold: the lesson is done." : counted(state?.also || []);
+  return html`<p class="news l-ok" role="status">${said}</p>`;
 }
 
 function Conditions() {

@@ -14,8 +14,10 @@ const KINDS = /** @type {const} */ ([
 ]);
 
 /**
- * @typedef {{shown: boolean, show: (on: boolean, byItself?: boolean) => void, byItself: boolean}} Shown
- *   whether the list is shown; byItself: whether there is room to open it for every error
+ * @typedef {{shown: boolean, show: (on: boolean, byItself?: boolean) => void, byItself: boolean,
+ *   byHand: () => boolean}} Shown
+ *   whether the list is shown; byItself: whether there is room to open it for every error; byHand:
+ *   whether it would take the place of what is read or written
  */
 
 export function ProblemsPanel() {
@@ -38,9 +40,9 @@ export function ErrorCount() {
  * How many problems there are. Errors among them open the list, and close it again when they go.
  * @param {Shown} props
  */
-export function ProblemCount({ shown, show, byItself }) {
+export function ProblemCount({ shown, show, byItself, byHand }) {
   const count = useData("problems/count");
-  useOpening(count, { shown, show, byItself });
+  useOpening(count, { shown, show, byItself, byHand });
   /** @type {string[]} the rows of Global Status and of displays, in this order */
   const inError = useData("displays/errors") || [];
   return html`<button class="problem-count" aria-expanded=${String(shown)}
@@ -96,11 +98,12 @@ const known = { errors: -1, old: false, opened: false };
 
 /** Open the list for new errors; what was opened so is closed when there are none.
  * @param {any} count @param {Shown} list */
-function useOpening(count, { shown, show, byItself }) {
+function useOpening(count, { shown, show, byItself, byHand }) {
   useEffect(() => {
     if (!count) return;
     const before = { ...known };
     Object.assign(known, { errors: count.error, old: count.old });
+    if (byHand() && !shown) return;
     if ((byItself && count.error > Math.max(0, before.errors)) || (count.old && !before.old)) {
       known.opened = known.opened || !shown;
       if (!shown) show(true, true);

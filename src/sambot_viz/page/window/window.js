@@ -56,6 +56,8 @@ export function Window() {
   const style = Object.entries(size)
     .map(([side, px]) => `--${side}:${px}px`)
     .join(";");
+  // In a narrow window the list would take the place of what is read, or written.
+  const byHand = () => form !== "wide" && (hasLesson() || shownTab(SHEET) === "model");
   const listed = form === "wide" ? away.problems === false : tab.value === "problems" && !away.side;
   return html`<div class=${`window ${form}${away.all ? " bare" : ""}`} style=${style}>
     ${
@@ -78,7 +80,7 @@ export function Window() {
     ${
       !away.all &&
       html`<${Part} title="The status bar"><${StatusBar}
-      problems=${{ shown: listed, show: showProblems, byItself: form !== "tall" }} /><//>`
+      problems=${{ shown: listed, show: showProblems, byItself: form !== "tall", byHand }} /><//>`
     }
     <${StopRobot} />
     <${Part} title="The menu"><${MarkerMenu} /><//>
