@@ -62,6 +62,8 @@ NO_LIMITS = {
         robot/fork_server.py _LONGEST_END
         joints/animation.py LONGEST
         publishing/dead_mans_switch.py LONGEST_STOP
+        server/followers/follower.py LONGEST_ANSWER
+        server/followers/start.py _LONGEST_END
         server/watch.py LONGEST_WAIT _LONGEST_CLOSE
         session/data/player.py LONGEST_STEP
         session/robot/motion.py LONGEST_STEP
@@ -93,6 +95,7 @@ NO_LIMITS = {
         messages/protobuf_transforms.py _LARGEST _LONGEST_VARINT
         messages/templates.py _MOST_KEYS _MOST_OF_A_KEY _MOST_BYTES
         messages/transform_decoder.py _MOST_KEPT _LARGEST_TEMPLATE
+        server/followers/follower.py MOST_WAITING
         server/tickets.py _MOST_REMOVED
         session/robot/motion_recorder.py MOST_NUMBERS
         sources/bag/file_bytes.py _MOST_AHEAD

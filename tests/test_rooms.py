@@ -134,7 +134,9 @@ ROOMS: Mapping[str, Row] = {
     "graph": Row("checks robot sources"),
     "lessons": Row("bundled checks frames messages robot rviz sources topics", "yaml"),
     # From numbers to the scene.
-    "viser_private": Row("", "rich viser websockets", "asyncio"),
+    "viser_private": Row(
+        "", "msgspec numpy rich viser websockets zstandard", "asyncio"
+    ),
     "displays": Row(
         "frames meanings meshes robot rviz sources topics viser_private",
         "PIL numpy viser",

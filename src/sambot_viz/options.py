@@ -344,6 +344,20 @@ class Options:
         optional_value="=",
         variable="SAMBOT_VIZ_PRESENTER",
     )
+    broadcast: str | None = option(
+        None,
+        "publish what pages show through a router of zenoh, for any number of servers "
+        "with --follow",
+        "--broadcast",
+        metavar="zenoh://ROUTER:7447/NAME",
+    )
+    follow: str | None = option(
+        None,
+        "show what another sambot-viz broadcasts, in place of a model: its pages only "
+        "look, and lead there to request control",
+        "--follow",
+        metavar="zenoh://ROUTER:7447/NAME",
+    )
     metrics: bool = option(
         False,
         "count clients, bytes, sources and problems for Prometheus, at /metrics of the "
@@ -471,6 +485,7 @@ class Options:
         self._check_presenter()
         self._check_publish()
         self._check_edit()
+        self._check_broadcast()
         object.__setattr__(self, "recorded", self._read_recorded())
         object.__setattr__(self, "transforms", self._read_transforms())
 
@@ -545,6 +560,32 @@ class Options:
             raise UsageError(
                 "--edit changes files, and --untrusted is for models that must not "
                 "touch any; leave one of them out"
+            )
+
+    def _check_broadcast(self) -> None:
+        """Refuse what cannot be broadcast, and a follower that shows something else."""
+        for flag, uri in (("--broadcast", self.broadcast), ("--follow", self.follow)):
+            if uri is not None:
+                from sambot_viz.sources.broadcast_place import parse_place
+
+                parse_place(uri, flag)
+        if self.broadcast is not None and self.session == "private":
+            raise UsageError(
+                "--broadcast needs a robot that all browsers share; leave "
+                "--session private out"
+            )
+        others = (
+            ("MODEL", self.model),
+            ("--display-config", self.config),
+            ("--source", self.source or None),
+            ("--broadcast", self.broadcast),
+            ("--presenter", self.presenter),
+        )
+        given = [flag for flag, value in others if value is not None]
+        if self.follow is not None and given:
+            raise UsageError(
+                f"--follow shows what another server broadcasts: leave {given[0]} out, "
+                "or give it to that server"
             )
 
     def learning(self, study: Study) -> Options:

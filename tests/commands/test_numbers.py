@@ -33,7 +33,7 @@ OTHERS = {
     "[NAME=]URI", "NAME=PREFIX", "FRAME", "ORIGIN", "HEADER", "VALUE", "=VALUE",
     "A", "B", "JOINT", "NAME", "SOURCE", "TARGET", "HOST", "TOPIC", "KINDS",
     None,
-    "FROM:=TO", "FORMAT", "LESSON", "STEP", "TRACK",
+    "FROM:=TO", "FORMAT", "LESSON", "STEP", "TRACK", "zenoh://ROUTER:7447/NAME",
 }  # fmt: skip
 """Placeholders of what is no number."""
 

@@ -241,7 +241,7 @@ class ProtocolClient:
         """The rows of all panels by id, in order, as the page has them now."""
         with self._changed:
             scopes = self._page_rows.scopes
-            self._changed.wait_for(lambda: len(scopes) == 2 or self.closed, ROWS_TIME)
+            self._changed.wait_for(lambda: len(scopes) >= 2 or self.closed, ROWS_TIME)
             return self._page_rows.by_id()
 
     def row(self, row_id: str) -> Row:

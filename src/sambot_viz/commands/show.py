@@ -118,6 +118,10 @@ def serve(options: Options, open_it: bool) -> None:
         open_it: whether it is opened in this machine's browser.
     """
     _return_large_blocks()
+    if options.follow is not None:
+        write_records(options.log_format == "json")
+        _follow(options, open_it)
+        return
     report = _Reports()
     report.model = options.model
     options = options.having(on_reload=report)
@@ -154,6 +158,23 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
         listener.close()
         # Whoever waits for a signal waits no more.
         signals.put(0)
+
+
+def _follow(options: Options, open_it: bool) -> None:
+    """Show what another server broadcasts until Ctrl-C."""
+    from sambot_viz.server.followers.start import follow
+    from sambot_viz.server.listener import listen
+
+    stop = threading.Event()
+    signals = stop_on_signals(stop)
+    with listen(options) as listener:
+        announce(options, listener.viser.get_port(), open_it)
+        end = follow(options, listener)
+        try:
+            wait_for(stop)
+        finally:
+            end()
+            signals.put(0)
 
 
 def parser() -> Parser:

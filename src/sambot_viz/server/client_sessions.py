@@ -250,7 +250,12 @@ class ClientSessions:
     ) -> None:
         if self._has_left(client):
             return
-        session.join(client, presenter=context.presenter, login=context.login)
+        session.join(
+            client,
+            presenter=context.presenter,
+            login=context.login,
+            only_looks=context.follows,
+        )
         with self._joined:
             self._joined.notify_all()
         self._on_joined()

@@ -120,6 +120,7 @@ def checked(
 
     def serve(handler: Any, *arguments: Any, **settings: Any) -> Any:
         answer = settings.get("process_request")
+        channels.serve_viser = handler
 
         def check(
             connection: Connection, request: Request

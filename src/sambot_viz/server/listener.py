@@ -49,6 +49,7 @@ class Listener:
     Attributes:
         viser: the viser server.
         answers: as given.
+        channels: as given.
     """
 
     def __init__(
@@ -60,7 +61,7 @@ class Listener:
     ) -> None:
         self.viser = server
         self.answers = answers
-        self._channels = channels
+        self.channels = channels
         self._options = options
         self._socket_file = options.unix_socket
         outbox.prepare(server)
@@ -74,19 +75,19 @@ class Listener:
         outbox.prepare_own(self.viser, client_id)
         own.close_timeout = CLOSE_TIME
         own.read = InboundFilter(
-            self.viser, lambda: self._channels.handler, client_id, own
+            self.viser, lambda: self.channels.handler, client_id, own
         ).read
 
     def give(self, handler: ClientHandler) -> None:
         """Give what the clients edit to a program, which has the rows of the pages."""
-        self._channels.handler = handler
+        self.channels.handler = handler
 
     def tell_joined(self) -> None:
         """Send rows to the clients that have some now; in any thread."""
         # A loop that has ended already has no clients.
         with suppress(RuntimeError):
             loop = self.viser.get_event_loop()
-            loop.call_soon_threadsafe(self._channels.tell_joined)
+            loop.call_soon_threadsafe(self.channels.tell_joined)
 
     def url(self, host: str = "", *, presenter: bool = False) -> str:
         """Return the address to open in a browser: "http://127.0.0.1:8080".

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import atexit
 import threading
+from collections.abc import Callable
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -74,6 +75,7 @@ class Server:
         self.options = options
         self._open = threading.Semaphore()
         self._stopped = threading.Event()
+        self._end_broadcast: Callable[[], None] = lambda: None
         self._listener = listening or listen(options)
         self._viser = self._listener.viser
         sessions = self.sessions = Sessions(
@@ -94,7 +96,7 @@ class Server:
             answers = self._listener.answers
             answers.metrics = Metrics(sessions, answers.traffic, moved_by).answer
         prepare_page(self._viser)
-        outbox.keep_apart(self._viser, clients.has_copy)
+        outgoing = outbox.keep_apart(self._viser, clients.has_copy)
         if options.session == "shared":
             try:
                 clients.open_shared()
@@ -106,6 +108,13 @@ class Server:
         atexit.register(self.stop)
         self._viser.on_client_connect(clients.join)
         self._viser.on_client_disconnect(clients.leave)
+        if options.broadcast is not None:
+            # Few servers have followers.
+            from sambot_viz.server.followers.start import broadcast
+
+            self._end_broadcast = broadcast(
+                options, self._listener, outgoing, self.clients
+            )
 
     @property
     def url(self) -> str:
@@ -134,6 +143,7 @@ class Server:
             return
         atexit.unregister(self.stop)
         self._stopped.set()
+        self._end_broadcast()
         self.sessions.close()
         _run_what_waits(self._viser.get_event_loop())
         self._listener.close()

@@ -11,7 +11,7 @@ from __future__ import annotations
 import asyncio
 import http
 from collections import deque
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Response
@@ -46,7 +46,10 @@ class Channels:
 
     Attributes:
         handler: has the rows, and takes the edits.
+        serve_viser: serves a connection to viser until it ends.
     """
+
+    serve_viser: Callable[[Connection], Awaitable[None]]
 
     def __init__(self) -> None:
         self.handler: ClientHandler = NoSessions()
@@ -135,6 +138,10 @@ class Channels:
         self._changed.set()
         self._changed.clear()
 
+    async def joined(self) -> None:
+        """Wait until clients may have rows that had none; on the loop."""
+        await self._changed.wait()
+
     async def serve(self, connection: Connection) -> None:
         """Serve the channel of one page, until it ends."""
         connection.writer.prepare()
@@ -190,7 +197,7 @@ class Channels:
                 first = False
                 continue
             first = False
-            await self._changed.wait()
+            await self.joined()
 
 
 def _in_use() -> Response:

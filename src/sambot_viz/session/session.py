@@ -212,7 +212,12 @@ class Session:
         return self.sources.data
 
     def join(
-        self, handle: viser.ClientHandle, *, presenter: bool = False, login: str = ""
+        self,
+        handle: viser.ClientHandle,
+        *,
+        presenter: bool = False,
+        login: str = "",
+        only_looks: bool = False,
     ) -> Client:
         """Add a client that has opened the page.
 
@@ -220,9 +225,10 @@ class Session:
             handle: the client.
             presenter: whether the page was opened by the presenter's link.
             login: the name by which a trusted proxy knows the user; "" without one.
+            only_looks: whether it never has control.
         """
         with self.lock:
-            self.roles.join(handle.client_id, presenter, login)
+            self.roles.join(handle.client_id, presenter, login, only_looks)
             if self.data is not None:
                 self.data.look(handle.client_id)
                 self.data.begin()

@@ -12,6 +12,7 @@ from sambot_viz.viser_private.connections import (
     quiet_websockets,
     without_banner,
 )
+from sambot_viz.viser_private.followed_scene import FollowedScene
 from sambot_viz.viser_private.moving_poses import MovingPoses, set_pose, set_poses
 from sambot_viz.viser_private.outgoing import (
     Message,
@@ -45,6 +46,7 @@ from sambot_viz.viser_private.widgets import (
 )
 
 __all__ = [
+    "FollowedScene",
     "Message",
     "MessageBuffer",
     "MovingPoses",

@@ -81,13 +81,16 @@ def own_buffer(server: viser.ViserServer, client_id: int) -> Any:
     )
 
 
+MORE_FOLLOWS = "~more"
+"""The name in that message. To viser it is that of a node that is not there."""
+
+
 def more_follows() -> Any:
     """Return what says that the next messages belong to those before it.
 
-    The page takes it out (messages.js). To viser it is the pose of a node that is not
-    there.
+    The page takes it out (messages.js).
     """
-    return _messages.SetPositionMessage("~more", (0.0, 0.0, 0.0))
+    return _messages.SetPositionMessage(MORE_FOLLOWS, (0.0, 0.0, 0.0))
 
 
 class WindowLoop(Protocol):

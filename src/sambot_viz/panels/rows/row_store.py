@@ -22,7 +22,7 @@ COMPRESSED = b"\1"
 """The first byte of a binary frame: a message in JSON, compressed by gzip. Other
 numbers are for what is not JSON, such as pictures (`displays.pictures`)."""
 
-Scope = Literal["session", "browser"]
+Scope = Literal["session", "browser", "follower"]
 
 
 class RowStore:

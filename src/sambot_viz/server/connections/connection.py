@@ -38,6 +38,7 @@ class ClientContext:
         ticket: which page it belongs to; "" for a program that has sent none.
         channel: whether it is a page's channel, and not viser's connection.
         login: the name by which a trusted proxy knows the user; "" without one.
+        follows: whether it stands for all who look at followers of this server.
     """
 
     presenter: bool = False
@@ -45,6 +46,7 @@ class ClientContext:
     ticket: str = ""
     channel: bool = False
     login: str = ""
+    follows: bool = False
 
 
 class Connection(ServerConnection):

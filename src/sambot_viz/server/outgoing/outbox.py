@@ -28,6 +28,9 @@ from sambot_viz.server.outgoing.frame_cache import (
 )
 from sambot_viz.server.outgoing.news import News
 
+_NO_CLIENT = -1
+"""Stands for the number of a client where all get the same."""
+
 
 def prepare(server: viser.ViserServer) -> None:
     """Send from here what goes out to all clients of a server."""
@@ -39,33 +42,85 @@ def prepare_own(server: viser.ViserServer, client_id: int) -> None:
     _replace(server, viser_private.own_buffer(server, client_id))
 
 
-def keep_apart(server: viser.ViserServer, apart: Callable[[int], bool]) -> None:
+def keep_apart(server: viser.ViserServer, apart: Callable[[int], bool]) -> Outbox:
     """Send some clients only what goes out to all until now: they have a scene alone.
 
     Args:
         server: the server.
         apart: whether the client of a number is one of them.
+
+    Returns:
+        What goes out to the others.
     """
     buffer = viser_private.broadcast_buffer(server)
     end = buffer.message_counter - 1
-    _replace(server, buffer, lambda client_id: end if apart(client_id) else math.inf)
+    return _replace(
+        server, buffer, lambda client_id: end if apart(client_id) else math.inf
+    )
 
 
 def _replace(
     server: viser.ViserServer,
     buffer: viser_private.MessageBuffer,
     last_for: Callable[[int], float] = lambda _: math.inf,
-) -> None:
-    cache, shared, news = FrameCache(), SharedBatch(), News.of(buffer)
+) -> Outbox:
+    outgoing = Outbox(buffer)
 
     def loop(client_id: int, backlog_end: int, marker: Any) -> Sender:
         connection = cast(Connection, viser_private.connection_of(server, client_id))
         last = last_for(client_id)
-        cursor = MessageCursor(buffer, client_id, shared)
-        parts = batches(news, cursor, marker, backlog_end, last)
-        return Sender(connection, cache, parts)
+        return outgoing.sender(connection, client_id, backlog_end, marker, last)
 
     viser_private.replace_window_loop(buffer, loop)
+    return outgoing
+
+
+class Outbox:
+    """What goes out from one buffer of messages, packed once for all who get it.
+
+    Args:
+        buffer: the buffer; what viser asks for goes through here from now on.
+    """
+
+    def __init__(self, buffer: viser_private.MessageBuffer) -> None:
+        self._buffer = buffer
+        self._cache, self._shared = FrameCache(), SharedBatch()
+        self._news = News.of(buffer)
+        self._live: MessageCursor | None = None
+
+    def sender(
+        self,
+        connection: Connection,
+        client_id: int,
+        backlog_end: int,
+        marker: Any,
+        last: float,
+    ) -> Sender:
+        """Return what sends one client its messages; see `batches`."""
+        cursor = MessageCursor(self._buffer, client_id, self._shared)
+        parts = batches(self._news, cursor, marker, backlog_end, last)
+        return Sender(connection, self._cache, parts)
+
+    async def frames(self) -> AsyncGenerator[bytes, None]:
+        """Yield what goes out from now on, as it is sent to clients."""
+        self._news.join()
+        cursor = self._live = MessageCursor(self._buffer, _NO_CLIENT, self._shared)
+        cursor.last = self._news.end
+        async for batch in batches(self._news, cursor, None, -1):
+            yield (await self._cache.packed(batch)).content
+
+    async def backlog(self) -> list[bytes]:
+        """Return all that `frames` has yielded or left out so far, as it is now."""
+        end = self._news.end if self._live is None else self._live.last
+        cursor = MessageCursor(self._buffer, _NO_CLIENT, self._shared)
+        found: list[bytes] = []
+        while cursor.last < end and not self._buffer.done:
+            batch = cursor.next(end)
+            if batch.messages:
+                found.append((await self._cache.packed(batch)).content)
+            elif cursor.last < end and not self._news.may_go_on(True):
+                await self._news.wait()
+        return found
 
 
 class Sender:

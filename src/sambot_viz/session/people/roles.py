@@ -36,6 +36,7 @@ class Participant:
         requests: whether it waits for control.
         known: whether the name is that of a login, which cannot be changed.
         key: the page alone knows it; who comes again with it is the same user.
+        only_looks: whether it never has control.
     """
 
     number: int
@@ -45,6 +46,7 @@ class Participant:
     requests: bool = False
     known: bool = False
     key: str = field(default_factory=lambda: secrets.token_urlsafe(12), repr=False)
+    only_looks: bool = False
 
 
 class Roles:
@@ -84,13 +86,20 @@ class Roles:
         """The number of each client, and its user."""
         return dict(self._people)
 
-    def join(self, client_id: int, presenter: bool, login: str = "") -> None:
+    def join(
+        self,
+        client_id: int,
+        presenter: bool,
+        login: str = "",
+        only_looks: bool = False,
+    ) -> None:
         """Add the user of a client that has opened the page.
 
         Args:
             client_id: the client.
             presenter: whether it was opened by the presenter's link.
             login: the name by which a trusted proxy knows the user; "" without one.
+            only_looks: whether it never has control.
         """
         taken = {person.number for person in self._people.values() if person.presenter}
         free = next(n for n in itertools.count(1) if n not in taken)
@@ -98,8 +107,9 @@ class Roles:
         name = self._free_name(f"Viewer {number}", client_id)
         if presenter:
             name = self._presenters.setdefault(number, f"Presenter {number}")
-        has_control = presenter or not self.presented
+        has_control = (presenter or not self.presented) and not only_looks
         person = Participant(number, presenter, name, has_control)
+        person.only_looks = only_looks
         self._people[client_id] = person
         if login:
             if not presenter and _is_presenters(login):
@@ -129,10 +139,10 @@ class Roles:
 
     def may_edit(self, client_id: int) -> bool:
         """Whether a client may change what everyone sees; any thread may ask."""
-        if not self.presented:
-            return True
         person = self._people.get(client_id)
-        return person is not None and person.has_control
+        if person is None:
+            return not self.presented
+        return person.has_control
 
     def request(self, client_id: int, name: str = "") -> None:
         """Ask the presenter for control.
@@ -228,6 +238,11 @@ class Roles:
             UsageError: only presenters may, and only to who is there.
         """
         person = self._viewer(presenter_id, client_id)
+        if person.only_looks:
+            raise UsageError(
+                "who looks at a follower has no control: its page leads to this one, "
+                "where it can be requested"
+            )
         self._key_of_control = ""
         for other in self._people.values():
             other.has_control = other.presenter

@@ -128,3 +128,24 @@ def content_of(sample: Any) -> tuple[str, bytes, bytes]:
         bytes(sample.payload),
         b"" if attached is None else bytes(attached),
     )
+
+
+def at_once(callback: Callable[[Any], object]) -> Any:
+    """Return a handler that is called without a Python thread of its own."""
+    import zenoh
+
+    library: Any = zenoh
+    return library.handlers.Callback(callback, indirect=False)
+
+
+def in_a_thread(
+    ended: Callable[[], object], answered: Callable[[Any], object] = lambda _: None
+) -> Any:
+    """Return a handler that calls back, in a thread, also when nothing more comes.
+
+    At its end zenoh holds a lock, for which `is_closed` waits with that of Python.
+    """
+    import zenoh
+
+    library: Any = zenoh
+    return library.handlers.Callback(answered, ended, indirect=True)

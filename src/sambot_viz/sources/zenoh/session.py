@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 from itertools import count
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from sambot_viz import limits
 from sambot_viz.errors import SourceError
@@ -22,7 +22,9 @@ from sambot_viz.sources.zenoh.names import attachment, endpoint_token
 from sambot_viz.sources.zenoh.readings import (
     OnSample,
     ZenohReadings,
+    at_once,
     content_of,
+    in_a_thread,
     waiting_room,
 )
 
@@ -73,7 +75,7 @@ class ZenohSession:
             if event.kind == SampleKind.DELETE:
                 post(on_lost)
 
-        session.info.declare_transport_events_listener(_at_once(changed))
+        session.info.declare_transport_events_listener(at_once(changed))
 
     def close(self) -> None:
         """End it."""
@@ -106,11 +108,11 @@ class ZenohSession:
             self._post(lambda: told(name, there))
 
         liveliness = self._session.liveliness()
-        liveliness.declare_subscriber(key, _at_once(take), history=True)
+        liveliness.declare_subscriber(key, at_once(take), history=True)
         # A router answers one after the other: after those tokens that there are none.
         liveliness.get(
             _NO_TOKEN,
-            _in_a_thread(lambda: self._post(all_told)),
+            in_a_thread(lambda: self._post(all_told)),
             timeout=_LONGEST_TELLING,
         )
 
@@ -158,7 +160,7 @@ class ZenohSession:
 
         self._session.get(
             f"*/{key}",
-            _at_once(answered),
+            at_once(answered),
             target=QueryTarget.ALL,
             consolidation=ConsolidationMode.NONE,
             accept_replies=ReplyKeyExpr.ANY,
@@ -193,7 +195,7 @@ class ZenohSession:
 
         self._session.get(
             key,
-            _at_once(take),
+            at_once(take),
             target=QueryTarget.ALL_COMPLETE,
             consolidation=ConsolidationMode.NONE,
             timeout=timeout,
@@ -204,6 +206,9 @@ class ZenohSession:
     def publisher(self, key: str) -> ZenohPublisher:
         """Begin to publish on a key."""
         return ZenohPublisher(self._session.declare_publisher(key))
+
+
+S = TypeVar("S", bound=ZenohSession)
 
 
 class ZenohPublisher:
@@ -226,14 +231,18 @@ class ZenohPublisher:
 
 
 def open_session(
-    address: Address, post: Post, on_lost: Callable[[], object]
-) -> ZenohSession:
+    address: Address,
+    post: Post,
+    on_lost: Callable[[], object],
+    made: type[S] = ZenohSession,
+) -> S:
     """Connect to a router, or to a node that listens; this takes its time.
 
     Args:
         address: of the router.
         post: as of `ZenohSession`.
         on_lost: as of `ZenohSession`.
+        made: what is said over it.
 
     Raises:
         SourceError: the router does not speak zenoh, or not with TLS as asked.
@@ -244,7 +253,7 @@ def open_session(
     for name, value in _settings(address).items():
         config.insert_json5(name, json.dumps(value))
     try:
-        return ZenohSession(zenoh.open(config), post, on_lost)
+        return made(zenoh.open(config), post, on_lost)
     except zenoh.ZError as error:
         raise SourceError(_refused(address)) from error
 
@@ -275,25 +284,3 @@ def _refused(address: Address) -> str:
         f"{place} does not speak zenoh: is {address.port} the port of rmw_zenohd? If "
         f"it speaks TLS, --source {address.with_tls(True)}"
     )
-
-
-def _at_once(callback: Callable[[Any], object]) -> Any:
-    """Return a handler that is called without a Python thread of its own."""
-    import zenoh
-
-    library: Any = zenoh
-    return library.handlers.Callback(callback, indirect=False)
-
-
-def _in_a_thread(ended: Callable[[], object]) -> Any:
-    """Return a handler that calls back, in a thread, when nothing more comes.
-
-    At its end zenoh holds a lock, for which `is_closed` waits with that of Python.
-    """
-    import zenoh
-
-    def answered(reply: Any) -> None:
-        """Wait for the end."""
-
-    library: Any = zenoh
-    return library.handlers.Callback(answered, ended, indirect=True)

@@ -1,0 +1,206 @@
+"""A follower: a server whose content comes from another one, in place of a session.
+
+It knows no model, no recording and no robot. Its pages only look; what they would
+change is changed at the origin, to which they lead.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import random
+import time
+from collections import deque
+from collections.abc import Callable
+
+from sambot_viz import viser_private
+from sambot_viz.outlet import logger
+from sambot_viz.panels.rows.row_store import ClientRows
+from sambot_viz.server.followers import link
+from sambot_viz.server.followers.followed_rows import FollowedRows
+from sambot_viz.server.followers.wire import (
+    VERSION,
+    Label,
+    Snapshot,
+    label_of,
+    snapshot_of,
+)
+from sambot_viz.server.listener import Listener
+from sambot_viz.server.protection.client_messages import CameraReport
+from sambot_viz.sources.broadcast_place import BroadcastPlace, origin_of
+from sambot_viz.sources.zenoh.broadcast_session import BroadcastSession
+
+ASK_PERIOD = 1.0
+"""A snapshot is asked for once in so long at most [s]."""
+ASK_SPREAD = 0.3
+"""Followers that lack the same ask within so long, by chance [s]."""
+LONGEST_ANSWER = 30.0
+"""An origin that has not answered by then is asked again [s]."""
+MOST_WAITING = 1000
+"""Frames that wait for a snapshot; of more, another one is asked for."""
+_log = logger(__name__)
+
+
+class Relay:
+    """Shows in one server what an origin broadcasts.
+
+    All is called on the event loop of the server.
+
+    Args:
+        place: where it is broadcast.
+        listener: a server that listens, and has nothing to show.
+    """
+
+    def __init__(self, place: BroadcastPlace, listener: Listener) -> None:
+        self._place = place
+        self._scene = viser_private.FollowedScene(listener.viser)
+        self._rows = FollowedRows()
+        self._session: BroadcastSession | None = None
+        self._origins: dict[str, str] = {}
+        # Of what is shown: whose it is, and the number of the last frame.
+        self._origin, self._number, self._url = "", 0, ""
+        self._waiting: deque[tuple[Label, bytes]] = deque()
+        self._is_asking, self._next_ask = False, 0.0
+        self._trouble = ""
+
+    async def run(self) -> None:
+        """Follow until this is cancelled."""
+        self._say(f"Waiting for the zenoh router at {self._place.address.label}")
+        await link.hold(self._place.address, self)
+
+    # The connection to the router
+
+    def begin(self, session: BroadcastSession) -> None:
+        """Take what is broadcast there, from now on."""
+        self._session, self._is_asking = session, False
+        self._origins.clear()
+        session.subscribe(self._place.frames, False, self._take_frame, self._too_large)
+        session.watch(self._place.origins, self._take_origin, self._look)
+
+    def cut(self, why: str) -> None:
+        """Go on showing what there was."""
+        self._session = None
+        self._say(why)
+
+    def _take_origin(self, token: str, is_there: bool) -> None:
+        origin, version = origin_of(token)
+        if is_there:
+            self._origins[origin] = version
+        else:
+            self._origins.pop(origin, None)
+        self._look()
+
+    def _look(self) -> None:
+        """Say who is there, and ask for what is not shown yet."""
+        if not self._origins:
+            self._say(
+                "The origin has ended; this is what it showed last"
+                if self._origin
+                else f"Nobody broadcasts to {self._place.label}"
+            )
+        elif VERSION not in self._origins.values():
+            other = next(iter(self._origins.values()))
+            self._say(
+                f"The origin has version {other}, and this follower {VERSION}: "
+                "install the same one for both"
+            )
+        else:
+            self._ask()
+
+    def _say(self, trouble: str) -> None:
+        if trouble and trouble != self._trouble:
+            _log.warning(trouble)
+        elif self._trouble and not trouble:
+            _log.warning(f"Following {self._place.label}")
+        self._trouble = trouble
+        self._rows.say(self._url, trouble)
+
+    # Snapshots
+
+    def _ask(self) -> None:
+        """Ask for a snapshot, not too often, and not at the same time as all others."""
+        if self._is_asking or self._session is None:
+            return
+        self._is_asking = True
+        pause = max(0.0, self._next_ask - time.monotonic())
+        pause += random.uniform(0.0, ASK_SPREAD)
+        self._next_ask = time.monotonic() + pause + ASK_PERIOD
+        asyncio.get_running_loop().call_later(pause, self._ask_now, self._session)
+
+    def _ask_now(self, session: BroadcastSession) -> None:
+        if session is not self._session:
+            return
+
+        def answered(content: bytes) -> None:
+            snapshot = snapshot_of(content)
+            if session is self._session and snapshot is not None:
+                self._is_asking = False
+                self._show(snapshot)
+
+        def ended() -> None:
+            if session is self._session and self._is_asking:
+                self._is_asking = False
+                self._look()
+
+        session.ask(self._place.snapshot, LONGEST_ANSWER, answered, ended)
+
+    def _show(self, snapshot: Snapshot) -> None:
+        same = snapshot.origin == self._origin
+        self._scene.replace(snapshot.scene, same=same)
+        self._rows.replace(snapshot.rows)
+        self._origin, self._number = snapshot.origin, snapshot.number
+        self._url = snapshot.url
+        self._say("")
+        waiting, self._waiting = self._waiting, deque()
+        for label, content in waiting:
+            self._take(label, content)
+
+    # Frames
+
+    def _take_frame(self, key: str, content: bytes, attached: bytes) -> None:
+        del key
+        label = label_of(attached)
+        if label is not None and VERSION == self._origins.get(label.origin, VERSION):
+            self._take(label, content)
+
+    def _too_large(self, size: int) -> None:
+        del size
+        self._ask()
+
+    def _take(self, label: Label, content: bytes) -> None:
+        same = label.origin == self._origin
+        if same and label.number <= self._number:
+            return
+        if self._is_asking or not same or label.number != self._number + 1:
+            if len(self._waiting) >= MOST_WAITING:
+                self._waiting.clear()
+            self._waiting.append((label, content))
+            self._ask()
+            return
+        self._number = label.number
+        try:
+            if label.part == "scene":
+                self._scene.take(content)
+            else:
+                self._rows.take(content)
+        except ValueError as error:
+            _log.warning(f"A frame of {self._place.label} is dropped: {error}")
+
+    # What the clients want
+
+    def take_edit(self, client_id: int, edit: object) -> None:
+        """Drop an edit: the page says that it only looks."""
+
+    def take_camera(self, client_id: int, report: CameraReport) -> None:
+        """Drop a report: the camera of a page is its own."""
+
+    def may_edit(self, client_id: int) -> bool:
+        """Return that no client may set widgets."""
+        return False
+
+    def behind(self, client_id: int, action: Callable[[], None]) -> None:
+        """Run an action: nothing is caused by clients."""
+        action()
+
+    def rows_of(self, client_id: int) -> ClientRows:
+        """Return the rows, which all clients see."""
+        return self._rows.all

@@ -1,0 +1,68 @@
+"""What a broadcast and its followers say over a session of zenoh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from sambot_viz.sources.zenoh.readings import at_once, in_a_thread
+from sambot_viz.sources.zenoh.session import ZenohDeclaration, ZenohSession
+
+
+class FramePublisher(Protocol):
+    """Publishes on one key; what a line cannot take is dropped."""
+
+    def put(self, payload: bytes, *, attachment: bytes) -> object:
+        """Publish bytes, with some that say what they are."""
+        ...
+
+
+class BroadcastSession(ZenohSession):
+    """A session with publishers, and questions that are answered with bytes."""
+
+    def frames(self, key: str) -> FramePublisher:
+        """Begin to publish on a key."""
+        return self._session.declare_publisher(key)
+
+    def on_question(
+        self, key: str, asked: Callable[[Callable[[bytes], object]], object]
+    ) -> ZenohDeclaration:
+        """Take questions from now on.
+
+        Args:
+            key: that is asked for.
+            asked: called with what answers the question, which takes its time.
+        """
+
+        def take(query: Any) -> None:
+            def answer(content: bytes) -> None:
+                with query:
+                    query.reply(key, content)
+
+            self._post(lambda: asked(answer))
+
+        return self._session.declare_queryable(key, at_once(take), complete=True)
+
+    def ask(
+        self,
+        key: str,
+        timeout: float,
+        answered: Callable[[bytes], object],
+        ended: Callable[[], object],
+    ) -> None:
+        """Ask who answers questions of a key.
+
+        Args:
+            key: as of `on_question`.
+            timeout: how long an answer is waited for [s].
+            answered: called with it.
+            ended: called when no more comes.
+        """
+
+        def take(reply: Any) -> None:
+            if reply.ok is not None:
+                content = bytes(reply.ok.payload)
+                self._post(lambda: answered(content))
+
+        handler = in_a_thread(lambda: self._post(ended), take)
+        self._session.get(key, handler, timeout=timeout)
