@@ -6,7 +6,7 @@ import { gzipSync } from "node:zlib";
 
 import { last, opened, received, say } from "./fake_socket.js";
 
-const { act, connect, CUT, disconnect, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack } =
+const { act, connect, CUT, disconnect, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack, WATCHING } =
   await import("../../src/sambot_viz/page/wire/channel.js");
 
 rows.take("session", {
@@ -192,4 +192,19 @@ test("a page that is left says so, and does not come again", () => {
   socket.onclose({});
   mock.timers.tick(60_000);
   assert.equal(opened.length, count);
+});
+
+test("the page of a follower sends nothing, and says so of what a user does", () => {
+  const before = received.length,
+    said = heard.length;
+  rows.listen(WATCHING, () => heard.push(WATCHING));
+  rows.take("follower", {
+    panels: { follower: [{ id: "follower/state", kind: "data", value: { origin: "" } }] },
+  });
+  act("do");
+  send("a", 4);
+  act("p/unfold", ["x"]);
+  assert.deepEqual(heard.slice(said), [WATCHING, WATCHING]);
+  assert.equal(received.length, before);
+  rows.take("follower", { panels: { follower: [] } });
 });

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from typing import Any
 
 import pytest
+from inside import session_of
 from live_peers import WAIT
+from patience import until
 from protocol_client import ROW_PATCH, ProtocolClient
+from websockets.exceptions import InvalidStatus
 from zenoh_peer import ZenohPeer
 
-from sambot_viz import Visualizer
+from sambot_viz import UsageError, Visualizer
 from sambot_viz.options import Options
 from sambot_viz.server.followers.start import follow
+from sambot_viz.server.followers.wire import Label
 from sambot_viz.server.listener import Listener, listen
+from sambot_viz.sources.broadcast_place import origin_of, parse_place
 
 LEFT = "drivewhl_l_joint"
 MOVED = ("SetOrientationMessage", "SetPositionMessage")
@@ -25,10 +32,18 @@ class FollowerServer:
     """A follower that serves pages."""
 
     listener: Listener
+    protocol: Callable[..., ProtocolClient]
 
     @property
     def port(self) -> int:
         return self.listener.viser.get_port()
+
+    def page(self) -> ProtocolClient:
+        """Open a page, and wait until it shows what its origin shows."""
+        client = self.protocol(self.port)
+        client.wait_until(lambda: follows(client), WAIT)
+        client.settle(self.listener.viser)
+        return client
 
 
 @pytest.fixture
@@ -45,7 +60,9 @@ def place(router: ZenohPeer) -> str:
 
 
 @pytest.fixture
-def follower(place: str) -> Iterator[Callable[..., FollowerServer]]:
+def follower(
+    place: str, protocol: Callable[..., ProtocolClient]
+) -> Iterator[Callable[..., FollowerServer]]:
     """Start followers: ``follower(token="word")``."""
     with ExitStack() as stack:
 
@@ -53,7 +70,7 @@ def follower(place: str) -> Iterator[Callable[..., FollowerServer]]:
             made = Options(follow=place, port=0, **options)  # type: ignore[arg-type]
             listener = stack.enter_context(listen(made))
             stack.callback(follow(made, listener))
-            return FollowerServer(listener)
+            return FollowerServer(listener, protocol)
 
         yield start
 
@@ -85,8 +102,25 @@ def trouble(client: ProtocolClient) -> str:
 def follows(client: ProtocolClient) -> bool:
     """Whether a page shows what its origin shows now."""
     with suppress(StopIteration):
-        return state(client)["trouble"] == "" and "names/session" in client.rows
+        there = {"names/session", "role/me"} <= client.rows.keys()
+        return there and state(client)["trouble"] == ""
     return False
+
+
+def said(client: ProtocolClient) -> str:
+    """What a page says that has nothing else yet."""
+    with suppress(StopIteration):
+        return trouble(client)
+    return ""
+
+
+def poses(client: ProtocolClient) -> dict[tuple[str, str], Any]:
+    """Where a page has its nodes, by their names."""
+    found = (m for m in client.messages if m.type in MOVED)
+    return {
+        (m.type, m.fields["name"]): m.fields.get("wxyz", m.fields.get("position"))
+        for m in found
+    }
 
 
 def moved_since(client: ProtocolClient, mark: int) -> list[str]:
@@ -102,8 +136,7 @@ def test_a_follower_shows_the_scene_and_the_moved_joint_of_its_origin(
 ) -> None:
     origin = make_viz(broadcast=place)
     here = protocol(origin.server.viser.get_port())
-    client = protocol(follower().port)
-    client.wait_until(lambda: follows(client), WAIT)
+    client = follower().page()
     client.wait_until(lambda: nodes(client) == nodes(here) != set())
     here_mark, mark = here.mark(), client.mark()
     origin.set_joint_positions({LEFT: 1.0})
@@ -114,3 +147,173 @@ def test_a_follower_shows_the_scene_and_the_moved_joint_of_its_origin(
     [moved] = [m for m in client.since(mark) if m.type in MOVED]
     assert moved.fields["name"] == there.fields["name"]
     assert moved.fields["wxyz"] == pytest.approx(there.fields["wxyz"])
+
+
+def test_a_page_only_looks_and_leads_to_its_origin(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place, presenter="presenter-secret", token="the-token")
+    client = follower().page()
+    assert client.rows["role/me"]["value"]["control"] is False
+    port = origin.server.viser.get_port()
+    assert state(client)["origin"] == f"http://127.0.0.1:{port}"
+    client.edit(f"j/{LEFT}", 1.0)
+    client.act("role/request", "Ada")
+    client.settle_channel()
+    assert origin.joint_positions[LEFT] == 0.0
+    assert [p.name for p in session_of(origin).roles.people.values()] == ["Followers"]
+    assert not any(p.requests for p in session_of(origin).roles.people.values())
+
+
+def test_without_a_presenter_a_page_of_a_follower_has_no_control_either(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    make_viz(broadcast=place)
+    client = follower().page()
+    assert client.rows["role/me"]["value"]["control"] is False
+
+
+def test_who_comes_later_sees_what_is_there_then(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place)
+    first = follower()
+    client = first.page()
+    origin.set_joint_positions({LEFT: 1.0})
+    client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0)
+    for server in (first, follower()):
+        later = server.page()
+        later.wait_until(lambda later=later: poses(later) == poses(client))
+        assert nodes(later) == nodes(client)
+        assert later.rows[f"j/{LEFT}"]["value"] == 1.0
+
+
+def test_a_lost_frame_is_made_good_by_a_snapshot_that_disturbs_no_page(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    router: ZenohPeer,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place)
+    client = follower().page()
+    mark = client.mark()
+    # A frame that is not the next one: what is between has been lost.
+    key = parse_place(place, "--follow").frames
+    start = origin_of(router.tokens("sambot-viz/arm/origin/**")[0])[0]
+    router.put(key, b"", Label(start, 10**6, "scene").packed())
+    origin.set_joint_positions({LEFT: 1.0})
+    client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0, WAIT)
+    client.wait_until(lambda: len(moved_since(client, mark)) == 1)
+    assert not [m.type for m in client.since(mark) if "props" in m.fields]
+
+
+def test_an_origin_that_ends_leaves_its_last_picture_and_the_next_one_replaces_it(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place)
+    client = follower().page()
+    there = nodes(client)
+    origin.stop()
+    client.wait_until(lambda: "The origin has ended" in trouble(client), WAIT)
+    assert nodes(client) == there
+    again = make_viz(broadcast=place)
+    client.wait_until(lambda: follows(client), WAIT)
+    client.wait_until(lambda: nodes(client) == there)
+    mark = client.mark()
+    again.set_joint_positions({LEFT: 1.0})
+    client.wait_until(lambda: len(moved_since(client, mark)) == 1)
+    assert not client.closed
+
+
+def test_a_router_that_starts_again_is_found_by_both_ends(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    router: ZenohPeer,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    origin = make_viz(broadcast=place)
+    client = follower().page()
+    mark = client.mark()
+    router.stop()
+    client.wait_until(lambda: bool(trouble(client)), WAIT)
+    origin.set_joint_positions({LEFT: 1.0})
+    router.start()
+    client.wait_until(lambda: follows(client), WAIT)
+    client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0)
+    assert not [m.type for m in client.since(mark) if "props" in m.fields]
+
+
+def test_of_two_origins_of_one_name_the_first_one_stays(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    first = make_viz(broadcast=place)
+    client = follower().page()
+    second = make_viz(broadcast=place)
+    until(lambda: "another server broadcasts to" in caplog.text, WAIT)
+    second.set_joint_positions({LEFT: 2.0})
+    first.set_joint_positions({LEFT: 1.0})
+    client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 1.0)
+    first.stop()
+    # It begins when the first one has ended.
+    client.wait_until(lambda: client.rows[f"j/{LEFT}"]["value"] == 2.0, WAIT)
+
+
+def test_an_origin_of_another_version_is_refused_in_words(
+    router: ZenohPeer,
+    follower: Callable[..., FollowerServer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    router.declare("sambot-viz/arm/origin/abc/0.0.1-viser1.0.0")
+    client = protocol(follower().port)
+    client.wait_until(lambda: "has version 0.0.1-viser1.0.0" in said(client), WAIT)
+    assert trouble(client).endswith("install the same one for both")
+
+
+def test_a_follower_waits_for_an_origin_and_for_a_router(
+    router: ZenohPeer,
+    follower: Callable[..., FollowerServer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    router.stop()
+    client = protocol(follower().port)
+    client.wait_until(lambda: "router" in said(client), WAIT)
+    router.start()
+    client.wait_until(lambda: "Nobody broadcasts" in said(client), WAIT)
+
+
+def test_a_follower_asks_for_its_token_as_every_server_does(
+    follower: Callable[..., FollowerServer],
+    protocol: Callable[..., ProtocolClient],
+) -> None:
+    server = follower(token="a-secret")
+    with pytest.raises(InvalidStatus, match="401"):
+        protocol(server.port)
+    assert protocol(server.port, path="?token=a-secret")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"follow": "zenoh://h:7447"}, "write --follow zenoh://HOST:7447/NAME"),
+        ({"broadcast": "foxglove://h/a"}, "write --broadcast zenoh://HOST:7447/NAME"),
+        ({"broadcast": "zenoh://h/a", "session": "private"}, "all browsers share"),
+        ({"follow": "zenoh://h/a", "model": "a.urdf"}, "leave MODEL out"),
+        ({"follow": "zenoh://h/a", "presenter": ""}, "leave --presenter out"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_what_to_write(
+    options: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(UsageError, match=re.escape(words)):
+        Options(**options)

@@ -332,6 +332,10 @@ class ProtocolClient:
         # The answer comes behind all rows that have changed so far.
         self._ping(timeout)
 
+    def settle_channel(self, timeout: float = 10.0) -> None:
+        """Wait until all that was sent through the channel has been handled."""
+        self._ping(timeout)
+
     def _ping(self, timeout: float) -> None:
         wanted = self._pongs + 1
         try:

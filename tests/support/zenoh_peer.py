@@ -204,6 +204,15 @@ class ZenohPeer(LivePeer):
         """Declare a token, whatever it says."""
         self._serving.append(self._session.liveliness().declare_token(key))
 
+    def tokens(self, key: str) -> list[str]:
+        """The keys of the tokens that fit, which others have declared."""
+        replies = self._session.liveliness().get(key, timeout=WAIT)
+        return [str(reply.ok.key_expr) for reply in replies]
+
+    def put(self, key: str, payload: bytes, attachment: bytes) -> None:
+        """Publish something, whatever it is."""
+        self._session.put(key, payload, attachment=attachment)
+
     def offer(self, topic: str, kind: str, definition: str = "") -> None:
         """Begin to publish a topic of any type."""
         self.advertise(topic, False, kind, ANY_HASH if definition else "")

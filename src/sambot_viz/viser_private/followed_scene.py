@@ -141,10 +141,13 @@ class FollowedScene:
         if node is None:
             node = SimpleNamespace(name=name, api=self._api, removed=False)
             self._nodes[name] = node
-        is_known = self._posed.get(number) == (node, kind)
-        self._posed[number] = (node, kind)
-        move = (node, kind, tuple(fields[kind]))
-        self._moving.tell(move) if not is_known else self._change([move])
+        value = tuple(fields[kind])
+        if self._posed.get(number) != (node, kind):
+            self._posed[number] = (node, kind)
+            setattr(node, kind, value)
+            self._moving.tell((node, kind, value))
+        elif getattr(node, kind) != value:
+            self._change([(node, kind, value)])
 
     def _move(self, content: bytes) -> None:
         self._change(
@@ -154,7 +157,10 @@ class FollowedScene:
         )
 
     def _change(self, moves: Iterable[Move]) -> None:
-        for move in self._moving.move(moves):
+        changed = [*moves]
+        for node, kind, value in changed:
+            setattr(node, kind, value)
+        for move in self._moving.move(changed):
             self._moving.tell(move)
 
     def _message(self, fields: Fields) -> Any:

@@ -2,12 +2,12 @@
 /* Who is there: a row for each, with the presenter's commands, and what this user may ask for. */
 
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
-import { act } from "../wire/channel.js";
+import { act, FOLLOWS } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
 import { ownName } from "../window/users.js";
 import { show } from "./dialog.js";
 import { Invite } from "./invite.js";
-import { useCommand } from "../state.js";
+import { useCommand, useData } from "../state.js";
 
 /**
  * @typedef {import("../window/users.js").Now} Now
@@ -18,7 +18,8 @@ import { useCommand } from "../state.js";
 export function PeopleList({ now, close }) {
   const { state, me, people, requests } = now;
   const canInvite = useCommand("people/invite");
-  const canAsk = useCommand("role/request");
+  const follows = useData(FOLLOWS);
+  const canAsk = useCommand("role/request") && !follows;
   return html`
     ${state.presented && !me.presenter && canAsk && html`<${Control} now=${now} close=${close} />`}
     <ul aria-label="Everyone">${people.map(

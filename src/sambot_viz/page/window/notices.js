@@ -2,7 +2,7 @@
 /* Sentences for this browser, from the server or from the page itself, and why values
  * were refused. */
 
-import { EDITED, edited, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
+import { EDITED, edited, FOLLOWS, NOT_DONE, rows, WATCHING } from "../wire/channel.js";
 import { Cell } from "../state.js";
 
 /**
@@ -83,7 +83,14 @@ rows.listen(EDITED, () => {
 
 rows.listen(NOT_DONE, () => tell("Not done: there is no connection", "error"));
 
-rows.listen(WATCHING, () => tell("View only: request control, or open your own copy", "warn"));
+rows.listen(WATCHING, () =>
+  tell(
+    rows.data(FOLLOWS)
+      ? "View only: request control in the page of the origin"
+      : "View only: request control, or open your own copy",
+    "warn",
+  ),
+);
 
 rows.listen("notice", () => {
   const said = rows.data("notice");

@@ -4,11 +4,11 @@
  * status bar (dialogs/people.js). */
 
 import { html } from "../vendor/preact.js";
-import { act } from "../wire/channel.js";
+import { act, FOLLOWS } from "../wire/channel.js";
 import { PeopleList } from "../dialogs/people.js";
 import { Icon } from "./icons.js";
 import { Popup } from "./popup.js";
-import { useCommand } from "../state.js";
+import { useCommand, useData } from "../state.js";
 import { ownName, peopleOpen, usePeople } from "./users.js";
 
 /**
@@ -18,7 +18,8 @@ import { ownName, peopleOpen, usePeople } from "./users.js";
 
 /** In the status bar: who is in control, and what can be done about it. */
 export function People() {
-  const now = usePeople();
+  const now = usePeople(),
+    follows = useData(FOLLOWS);
   if (!now) return null;
   const { state, me, people } = now;
   if (!state.copy && !state.presented && people.length < 2 && !state.copies) return null;
@@ -32,6 +33,7 @@ export function People() {
         state.copy
           ? html`<button onClick=${goBack}>Back to the shared robot</button>`
           : !me.presenter &&
+            !follows &&
             html`<button onClick=${() => location.assign(`copy/${location.search}`)}
             title="Only you see what you change there. You can return at any time."
             >Make my own copy</button>`
@@ -114,7 +116,12 @@ export function Asking() {
 /** One click requests control; what has been requested is cancelled in the dialog.
  * @param {{me: Me}} props */
 function ViewOnly({ me }) {
-  const may = useCommand("role/request");
+  const may = useCommand("role/request"),
+    follows = useData(FOLLOWS);
+  if (follows?.origin)
+    return html`<a class="chip" href=${follows.origin} target="_blank" rel="noopener noreferrer"
+      title="Opens the page of the server that this one follows"
+      >View only · Request control</a>`;
   if (!may) return html`<span class="chip">View only</span>`;
   const click = () => (me.requests ? peopleOpen.set(true) : act("role/request", [ownName.value]));
   return html`<button class="chip" onClick=${click}>

@@ -28,6 +28,9 @@ export const WAITING = "waiting";
 export const NOT_DONE = "not done";
 /** A command was not called, because this user only watches. */
 export const WATCHING = "watching";
+/** The data of a page of a follower: the address of its origin, where control is requested,
+ * and why the page may not show what is there now. */
+export const FOLLOWS = "follower/state";
 /** The command that reports where the mouse is. */
 export const HOVER = "tools/hover";
 /** The command that reports where it drags. */
@@ -36,7 +39,7 @@ export const DRAG = "tools/drag";
 const byItself = (id) =>
   id === HOVER ||
   id === DRAG ||
-  ["/unfold", "/show", "/restore", "/keep", "/find"].some((end) => id.endsWith(end));
+  ["/unfold", "/show", "/restore", "/keep", "/find", "/greet"].some((end) => id.endsWith(end));
 /** What was sent so shortly before the connection was lost may be lost with it [ms]. */
 const DOUBTFUL = 1000;
 
@@ -49,6 +52,11 @@ export const newGesture = () => ++gestures;
  * @param {string} id @param {any} value @param {number} [gesture]
  */
 export function send(id, value, gesture) {
+  if (rows.data(FOLLOWS)) {
+    // Nothing is changed here but what the page itself keeps.
+    if (!byItself(id)) rows.notify(WATCHING);
+    return;
+  }
   const row = rows.get(id);
   if (row?.part !== undefined) {
     // A number of a vector goes with the others; until the answer is here, they are as shown.

@@ -10,6 +10,7 @@ import {
   act,
   CUT,
   disconnect,
+  FOLLOWS,
   goOffline,
   goOnline,
   heldBack,
@@ -43,6 +44,8 @@ import { selectAgain } from "../tree/select_again.js";
 const STUCK = 6000;
 /** Where the page keeps what it must not forget when it is loaded again. */
 const KEPT = "sambot-viz-again";
+/** Pages of followers come again within so long, each at another moment [ms]. */
+const SPREAD = 900;
 /** How long the page says that the connection is back [ms]. */
 const BACK = 8000;
 
@@ -71,6 +74,7 @@ export function followConnection() {
     said.set({ tries: 0, waited: 0, status: 0, ended: false });
   };
   rows.listen(CUT, cut);
+  rows.listen(FOLLOWS, () => (retries.spread = SPREAD));
   rows.listen(REMOVED, () => {
     lost = true;
     goOffline();
@@ -226,14 +230,17 @@ function openAgain(before) {
 
 /** The sentence over the view. */
 export function Connection() {
-  const now = said.use();
+  const now = said.use(),
+    trouble = useData(FOLLOWS)?.trouble;
   return html`<div class="connection" role="status" aria-live="assertive">
     ${
       now === "removed"
         ? html`<${Removed} />`
         : isState(now)
           ? html`<${Lost} ...${now} />`
-          : now && html`<${Back} ...${now} />`
+          : trouble
+            ? html`<p class="l-error">${trouble}. Trying again…</p>`
+            : now && html`<${Back} ...${now} />`
     }</div>`;
 }
 

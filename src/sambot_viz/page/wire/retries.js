@@ -38,6 +38,9 @@ export class Retries {
     /** @type {ReturnType<typeof setTimeout> | undefined} */
     this.timer = undefined;
     this.left = false;
+    /** A try waits longer by up to so much, by chance: the pages of a server that has ended
+     * do not all come to another one at once [ms]. */
+    this.spread = 0;
   }
 
   /** A part has lost its connection, or did not get one: try again from now on. */
@@ -74,7 +77,7 @@ export class Retries {
     state.ended = state.waited > PATIENCE;
     for (const listener of this.listeners) listener(state);
     clearTimeout(this.timer);
-    if (!state.ended) this.timer = setTimeout(() => this.try(), wait);
+    if (!state.ended) this.timer = setTimeout(() => this.try(), wait + this.spread * Math.random());
   }
 
   async try() {

@@ -130,6 +130,9 @@ class Relay:
         if session is not self._session:
             return
 
+        # The answer holds all that was published before the question.
+        self._waiting.clear()
+
         def answered(content: bytes) -> None:
             snapshot = snapshot_of(content)
             if session is self._session and snapshot is not None:
