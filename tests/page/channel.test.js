@@ -6,8 +6,19 @@ import { gzipSync } from "node:zlib";
 
 import { last, opened, received, say } from "./fake_socket.js";
 
-const { act, connect, CUT, disconnect, goOffline, goOnline, NOT_DONE, rows, send, sendHeldBack, WATCHING } =
-  await import("../../src/sambot_viz/page/wire/channel.js");
+const {
+  act,
+  connect,
+  CUT,
+  disconnect,
+  goOffline,
+  goOnline,
+  NOT_DONE,
+  rows,
+  send,
+  sendHeldBack,
+  WATCHING,
+} = await import("../../src/sambot_viz/page/wire/channel.js");
 
 rows.take("session", {
   all: true,

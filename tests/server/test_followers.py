@@ -11,13 +11,17 @@ from typing import Any
 import pytest
 from inside import session_of
 from live_peers import WAIT
+from page_rows import PageRows, decode
 from patience import until
 from protocol_client import ROW_PATCH, ProtocolClient
 from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 from zenoh_peer import ZenohPeer
 
 from sambot_viz import UsageError, Visualizer
 from sambot_viz.options import Options
+from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.followers.start import follow
 from sambot_viz.server.followers.wire import Label
 from sambot_viz.server.listener import Listener, listen
@@ -175,6 +179,25 @@ def test_without_a_presenter_a_page_of_a_follower_has_no_control_either(
     make_viz(broadcast=place)
     client = follower().page()
     assert client.rows["role/me"]["value"]["control"] is False
+
+
+def test_a_balancer_may_give_the_connections_of_a_page_to_two_followers(
+    make_viz: Callable[..., Visualizer],
+    place: str,
+    follower: Callable[..., FollowerServer],
+) -> None:
+    make_viz(broadcast=place)
+    first, second = follower(), follower()
+    page = first.page()
+    with connect(
+        f"ws://127.0.0.1:{second.port}/?ticket={page.ticket}",
+        subprotocols=[Subprotocol(SUBPROTOCOL)],
+    ) as channel:
+        rows = PageRows()
+        while not {"session", "browser"} <= rows.scopes.keys():
+            patch = decode(channel.recv(timeout=WAIT))
+            if patch["of"] != "camera":
+                rows.take(patch)
 
 
 def test_who_comes_later_sees_what_is_there_then(

@@ -37,6 +37,8 @@ PAGE_LEFT = 4002
 """The page closes its channel for good: it is not shown any more."""
 REMOVED = 4003
 """The presenter has closed the page, which is not to come back by itself."""
+_ANY_CLIENT = -1
+"""Stands for the number of a client where all have the same rows."""
 _MOST_REMOVED = 1000
 """Maximum number of removed pages remembered."""
 
@@ -47,12 +49,16 @@ class Channels:
     Attributes:
         handler: has the rows, and takes the edits.
         serve_viser: serves a connection to viser until it ends.
+        rows_of_all: what every page is sent, so that it does not matter with which
+            server its connection to viser is; None where each page has rows of its
+            client.
     """
 
     serve_viser: Callable[[Connection], Awaitable[None]]
 
     def __init__(self) -> None:
         self.handler: ClientHandler = NoSessions()
+        self.rows_of_all: ClientRows | None = None
         self._clients: dict[str, Connection] = {}
         self._channels: dict[str, Connection] = {}
         self._removed: deque[str] = deque(maxlen=_MOST_REMOVED)
@@ -167,6 +173,9 @@ class Channels:
     async def _write(self, channel: Channel) -> None:
         """Write to a channel, as soon as its client has rows."""
         connection = channel.connection
+        if self.rows_of_all is not None:
+            await channel.write(_ANY_CLIENT, self.rows_of_all)
+            return
         client, rows = await asyncio.wait_for(
             self._client_of(connection), WAIT_FOR_CLIENT
         )

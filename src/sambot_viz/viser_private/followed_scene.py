@@ -31,6 +31,8 @@ from sambot_viz.viser_private.outgoing import MORE_FOLLOWS, broadcast_buffer
 
 _POSES = {"SetOrientationMessage": "wxyz", "SetPositionMessage": "position"}
 Fields = dict[str, Any]
+_ZSTD = zstandard.ZstdDecompressor()
+"""Only one thread unpacks: that of the event loop."""
 
 
 class FollowedScene:
@@ -214,9 +216,7 @@ def unpacked_frame(frame: bytes) -> list[Fields]:
     try:
         size, packed = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
         place = 16 + packed
-        content = zstandard.ZstdDecompressor().decompress(
-            frame[16:place], max_output_size=size
-        )
+        content = _ZSTD.decompress(frame[16:place], max_output_size=size)
         decoded: Fields = msgspec.msgpack.decode(content)
         arrays: list[memoryview] = []
         for length in decoded["binaryBufferLengths"]:

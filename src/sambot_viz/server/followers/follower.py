@@ -54,6 +54,8 @@ class Relay:
         self._place = place
         self._scene = viser_private.FollowedScene(listener.viser)
         self._rows = FollowedRows()
+        # A balancer may give the two connections of a page to two followers.
+        listener.channels.rows_of_all = self._rows.all
         self._session: BroadcastSession | None = None
         self._origins: dict[str, str] = {}
         # Of what is shown: whose it is, and the number of the last frame.

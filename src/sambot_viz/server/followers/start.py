@@ -49,12 +49,6 @@ def follow(options: Options, listener: Listener) -> Callable[[], None]:
     assert options.follow is not None
     made = Relay(parse_place(options.follow, "--follow"), listener)
     listener.give(made)
-
-    async def joined(client: object) -> None:
-        del client
-        listener.tell_joined()
-
-    listener.viser.on_client_connect(joined)
     return _run(listener, made.run)
 
 
