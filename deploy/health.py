@@ -1,6 +1,6 @@
 """Say whether the program of a container answers, at its own address and port.
 
-Any answer is one, also that the token is missing. The command line is that of the
+The command line is that of the
 container's first process; its last ``--port`` and ``--host`` count.
 """
 
@@ -19,13 +19,13 @@ def value(words: list[str], flag: str, usual: str) -> str:
 
 
 def main(command_line: str) -> None:
-    """Ask for the page; an exception, and so a status above 0, says that none came."""
+    """Ask; an exception, and so a status above 0, says that no answer came."""
     with open(command_line, encoding="utf-8") as file:
         words = file.read().split("\0")
     host, port = value(words, "--host", "127.0.0.1"), value(words, "--port", "8080")
     host = "127.0.0.1" if host in ("", "0.0.0.0", "::") else host
     connection = http.client.HTTPConnection(host, int(port), timeout=4)
-    connection.request("GET", "/")
+    connection.request("GET", "/healthz")
     connection.getresponse()
 
 

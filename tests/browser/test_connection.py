@@ -20,6 +20,7 @@ pytestmark = pytest.mark.browser
 
 LEFT_LINK = "drivewhl_l_link"
 LEFT, RIGHT = "drivewhl_l_joint", "drivewhl_r_joint"
+STOPPED = "The server restarts, or has stopped. This page comes back by itself."
 CAMERA = "__viserMutable.camera.position.toArray()"
 
 
@@ -48,7 +49,7 @@ def test_the_page_comes_back_to_a_program_that_was_started_again(
         user.tab("Frames")
         user.reads("added")
         user.tab("Joints")
-    user.reads("Connection lost. Trying again…")
+    user.reads(STOPPED)
     assert user.rows("Displays") == rows
     # What is set meanwhile is shown as such, and sent.
     user.enter(user.row("Joints", RIGHT).one("textbox"), "0.5")
@@ -87,7 +88,7 @@ def test_the_selected_rows_are_those_of_before_after_a_restart(
         user.click_on(user.row(*link))
         user.tab("Frames")
         user.click_on(user.row("Frames", "To"))
-    user.reads("Connection lost. Trying again…")
+    user.reads(STOPPED)
     with Visualizer(port=port, look="rviz"):
         user.reads("The connection is back. The server was restarted.", 40.0)
         user.until(lambda: user.row(*link).state("selected"))
@@ -105,7 +106,7 @@ def test_a_page_whose_link_has_changed_says_so(
         viewer.expects_errors = True
         viewer.user.row("Joints", LEFT)
         viewer.user.find("button", "View only · Request control")
-    viewer.user.reads("Connection lost. Trying again…")
+    viewer.user.reads(STOPPED)
     # Nobody can be asked: nothing lies over that sentence, and the sliders look idle.
     viewer.user.gone("button", "View only · Request control")
     viewer.wait_for("getComputedStyle(document.querySelector('.track')).opacity < 1")
@@ -120,7 +121,7 @@ def test_a_page_whose_link_has_changed_says_so(
 
 def come_back(viewer: ViewerPage) -> None:
     """Have the page try again, unless it does so by itself."""
-    lost = ("Connection lost", "Ask for the new one")
+    lost = ("Connection lost", STOPPED, "Ask for the new one")
 
     def back() -> bool:
         seen = viewer.user.see()

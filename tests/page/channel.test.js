@@ -18,6 +18,7 @@ const {
   send,
   sendHeldBack,
   WATCHING,
+  STOPS,
 } = await import("../../src/sambot_viz/page/wire/channel.js");
 
 rows.take("session", {
@@ -193,6 +194,16 @@ test("a long message is unpacked, and those behind it wait for it", async () => 
   stop();
   stopRow();
   assert.deepEqual(order, ["whole", undefined, 1]);
+});
+
+test("a server that stops says so before the connection is lost", async () => {
+  /** @type {string[]} */
+  const order = [];
+  const ends = [STOPS, CUT].map((key) => rows.listen(key, () => order.push(key)));
+  last().onclose({ code: 1012 });
+  for (const end of ends) end();
+  assert.deepEqual(order, [STOPS, CUT]);
+  await wait(100);
 });
 
 test("a page that is left says so, and does not come again", () => {

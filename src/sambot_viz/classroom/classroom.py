@@ -123,10 +123,12 @@ class Classroom:
         # A lesson that is changed later is none of theirs.
         starting = asyncio.gather(*(each.start() for each in self._processes))
         await self._end.wait()
-        server.close()
+        self._front.state = "stopping"
         await starting
-        await self._front.close()
+        # The seats tell their pages, through the connections that end with them.
         await asyncio.gather(*(each.close() for each in self._processes))
+        server.close()
+        await self._front.close()
 
     async def _seat_of(self, student: Student) -> SeatAddress:
         process = self._process_of(student.number)

@@ -37,6 +37,7 @@ from sambot_viz.server.connections.page_files import plain_page
 from sambot_viz.server.handshake import without_base
 from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import TokenCheck, remembered
+from sambot_viz.server.readiness import ServerState, readiness, stopping
 from sambot_viz.text import text
 
 ASKED = "Sambot-Class"
@@ -59,7 +60,12 @@ class Front:
         seat_of: opens the seat of a student, unless it is open.
         say: tells a sentence to a student, or to all with 0.
         show: shows the seat of a student to all, or none with 0.
+
+    Attributes:
+        state: whether the lesson is shown, or not from now on.
     """
+
+    state: ServerState = "ready"
 
     def __init__(
         self,
@@ -109,11 +115,15 @@ class Front:
 
     async def _serve(self, reader: StreamReader, writer: StreamWriter) -> None:
         request = await read_request(reader)
-        found = access.refusal(request, self._options) or self._check.refusal(request)
+        path = without_base(request.path, self._options.base_path)
+        found = readiness(request, path, self.state)
+        found = found or access.refusal(request, self._options)
+        found = found or self._check.refusal(request)
         if found is not None and not isinstance(found, Response):
             found = await found
+        if found is None and self.state == "stopping":
+            found = stopping()
         if found is None:
-            path = without_base(request.path, self._options.base_path)
             where, _, query = path.partition("?")
             if where == "/join":
                 found = self._join(request)

@@ -14,7 +14,6 @@ from pathlib import Path
 
 from sambot_viz.classroom.requests import NAME_HEADER
 from sambot_viz.classroom.seat_state import SeatState
-from sambot_viz.errors import SambotVizError, UsageError
 from sambot_viz.inputs import Inputs
 from sambot_viz.lessons.evaluation import faults_in
 from sambot_viz.lessons.lesson import Lesson
@@ -105,9 +104,8 @@ class Seat:
             self._shown.point_to(link, name)
 
     def close(self) -> None:
-        """Write what is not written, and end."""
+        """End; the server writes what is not written."""
         with self._session.lock:
-            self._save()
             for end in self._ends:
                 end()
         self._throttle.close()
@@ -136,12 +134,8 @@ class Seat:
 
     def _save(self) -> None:
         """Write each text into its file; the board says what cannot be written."""
-        before, self._trouble = self._trouble, ""
-        for buffer in self._text.unsaved:
-            try:
-                self._text.save(buffer.name)
-            except (UsageError, SambotVizError) as error:
-                self._trouble = f"not saved: {error}"
+        before, refused = self._trouble, self._text.save_all()
+        self._trouble = f"not saved: {refused[-1]}" if refused else ""
         if self._trouble and self._trouble != before:
             self._window.say(self._trouble.capitalize(), "error")
         if self._trouble != before:

@@ -57,14 +57,21 @@ class SeatProcess:
         self._process: asyncio.subprocess.Process | None = None
         self._reading: asyncio.Task[None] | None = None
         self._starting = asyncio.Lock()
+        self._ended = False
         self._waiting: dict[int, asyncio.Future[SeatAddress]] = {}
         self.seats: dict[int, SeatAddress] = {}
 
     async def start(self) -> None:
-        """Start the process, unless it runs."""
+        """Start the process, unless it runs.
+
+        Raises:
+            ServerError: it was closed.
+        """
         async with self._starting:
             if self._reading is not None and not self._reading.done():
                 return
+            if self._ended:
+                raise ServerError("the class ends")
             self.seats.clear()
             self._process = await asyncio.create_subprocess_exec(
                 *(sys.executable, "-X", "utf8", "-m", "sambot_viz.classroom.seats"),
@@ -105,7 +112,8 @@ class SeatProcess:
             self._send({"do": what, "number": number, **fields})
 
     async def close(self) -> None:
-        """Let it write what is not written, and end it."""
+        """Let it tell its pages, and write what is not written, and end it."""
+        self._ended = True
         process = self._process
         if process is None or process.stdin is None:
             return

@@ -28,6 +28,7 @@ from sambot_viz.server.connections.connection_limit import ConnectionLimiter
 from sambot_viz.server.connections.traffic import Traffic
 from sambot_viz.server.protection import access
 from sambot_viz.server.protection.token_check import Knows, TokenCheck
+from sambot_viz.server.readiness import ServerState, readiness, stopping
 from sambot_viz.server.tickets import Channels
 
 _VERSION_MISMATCH = 1002
@@ -68,11 +69,13 @@ class Answers:
     Attributes:
         metrics: answers a request for the counts; None while there is nothing to
             count, or nobody asked for it.
+        state: of the server; called on the event loop for each request.
         traffic: what goes out.
     """
 
     def __init__(self) -> None:
         self.metrics: AnswerMetrics | None = None
+        self.state: Callable[[], ServerState] = lambda: "waiting"
         self.traffic = Traffic()
 
     def of(self, request: Request) -> Awaitable[Response] | None:
@@ -125,12 +128,18 @@ def checked(
         def check(
             connection: Connection, request: Request
         ) -> Response | Awaitable[Response | None] | None:
+            state = answers.state()
+            path = without_base(request.path, options.base_path)
+            if (answered := readiness(request, path, state)) is not None:
+                return answered
             refused = access.refusal(request, options) or check_token.refusal(request)
             if refused:
                 return refused
             if folder := _folder(request, options.base_path):
                 return access.plain(http.HTTPStatus.SEE_OTHER, "See there.", folder)
-            request.path = without_base(request.path, options.base_path)
+            request.path = path
+            if state == "stopping":
+                return stopping()
             if not page_files.is_websocket(request):
                 if (answer_beside := answers.of(request)) is not None:
                     return answer_beside

@@ -89,6 +89,10 @@ class Listener:
             loop = self.viser.get_event_loop()
             loop.call_soon_threadsafe(self.channels.tell_joined)
 
+    async def tell_stop(self) -> None:
+        """Tell all pages that the server stops; on the loop."""
+        await self._channels.tell_stop()
+
     def url(self, host: str = "", *, presenter: bool = False) -> str:
         """Return the address to open in a browser: "http://127.0.0.1:8080".
 

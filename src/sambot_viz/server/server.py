@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import atexit
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Coroutine
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import viser
 
@@ -21,6 +22,7 @@ from sambot_viz.server.client_sessions import ClientSessions
 from sambot_viz.server.listener import Listener, listen
 from sambot_viz.server.model_thread import ModelThread
 from sambot_viz.server.outgoing import outbox
+from sambot_viz.server.readiness import ServerState
 from sambot_viz.server.sessions import MakeConfig, Sessions
 from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.waiting import wait_for
@@ -33,6 +35,8 @@ _log = logger(__name__)
 
 _LAST_ROUNDS = 1.0
 """The event loop gets this long to finish when the server stops [s]."""
+_LAST_EDITS = 5.0
+"""What pages have sent before is done within this time [s], or dropped."""
 
 
 class Server:
@@ -78,6 +82,7 @@ class Server:
         self._end_broadcast: Callable[[], None] = lambda: None
         self._listener = listening or listen(options)
         self._viser = self._listener.viser
+        self._moved_by = moved_by
         sessions = self.sessions = Sessions(
             self._viser, options, make_config, models, poses, moved_by
         )
@@ -90,10 +95,11 @@ class Server:
             self._listener.tell_joined,
         )
         self._listener.give(clients)
+        answers = self._listener.answers
+        answers.state = self._state
         if options.metrics:
             from sambot_viz.server.metrics import Metrics
 
-            answers = self._listener.answers
             answers.metrics = Metrics(sessions, answers.traffic, moved_by).answer
         prepare_page(self._viser)
         outgoing = outbox.keep_apart(self._viser, clients.has_copy)
@@ -133,6 +139,15 @@ class Server:
         """The viser server, to add your own nodes and widgets."""
         return self._viser
 
+    def _state(self) -> ServerState:
+        """Return whether a robot, a lesson or the data of a source can be seen."""
+        if self._stopped.is_set():
+            return "stopping"
+        if self.sessions.robot is not None or self.options.study is not None:
+            return "ready"
+        shows_data = self._moved_by is not None and self._moved_by.types
+        return "ready" if shows_data else "waiting"
+
     def wait(self) -> None:
         """Return when the server is stopped."""
         wait_for(self._stopped)
@@ -143,10 +158,33 @@ class Server:
             return
         atexit.unregister(self.stop)
         self._stopped.set()
+        loop = self._viser.get_event_loop()
+        # In this order: pages hold back what is done from now on, what they have sent
+        # is done, and a student's texts are kept with it.
+        _run(loop, self._listener.tell_stop())
+        self._save_texts()
         self._end_broadcast()
         self.sessions.close()
-        _run_what_waits(self._viser.get_event_loop())
+        _run(loop, _rounds())
         self._listener.close()
+
+    def _save_texts(self) -> None:
+        """Write what a student has typed, behind what the pages have sent."""
+        place = self.sessions.shared_place
+        if self.options.study is None or place is None or place.session is None:
+            return
+        text = None if place.window is None else place.window.text
+        if text is None:
+            return
+        done, pages = threading.Semaphore(0), [*place.session.clients.all]
+        for client_id in pages:
+            place.worker.post(lambda: done.release(), client=client_id)
+        end = time.monotonic() + _LAST_EDITS
+        for _ in pages:
+            done.acquire(timeout=max(0.0, end - time.monotonic()))
+        with place.session.lock:
+            for sentence in text.save_all():
+                _log.warning("a text of the lesson is not saved: %s", sentence)
 
 
 def prepare_page(server: viser.ViserServer) -> None:
@@ -163,16 +201,19 @@ def prepare_scene(scene: viser.SceneApi) -> None:
     scene.add_light_ambient("/~ambient", intensity=2.0)
 
 
-def _run_what_waits(loop: asyncio.AbstractEventLoop) -> None:
+async def _rounds() -> None:
     """Let an event loop run what threads have posted, so that nothing is left over.
 
     A value that is set on a widget takes three rounds of the loop.
     """
+    for _ in range(5):
+        await asyncio.sleep(0)
 
-    async def rounds() -> None:
-        for _ in range(5):
-            await asyncio.sleep(0)
 
-    if not loop.is_closed():
-        with suppress(FutureTimeoutError):
-            asyncio.run_coroutine_threadsafe(rounds(), loop).result(_LAST_ROUNDS)
+def _run(loop: asyncio.AbstractEventLoop, last: Coroutine[Any, Any, None]) -> None:
+    """Run something on an event loop, unless that has ended, and wait a moment."""
+    if loop.is_closed():
+        last.close()
+        return
+    with suppress(FutureTimeoutError):
+        asyncio.run_coroutine_threadsafe(last, loop).result(_LAST_ROUNDS)

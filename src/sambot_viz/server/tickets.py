@@ -39,6 +39,8 @@ REMOVED = 4003
 """The presenter has closed the page, which is not to come back by itself."""
 _ANY_CLIENT = -1
 """Stands for the number of a client where all have the same rows."""
+SERVER_STOPS = 1012
+"""The server stops, perhaps to be started again; the code of RFC 6455 for that."""
 _MOST_REMOVED = 1000
 """Maximum number of removed pages remembered."""
 
@@ -137,6 +139,14 @@ class Channels:
             task = asyncio.get_running_loop().create_task(closing)
             self._closing.add(task)
             task.add_done_callback(self._closing.discard)
+
+    async def tell_stop(self) -> None:
+        """Tell all pages that the server stops: they hold back edits from then on."""
+        closing = [
+            channel.close(SERVER_STOPS, "the server stops")
+            for channel in self._channels.values()
+        ]
+        await asyncio.gather(*closing, return_exceptions=True)
 
     def tell_joined(self) -> None:
         """Let channels look again whether their clients have rows; on the loop."""

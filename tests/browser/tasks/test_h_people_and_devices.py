@@ -321,7 +321,7 @@ def test_task_60_the_server_stops_and_starts_again(own: Desk) -> None:
     user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)
     rows = user.rows("Displays")
     own.viz.stop()
-    user.reads("Connection lost")
+    user.reads("This page comes back by itself")
     own.viz = Visualizer(own.model, port=port, watch=True, look="rviz")
     user.reads("The connection is back. The server was restarted.", 40.0)
     user.until(lambda: own.viz.joint_positions[LEFT] == 1.0)

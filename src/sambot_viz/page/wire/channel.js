@@ -18,6 +18,8 @@ let editing = "";
 export const edited = () => editing;
 /** There is no connection any more: what was sent meanwhile shows it first. */
 export const CUT = "cut";
+/** The server says that it stops. */
+export const STOPS = "stops";
 /** The presenter has ended the connection for good. */
 export const REMOVED = "removed";
 /** There is a connection again. */
@@ -171,6 +173,7 @@ export function connect(address = window.sambotSocket || "") {
       rows.notify(CUT);
     },
     removed: () => rows.notify(REMOVED),
+    stops: () => rows.notify(STOPS),
   });
   reportCamera((report) => socket?.send(report));
 }

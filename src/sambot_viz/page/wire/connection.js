@@ -18,6 +18,7 @@ import {
   REMOVED,
   rows,
   sendHeldBack,
+  STOPS,
   WAITING,
 } from "./channel.js";
 import {
@@ -53,6 +54,9 @@ const BACK = 8000;
  * @type {Cell<"removed" | import("./retries.js").State | {text: string, lost: string[], other: Memory["file"] | null, before: Memory} | null>} */
 const said = new Cell(/** @type {any} */ (null));
 
+/** Whether the server has said that it stops. */
+let stopped = false;
+
 /** Follow the connection from now on. */
 export function followConnection() {
   let lost = false,
@@ -80,6 +84,7 @@ export function followConnection() {
     goOffline();
     said.set("removed");
   });
+  rows.listen(STOPS, () => (stopped = true));
   let answered = 0;
   retries.listeners.push((state) => {
     // A page that has just been opened may wait for its turn.
@@ -103,7 +108,7 @@ export function followConnection() {
       here = kept?.at === location.pathname,
       again = rows.data("names/session");
     const loaded = Boolean(kept);
-    lost = false;
+    lost = stopped = false;
     kept = null;
     goOnline();
     showView(then, loaded);
@@ -270,7 +275,9 @@ function Lost({ tries, status, ended }) {
       ? "The program was started again with another link. Ask for the new one: its terminal shows it."
       : ended
         ? "Connection lost. The program does not answer."
-        : `Connection lost. Trying again…${waits}`;
+        : stopped
+          ? `The server restarts, or has stopped. This page comes back by itself.${waits}`
+          : `Connection lost. Trying again…${waits}`;
   return html`<p class="l-error">${words}
     ${
       (ended || status === 401 || tries > MANY) &&

@@ -18,14 +18,16 @@ const PAGE_LEFT = 4002;
 
 /** The presenter has closed this page. */
 const REMOVED = 4003;
+/** The server stops, perhaps to be started again. */
+const STOPS = 1012;
 
-/** @typedef {{take: (message: any) => void, lost: () => void, removed: () => void}} Follower */
+/** @typedef {{take: (message: any) => void, lost: () => void, removed: () => void, stops: () => void}} Follower */
 
 export class Socket {
   /**
    * @param {string} address
    * @param {Follower} follower takes messages, and hears when the connection is lost, or was
-   *   ended by the presenter
+   *   ended by the presenter, or that the server stops
    */
   constructor(address, follower) {
     this.address = address;
@@ -71,6 +73,7 @@ export class Socket {
     socket.onclose = ({ code }) => {
       // One that was given up may end much later.
       if (this.socket !== socket) return;
+      if (code === STOPS) this.follower.stops();
       if (code !== REMOVED) return this.end();
       this.leave();
       this.follower.removed();

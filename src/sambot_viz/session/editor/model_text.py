@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from sambot_viz import limits
 from sambot_viz.edits import Extent, SourceFile, apply_edits, by_file
-from sambot_viz.errors import Edit, Place, RobotError, UsageError
+from sambot_viz.errors import Edit, Place, RobotError, SambotVizError, UsageError
 from sambot_viz.fixes import EditRefused
 from sambot_viz.robot.model import Robot
 from sambot_viz.robot.parts import Link
@@ -314,6 +314,16 @@ class ModelText:
         """Let a text be saved over what another program has saved; see `Buffer`."""
         self.buffer(name).keep(place)
         self._tell()
+
+    def save_all(self) -> list[str]:
+        """Write each text that is not saved; why one cannot be written, for each."""
+        refused: list[str] = []
+        for buffer in self.unsaved:
+            try:
+                self.save(buffer.name)
+            except SambotVizError as error:
+                refused.append(str(error))
+        return refused
 
     def save(self, name: str) -> None:
         """Write a text into its file.
