@@ -28,6 +28,29 @@ def run(words: list[str]) -> int:
 
 def _export(inputs: Inputs, output: Path, sweep: bool) -> None:
     """Write what a page would show."""
+    try:
+        write_page(inputs, output, sweep=sweep)
+    except OSError as error:
+        raise UsageError(f"cannot write '{output}': {error.strerror}") from error
+
+
+def write_page(
+    inputs: Inputs,
+    output: Path,
+    *,
+    sweep: bool,
+) -> None:
+    """Write the page of what is opened, and what is wrong with its config.
+
+    Args:
+        inputs: the model and the config.
+        output: the file.
+        sweep: whether it has a motion.
+
+    Raises:
+        RobotError: the model cannot be shown.
+        OSError: the file cannot be written.
+    """
     from sambot_viz.export.page_file import cut_short
     from sambot_viz.visualizer import Visualizer
 
@@ -36,10 +59,7 @@ def _export(inputs: Inputs, output: Path, sweep: bool) -> None:
         write_problems(session.document.config.problems)
         if sweep:
             write_problems(cut_short(session.copy()))
-        try:
-            viz.export(output, sweep=sweep)
-        except OSError as error:
-            raise UsageError(f"cannot write '{output}': {error.strerror}") from error
+        viz.export(output, sweep=sweep)
 
 
 def parser() -> Parser:

@@ -24,18 +24,25 @@ ACTIONS = ("list", "new", "check")
 def run(words: list[str]) -> int:
     """Show a lesson, or list, begin or check some; 1 when one has errors, else 0."""
     given, options = parse(parser(), words)
+    if given.action in ACTIONS and given.static is not None:
+        raise UsageError(
+            f"--static writes a lesson: name one in place of {given.action}, such as "
+            f"sambot-viz lesson {lesson_names()[0]} --static {given.static}"
+        )
     if given.action == "list":
         return _list(given.format)
+    solution = Path(given.solution) if given.solution else None
+    if solution is not None and not solution.exists():
+        raise UsageError(f"--solution {solution}: it does not exist")
     if given.action not in ACTIONS:
+        if given.static is not None:
+            return _write(given, solution)
         return _learn(given, options)
     if given.path is None:
         what = "a new folder" if given.action == "new" else "a lesson.yaml"
         raise UsageError(f"sambot-viz lesson {given.action} needs {what}")
     if given.action == "new":
         return _new(Path(given.path))
-    solution = Path(given.solution) if given.solution else None
-    if solution is not None and not solution.exists():
-        raise UsageError(f"--solution {solution}: it does not exist")
     return _check(Path(given.path), solution, given.format)
 
 
@@ -46,10 +53,10 @@ def parser() -> Parser:
         groups=("listen",),
         takes_model=False,
         description="LESSON: show a lesson beside the robot that you write, until "
-        "Ctrl-C. list: name the lessons that ship. new DIR: write a lesson of one "
-        "step to begin with. check FILE: try a lesson with its solution, which has to "
-        "pass, and its start, which must not. Exit status: 0 fine (there may be "
-        "warnings), 1 errors found, 2 usage.",
+        "Ctrl-C; with --static, write it as files. list: name the lessons that ship. "
+        "new DIR: write a lesson of one step to begin with. check FILE: try a lesson "
+        "with its solution, which has to pass, and its start, which must not. Exit "
+        "status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
     made.add_argument(
         "action",
@@ -66,7 +73,14 @@ def parser() -> Parser:
     made.add_argument(
         "--solution",
         metavar="DIR",
-        help="with check: what has to pass, in place of the solution that it names",
+        help="with check: what has to pass, in place of the solution that it names; "
+        "with --static: its robots are shown as what those of the steps become",
+    )
+    made.add_argument(
+        "--static",
+        metavar="DIR",
+        help="with a lesson: write it as files for any web server into this new "
+        "folder: texts, pictures, hints and robots, which check nothing",
     )
     add_track(made)
     made.add_argument(
@@ -102,6 +116,21 @@ def _learn(given: Namespace, options: Options) -> int:
     from sambot_viz.commands.show import serve
 
     serve(options, given.open)
+    return 0
+
+
+def _write(given: Namespace, solution: Path | None) -> int:
+    """Write a lesson as files for a web server."""
+    if given.path is not None or given.dir is not None:
+        raise UsageError("--static shows the lesson to all: leave the other folder out")
+    lesson = lesson_of(given.action, ACTIONS)
+    folder = _new_folder(Path(given.static), "--static ")
+    from sambot_viz.commands.static_lesson import write_lesson
+
+    ships = given.action in lesson_names() and not Path(given.action).exists()
+    name = given.action if ships else None
+    write_lesson(lesson, folder, given.track, solution, name)
+    write_out(f"{folder / 'index.html'}: {lesson.title}")
     return 0
 
 
@@ -151,9 +180,19 @@ def _as_json(lesson: Lesson) -> dict[str, object]:
     }
 
 
-def _new(folder: Path) -> int:
+def _new_folder(folder: Path, flag: str = "") -> Path:
+    """Return a folder that is empty, or not there yet.
+
+    Raises:
+        UsageError: something is in it.
+    """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise UsageError(f"'{folder}' is there already; name a new folder")
+        raise UsageError(f"{flag}'{folder}' is there already; name a new folder")
+    return folder
+
+
+def _new(folder: Path) -> int:
+    _new_folder(folder)
     try:
         shutil.copytree(assets_folder() / "new-lesson", folder, dirs_exist_ok=True)
     except OSError as error:

@@ -24,7 +24,7 @@ def check_lesson(lesson: Lesson, solution: Path | None = None) -> list[Problem]:
         all; a warning for a step that the start passes, and for one without hints.
     """
     found: list[Problem] = []
-    folder = solution or (lesson.folder / lesson.solution if lesson.solution else None)
+    folder = solution or named_solution(lesson)
     if folder is None:
         hint = "add solution: with its folder, or give one with --solution"
         found.append(_of(lesson, "error", "the lesson has no solution", hint))
@@ -47,7 +47,7 @@ def _of_solution(
     lesson: Lesson, folder: Path, name: str, track: Track
 ) -> Iterator[Problem]:
     of_track = f" of the track {name}" if name else ""
-    given = _handed_in(lesson, folder / name, name, track) or _handed_in(
+    given = given_in(lesson, folder / name, name, track) or given_in(
         lesson, folder, name, track
     )
     if given is None:
@@ -74,7 +74,7 @@ def _of_start(lesson: Lesson, name: str, track: Track) -> Iterator[Problem]:
             hint = "write it, or delete the line start:"
             yield _of(lesson, "error", f"there is no start {track.start}", hint)
             return
-        given = _handed_in(lesson, start, name, track)
+        given = given_in(lesson, start, name, track)
         given = given or HandedIn(start, name, start / track.model, False)
         said, _ = messages(lesson, given, lesson.steps)
     held = [s for s, text in zip(lesson.steps, said, strict=True) if not text]
@@ -92,8 +92,20 @@ def _of_start(lesson: Lesson, name: str, track: Track) -> Iterator[Problem]:
         )
 
 
-def _handed_in(lesson: Lesson, path: Path, name: str, track: Track) -> HandedIn | None:
-    """Return what a folder or a file has for a track; None where it has nothing."""
+def named_solution(lesson: Lesson) -> Path | None:
+    """Return the solution that a lesson names; None where it names none."""
+    return lesson.folder / lesson.solution if lesson.solution else None
+
+
+def given_in(lesson: Lesson, path: Path, name: str, track: Track) -> HandedIn | None:
+    """Return what a folder or a file has for a track; None where it has nothing.
+
+    Args:
+        lesson: the lesson.
+        path: a solution, or a start.
+        name: of the track.
+        track: the way through the lesson.
+    """
     if path.is_file():
         return HandedIn(path.parent, name, path, True)
     for file in (path / track.model, *sorted(path.glob(f"**/{track.model}"))):
