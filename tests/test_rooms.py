@@ -181,9 +181,15 @@ ROOMS: Mapping[str, Row] = {
         "websockets",
         "asyncio http threading",
     ),
+    # Programs of their own, on other ports, and a page that leads to them.
+    "lab": Row(
+        "classroom options server",
+        "websockets",
+        "asyncio http threading urllib.request",
+    ),
     "commands": Row(
         "_version bundled checks classroom export fixes flags frames graph inputs "
-        "joints lessons listened moved_by options problems publishing robot rviz "
+        "joints lab lessons listened moved_by options problems publishing robot rviz "
         "server session sources topics visualizer",
         "PIL",
         "signal threading webbrowser",

@@ -40,6 +40,7 @@ COMMANDS = (
     "goal",
     "grade",
     "graph",
+    "index",
     "lesson",
     "snapshot",
     "topics",

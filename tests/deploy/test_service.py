@@ -2,21 +2,76 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+import yaml
+
+from sambot_viz.commands.command_line import parse
+from sambot_viz.commands.index import of_folder
+from sambot_viz.commands.show import parser
+from sambot_viz.server.readiness import ANSWERS, READY
 
 
-def test_the_service_is_exposed_to_little(repository: Path) -> None:
+@pytest.mark.parametrize("name", ["sambot-viz.service", "sambot-viz@.service"])
+def test_the_service_is_exposed_to_little(
+    repository: Path, tmp_path: Path, name: str
+) -> None:
     analyze = shutil.which("systemd-analyze")
     if analyze is None:
         pytest.skip("needs systemd-analyze (Debian: apt-get install systemd)")
-    unit = repository / "deploy" / "sambot-viz.service"
+    # It looks at one instance of a template.
+    unit = tmp_path / name.replace("@", "@turtle")
+    unit.write_bytes((repository / "deploy" / name).read_bytes())
     words = [analyze, "security", "--offline=true", "--threshold=40", "--no-pager"]
     found = subprocess.run([*words, str(unit)], capture_output=True, text=True)
     if "Unknown" in found.stderr or "unrecognized" in found.stderr:
         pytest.skip("this systemd-analyze does not look at files")
     # 10 is exposed to everything; above 4, the status is 1.
     assert found.returncode == 0, found.stdout[-2000:] + found.stderr
+
+
+def test_each_of_several_services_is_as_closed_as_one(repository: Path) -> None:
+    one, several = (
+        (repository / "deploy" / name).read_text("utf-8").partition("NoNew")[2]
+        for name in ("sambot-viz.service", "sambot-viz@.service")
+    )
+    bare = [line for line in one.splitlines() if not line.startswith("#")]
+    assert [line.replace("/my_bot", "") for line in bare] == several.splitlines()
+
+
+def test_the_file_of_a_robot_is_one_for_the_index_too(
+    repository: Path, tmp_path: Path
+) -> None:
+    unit = (repository / "deploy" / "sambot-viz@.service").read_text("utf-8")
+    assert "EnvironmentFile=/etc/sambot-viz/%i.conf" in unit and " $ARGS\n" in unit
+    shown = re.findall(r"^#     (ARGS=.*|SAMBOT_VIZ_TOKEN=.*)$", unit, re.MULTILINE)
+    assert len(shown) == 2
+    (tmp_path / "turtle.conf").write_text("\n".join(shown))
+    (robot,) = of_folder(tmp_path)
+    assert robot.shown == "https://lab.example.org/turtle/"
+    assert robot.asked == "http://127.0.0.1:8081/turtle"
+
+
+def test_pods_are_asked_where_the_program_answers(repository: Path) -> None:
+    text = (repository / "deploy" / "kubernetes" / "robots.yaml").read_text("utf-8")
+    service, pods = yaml.safe_load_all(text)
+    (container,) = pods["spec"]["template"]["spec"]["containers"]
+    words = [word.replace("$(POD_NAME)", "robots-0") for word in container["args"]]
+    options = parse(parser(), words)[1]
+    entry = (repository / "deploy" / "Dockerfile").read_text("utf-8")
+    (port,) = container["ports"]
+    assert f'"--port", "{port["containerPort"]}"' in entry
+    assert (options.host, service["spec"]["ports"][0]["port"]) == ("0.0.0.0", 8080)
+    asked = [container[f"{of}Probe"]["httpGet"] for of in ("liveness", "readiness")]
+    assert [one["path"] for one in asked] == [ANSWERS, READY]
+    assert {one["port"] for one in asked} == {port["name"]}
+    labels = pods["spec"]["template"]["metadata"]["labels"]
+    assert service["spec"]["selector"] == pods["spec"]["selector"]["matchLabels"]
+    assert labels == service["spec"]["selector"]
+    assert service["metadata"]["name"] == pods["spec"]["serviceName"]
+    volumes = {one["name"] for one in pods["spec"]["template"]["spec"]["volumes"]}
+    assert {one["name"] for one in container["volumeMounts"]} == volumes

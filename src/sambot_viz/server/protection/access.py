@@ -67,7 +67,7 @@ def is_welcome(
     """
     if origin is not None and origin in allowed:
         return True
-    name = _hostname(host)
+    name = hostname(host)
     named = (any_name and name != "") or host in map(_netloc, allowed)
     if not named and not _is_own_name(name, listening_on):
         return False
@@ -117,7 +117,7 @@ def _netloc(origin: str) -> str:
         return ""
 
 
-def _hostname(host: str) -> str:
+def hostname(host: str) -> str:
     """The name in a Host header, without its port; "" for what is not a name."""
     match = _HOST.fullmatch(host)
     return "" if match is None else match[1].strip("[]").lower()

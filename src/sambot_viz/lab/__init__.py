@@ -1,0 +1,1 @@
+"""The robots of a lab, one process each: their index page."""

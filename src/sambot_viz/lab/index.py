@@ -1,0 +1,183 @@
+"""The index of a lab: one page with the robots, their states and their links."""
+
+from __future__ import annotations
+
+import asyncio
+import http
+import threading
+from asyncio import StreamReader, StreamWriter
+from collections.abc import Sequence
+from html import escape
+
+from websockets.http11 import Request, Response
+
+from sambot_viz import limits
+from sambot_viz.classroom.requests import BadRequestError, answer, read_request
+from sambot_viz.lab.robots import IndexedRobot, RobotState, RobotStates
+from sambot_viz.options import Options
+from sambot_viz.server.handshake import without_base
+from sambot_viz.server.listener import bound_socket, page_url
+from sambot_viz.server.protection import access
+from sambot_viz.server.protection.token_check import TokenCheck
+from sambot_viz.server.readiness import readiness
+from sambot_viz.text import text
+
+_SAID: dict[RobotState, str] = {
+    "ready": "ready",
+    "waiting": "nothing is shown yet",
+    "stopping": "stops",
+    "locked": "behind a login",
+    "other": "another program answers",
+    "away": "does not answer",
+}
+_AGAIN = 10
+"""Browsers load the page again after so long [s]."""
+_DRAIN = 15.0
+_POLICY = (
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
+)
+_STYLE = """
+:root { color-scheme: light dark }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 40em; margin: 2em auto;
+  padding: 0 1em }
+table { border-collapse: collapse; width: 100% }
+td { border-top: 1px solid #8886; padding: .5em .3em; overflow-wrap: anywhere }
+td:last-child { opacity: .75 }
+.ready::before { content: "● "; color: #2a2 }
+.waiting::before, .stopping::before { content: "● "; color: #c80 }
+.away::before, .other::before, .locked::before { content: "○ " }
+"""
+
+
+def index_page(
+    title: str,
+    robots: Sequence[IndexedRobot],
+    states: Sequence[RobotState],
+    opened_at: str,
+) -> str:
+    """Return the page.
+
+    Args:
+        title: its heading.
+        robots: in order.
+        states: of each.
+        opened_at: the name or address by which it was opened.
+    """
+    rows = "".join(
+        f"<tr><td>{_named(robot, opened_at)}</td>"
+        f'<td class="{state}">{_SAID[state]}</td></tr>\n'
+        for robot, state in zip(robots, states, strict=True)
+    )
+    shown = escape(text(title))
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        '<meta name="robots" content="noindex">'
+        f'<meta http-equiv="refresh" content="{_AGAIN}">'
+        f"<title>{shown}</title><style>{_STYLE}</style></head><body>\n"
+        f"<h1>{shown}</h1>\n<table>\n{rows}</table>\n</body></html>\n"
+    )
+
+
+def _named(robot: IndexedRobot, opened_at: str) -> str:
+    name, link = escape(text(robot.name)), robot.link(opened_at)
+    if not link:
+        return f"{name} <small>(only on its own machine)</small>"
+    return f'<a href="{escape(link)}">{name}</a>'
+
+
+class RobotIndex:
+    """Serves the index, from `start` to `stop`.
+
+    Args:
+        options: where it listens, and its token.
+        title: the heading of the page.
+        robots: in order.
+
+    Raises:
+        ServerError: the address cannot be listened on.
+    """
+
+    def __init__(
+        self, options: Options, title: str, robots: Sequence[IndexedRobot]
+    ) -> None:
+        self.options = options
+        self._title, self._robots = title, robots
+        self._states = RobotStates(robots)
+        self._check = TokenCheck(options.token, None, options.base_path)
+        self._socket = bound_socket(options)
+        self._socket.listen()
+        named = self._socket.getsockname()
+        self.port = 0 if options.unix_socket is not None else int(named[1])
+        self._open: set[asyncio.Task[None]] = set()
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(
+            target=self._run, name="sambot-viz-index", daemon=True
+        )
+
+    @property
+    def url(self) -> str:
+        """The address to open."""
+        return page_url(self.options, "", self.port)
+
+    def __enter__(self) -> RobotIndex:
+        """Listen from now on."""
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End, and free the port."""
+        self._loop.call_soon_threadsafe(self._end.set)
+        self._thread.join()
+        self._socket.close()
+
+    # On the loop
+
+    def _run(self) -> None:
+        self._end = asyncio.Event()
+        self._loop.run_until_complete(self._serve())
+        self._loop.close()
+
+    async def _serve(self) -> None:
+        longest = limits.CLASS_REQUEST.value
+        server = await asyncio.start_server(
+            self._take, sock=self._socket, limit=longest
+        )
+        await self._end.wait()
+        server.close()
+        for task in self._open:
+            task.cancel()
+        await asyncio.gather(*self._open, return_exceptions=True)
+
+    async def _take(self, reader: StreamReader, writer: StreamWriter) -> None:
+        task = asyncio.current_task()
+        assert task is not None
+        self._open.add(task)
+        try:
+            if len(self._open) <= limits.CONNECTIONS.value:
+                response = await self._answer(await read_request(reader))
+                response.headers["Connection"] = "close"
+                writer.write(response.serialize())
+                await asyncio.wait_for(writer.drain(), _DRAIN)
+        except (BadRequestError, OSError, UnicodeError, asyncio.CancelledError):
+            # Whoever it was has gone, or sends what no browser does.
+            pass
+        finally:
+            self._open.discard(task)
+            writer.close()
+
+    async def _answer(self, request: Request) -> Response:
+        path = without_base(request.path, self.options.base_path)
+        found = readiness(request, path, "ready")
+        found = found or access.refusal(request, self.options)
+        found = found or self._check.refusal(request)
+        if found is not None:
+            return found if isinstance(found, Response) else await found
+        if path.partition("?")[0] not in ("/", ""):
+            return access.plain(http.HTTPStatus.NOT_FOUND, "No such page.")
+        opened_at = access.hostname(request.headers["Host"])
+        states = await self._states.get()
+        page = index_page(self._title, self._robots, states, opened_at)
+        more = {"Content-Security-Policy": _POLICY}
+        return answer(page.encode(), "text/html", more=more)
