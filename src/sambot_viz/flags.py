@@ -32,6 +32,8 @@ SHORTEST_TOKEN = 8
 _KEY = "option"
 _BASE_PATH = re.compile(r"/|(/[A-Za-z0-9._~-]+)+")
 _HEADER = re.compile(r"[A-Za-z0-9-]+")
+_DURATION = re.compile(r"(\d{1,9}(?:\.\d{1,9})?)\s*(s|min|h)", re.ASCII)
+_UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
 
 
@@ -115,6 +117,18 @@ def named_words(words: Sequence[str], flag: str) -> dict[str, str]:
         if not (name and equals and value):
             raise UsageError(f"{flag}: '{word}' is not NAME={value or 'WORD'}")
     return {name: value for name, _, value in pairs}
+
+
+def duration(word: str) -> float:
+    """Read a time such as 90s or 4min [s].
+
+    Raises:
+        UsageError: it is none.
+    """
+    match = _DURATION.fullmatch(word)
+    if match is None:
+        raise UsageError(f"'{word}' is not a time: write seconds or minutes, as 4min")
+    return float(match[1]) * _UNITS[match[2]]
 
 
 def assignments(words: Sequence[str], flag: str) -> dict[str, float]:

@@ -26,6 +26,7 @@ from sambot_viz.flags import (
     check_header,
     check_token,
     declared,
+    duration,
     named_words,
     new_token,
     option,
@@ -48,6 +49,8 @@ PathLike = Path | str
 SessionMode = Literal["shared", "private"]
 Look = Literal["rviz", "studio"]
 LogFormat = Literal["text", "json"]
+SHORTEST_SLOT, LONGEST_SLOT = 10.0, 24 * 3600.0
+"""How long a turn in control may be [s]."""
 LATEST = 1e9
 """No recording is longer, about thirty years; nanoseconds fit in 64 bits [s]."""
 
@@ -358,6 +361,14 @@ class Options:
         "--follow",
         metavar="zenoh://ROUTER:7447/NAME",
     )
+    slot: float | None = option(
+        None,
+        "with --presenter: viewers who request control have it one after the other, "
+        "each for this long while others wait, such as 4min or 90s",
+        "--slot",
+        type=duration,
+        metavar="TIME",
+    )
     metrics: bool = option(
         False,
         "count clients, bytes, sources and problems for Prometheus, at /metrics of the "
@@ -539,6 +550,16 @@ class Options:
                 raise UsageError(f"{flag} needs a speed above 0, not {speed:g}")
 
     def _check_presenter(self) -> None:
+        if self.slot is not None and not SHORTEST_SLOT <= self.slot <= LONGEST_SLOT:
+            raise UsageError(
+                f"--slot {self.slot:g}s: a turn lasts from {SHORTEST_SLOT:g}s to "
+                f"{LONGEST_SLOT / 60:g}min; write --slot 4min"
+            )
+        if self.presenter is None and self.slot is not None:
+            raise UsageError(
+                "--slot needs --presenter: its second link is for whoever looks after "
+                "the robot, and need not be open"
+            )
         if self.presenter is None:
             return
         if self.session == "private":

@@ -26,6 +26,7 @@ FORMS = {
     "NAME=VALUE": "a_b={}",
     '"X Y Z YAW PITCH ROLL PARENT CHILD"': "{} 0 0 0 0 {} a c",
     "WxH": "{}x{}",
+    "TIME": "{}min",
 }
 """The placeholder of an option with numbers → how they stand in its value."""
 OTHERS = {

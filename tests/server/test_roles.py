@@ -674,3 +674,26 @@ def test_undo_is_decided_by_the_server(
     teacher.act("edit/undo")
     settle(teacher)
     assert viz.joint_positions[JOINT] == before
+
+
+def test_with_slots_control_passes_in_the_order_of_the_requests(
+    make_viz: Callable[..., Visualizer], protocol: Protocol
+) -> None:
+    viz = make_viz(presenter="teach-the-class", slot=60.0)
+    ann, ben = (protocol(viz.viser.get_port()) for _ in range(2))
+    for client, name in ((ann, "Ann"), (ben, "Ben")):
+        client.wait_until(lambda client=client: "role/me" in client.rows)
+        client.act("role/request", name)
+        client.wait_until(lambda client=client, name=name: me(client)["name"] == name)
+    ann.wait_until(lambda: me(ann)["control"])
+    ben.wait_until(lambda: own_row(ben).get("place") == 1)
+    assert 50 <= own_row(ben)["wait"] <= 60 and not me(ben)["control"]
+    assert ben.row("people/state")["value"]["slot"] == 60.0
+    ann.act("role/release")
+    # A pause lies between two who did not hand over.
+    ann.wait_until(lambda: not me(ann)["control"])
+    ben.wait_until(lambda: me(ben)["control"], timeout=30.0)
+
+
+def own_row(client: ProtocolClient) -> Any:
+    return client.row(f"person/{me(client)['client']}")

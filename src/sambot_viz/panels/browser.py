@@ -120,7 +120,7 @@ class BrowserPanels:
         return [
             *topics,
             *paths,
-            OwnRolePanel(roles, client.client_id, self.say),
+            OwnRolePanel(roles, client.client_id, self.say, session.turns),
             ToolsPanel(client, scene, clients, robot),
             UndoPanel(client.client_id, history, document, displays, roles),
             views,

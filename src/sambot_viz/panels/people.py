@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ from sambot_viz.panels.command import INTEGER, TEXT, command
 from sambot_viz.panels.panel import Panel
 from sambot_viz.panels.rows.row import Answer, Data, Json, Level, Row
 from sambot_viz.session.people.roles import Participant, Roles
+from sambot_viz.session.people.turns import Turns, Waiting
 
 
 class PeoplePanel(Panel):
@@ -19,27 +21,31 @@ class PeoplePanel(Panel):
 
     Args:
         is_copy: whether one client has the session as a private copy.
+        turns: gives control to those who request it; None where a presenter does.
     """
 
     name = "people"
 
-    def __init__(self, roles: Roles, is_copy: bool) -> None:
+    def __init__(self, roles: Roles, is_copy: bool, turns: Turns | None = None) -> None:
         self.remade_by = (roles.changed,)
-        self._roles = roles
+        self._roles, self._turns = roles, turns
         self._is_copy = is_copy
 
     def rows(self) -> Sequence[Row]:
         """Return everyone, presenters first."""
         people = sorted(self._roles.people.items(), key=lambda p: not p[1].presenter)
-        return [self._row(client_id, person) for client_id, person in people]
+        queue = {} if self._turns is None else self._turns.waiting()
+        return [self._row(id, person, queue.get(id)) for id, person in people]
 
-    def _row(self, client_id: int, person: Participant) -> Row:
+    def _row(self, client_id: int, person: Participant, turn: Waiting | None) -> Row:
         facts: dict[str, Json] = {
             "client": client_id,
             "presenter": person.presenter,
             "control": person.has_control,
-            "requests": person.requests,
+            "requests": person.requests > 0,
         }
+        if turn is not None:
+            facts |= {"place": turn.place, "wait": _shown(turn.seconds)}
         return Row(f"person/{client_id}", "", "readonly", person.name, extra=facts)
 
     def data(self) -> Sequence[Data]:
@@ -47,6 +53,10 @@ class PeoplePanel(Panel):
         roles = self._roles
         state: dict[str, Json] = {"presented": roles.presented, "copy": self._is_copy}
         state["copies"] = roles.copies
+        if self._turns is not None:
+            left = self._turns.left
+            state["slot"] = self._turns.slot
+            state["left"] = None if left is None else _shown(left)
         return [Data("people/state", state)]
 
 
@@ -114,15 +124,20 @@ class OwnRolePanel(Panel):
     Args:
         client_id: whose role it is.
         say: shows the user a sentence.
+        turns: gives control to those who request it; None where a presenter does.
     """
 
     name = "role"
 
     def __init__(
-        self, roles: Roles, client_id: int, say: Callable[[str, Level], None]
+        self,
+        roles: Roles,
+        client_id: int,
+        say: Callable[[str, Level], None],
+        turns: Turns | None = None,
     ) -> None:
         self.remade_by = (roles.changed,)
-        self._roles, self._id = roles, client_id
+        self._roles, self._id, self._turns = roles, client_id, turns
         self._say = say
         self._before: Participant | None = None
         self._helpers: dict[int, str] = {}
@@ -140,7 +155,7 @@ class OwnRolePanel(Panel):
             "name": person.name,
             "presenter": person.presenter,
             "control": person.has_control,
-            "requests": person.requests,
+            "requests": person.requests > 0,
             "key": person.key,
         }
         return [Data("role/me", me)]
@@ -208,6 +223,9 @@ class OwnRolePanel(Panel):
     def _ask(self, name: str) -> Answer:
         with self._acting():
             self._roles.request(self._id, name)
+        if self._turns is not None:
+            place = self._roles.queue().index(self._id) + 1
+            return Answer(f"You are number {place} in the queue")
         if any(person.presenter for person in self._roles.people.values()):
             return Answer("Requested control; the presenter sees your request")
         return Answer("Requested control; no presenter is here at the moment")
@@ -254,6 +272,11 @@ class OwnRolePanel(Panel):
         with self._acting():
             self._roles.take_back(self._id)
         return Answer("Only you are in control")
+
+
+def _shown(seconds: float) -> int:
+    """Return a time as it is shown, in steps of ten seconds [s]."""
+    return 10 * math.ceil(seconds / 10.0)
 
 
 _FEW = 3

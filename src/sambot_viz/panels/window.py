@@ -107,7 +107,7 @@ class Window:
                 session.document, scene, session.private, session.fullscreen
             ),
             StatusBarPanel(scene),
-            PeoplePanel(session.roles, is_copy),
+            PeoplePanel(session.roles, is_copy, session.turns),
             self._displays,
             ProblemsPanel(
                 session.problems,

@@ -41,6 +41,7 @@ from sambot_viz.session.document.document_view import DocumentView
 from sambot_viz.session.document.toggles import Toggles
 from sambot_viz.session.own_config import SizeOfRobot, is_own_config
 from sambot_viz.session.people.roles import Roles
+from sambot_viz.session.people.turns import Turns
 from sambot_viz.session.robot.joints_out import JointsOut
 from sambot_viz.session.robot.motion import Motion
 from sambot_viz.session.robot.robot_drive import Drive, DriveTrail
@@ -115,6 +116,9 @@ class Session:
         self.own_model = self._has_others = False
         presented = options.presenter is not None and not private
         self.roles = Roles(change, presented, not options.in_class)
+        self.turns: Turns | None = None
+        if presented and options.slot is not None:
+            self.turns = Turns(self.roles, options.slot, worker)
         history = self.history = History(change)
 
         frames = None if moved_by is None else FrameHistory()

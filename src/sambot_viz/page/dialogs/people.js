@@ -4,7 +4,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { act, FOLLOWS } from "../wire/channel.js";
 import { Icon } from "../window/icons.js";
-import { ownName } from "../window/users.js";
+import { ownName, timeInWords, turnInWords } from "../window/users.js";
 import { show } from "./dialog.js";
 import { Invite } from "./invite.js";
 import { useCommand, useData } from "../state.js";
@@ -59,10 +59,12 @@ function PersonRow({ person, now: { state, me } }) {
         ? ""
         : "presenter"
       : person.control
-        ? "in control"
-        : person.requests
-          ? "requests control"
-          : ""
+        ? `in control${state.left ? `, ${timeInWords(state.left)}` : ""}`
+        : person.place
+          ? turnInWords(person)
+          : person.requests
+            ? "requests control"
+            : ""
     : "";
   if (renaming)
     return html`<${NameField} person=${person} own=${own} end=${() => setRenaming(false)} />`;
@@ -121,13 +123,17 @@ function NameField({ person, own, end }) {
 }
 
 /** What a viewer can do about control. @param {{now: Now, close: () => void}} props */
-function Control({ now: { me, people }, close }) {
+function Control({ now: { state, me, people }, close }) {
   /** @type {Ref<HTMLInputElement>} */
   const name = useRef(null);
   if (me.control)
     return html`<button onClick=${() => act("role/release")}>Release control</button>`;
   if (me.requests) {
-    return html`<p>You have requested control.</p>
+    const turn = people.find(({ client, place }) => place && client === me.client);
+    const said = turn
+      ? `You wait for control: ${turnInWords(turn)}.`
+      : "You have requested control.";
+    return html`<p>${said}</p>
       <button onClick=${() => act("role/release")}>Cancel the request</button>`;
   }
   const ask = () => {
@@ -142,6 +148,10 @@ function Control({ now: { me, people }, close }) {
     <label>Your name <input class="field" maxlength="40" placeholder=${me.name} ref=${name}
       defaultValue=${ownName.value} /></label>
     <button type="submit">Request control</button>
-    ${!people.some((person) => person.presenter) && html`<p class="soft">No presenter is here now.</p>`}
+    ${
+      state.slot &&
+      html`<p class="soft">${`Control passes to the next after ${timeInWords(state.slot)}.`}</p>`
+    }
+    ${!state.slot && !people.some((person) => person.presenter) && html`<p class="soft">No presenter is here now.</p>`}
   </form>`;
 }

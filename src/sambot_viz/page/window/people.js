@@ -9,11 +9,10 @@ import { PeopleList } from "../dialogs/people.js";
 import { Icon } from "./icons.js";
 import { Popup } from "./popup.js";
 import { useCommand, useData } from "../state.js";
-import { ownName, peopleOpen, usePeople } from "./users.js";
+import { ownName, peopleOpen, turnInWords, usePeople } from "./users.js";
 
 /**
  * @typedef {import("./users.js").Now} Now
- * @typedef {import("./users.js").Me} Me
  */
 
 /** In the status bar: who is in control, and what can be done about it. */
@@ -88,7 +87,8 @@ const OVER_VIEW = 2;
  * a viewer; the way back, in a private copy. */
 export function Asking() {
   const now = usePeople();
-  const asks = now?.me.presenter ? now.requests : [];
+  // With turns, control passes by itself.
+  const asks = now?.me.presenter && !now.state.slot ? now.requests : [];
   const chip = now && !now.me.control && !peopleOpen.use();
   return html`<div class="asking" role="status" aria-live="polite">
     ${
@@ -96,7 +96,7 @@ export function Asking() {
       html`<button class="chip" onClick=${goBack}>
       Private copy · Back to the shared robot</button>`
     }
-    ${chip && html`<${ViewOnly} me=${now.me} />`}
+    ${chip && html`<${ViewOnly} now=${now} />`}
     ${
       asks.length > OVER_VIEW
         ? html`<p class="ask">${`${asks.length} people request control.`}
@@ -114,8 +114,8 @@ export function Asking() {
 }
 
 /** One click requests control; what has been requested is cancelled in the dialog.
- * @param {{me: Me}} props */
-function ViewOnly({ me }) {
+ * @param {{now: Now}} props */
+function ViewOnly({ now: { me, people } }) {
   const may = useCommand("role/request"),
     follows = useData(FOLLOWS);
   if (follows?.origin)
@@ -123,7 +123,8 @@ function ViewOnly({ me }) {
       title="Opens the page of the server that this one follows"
       >View only · Request control</a>`;
   if (!may) return html`<span class="chip">View only</span>`;
+  const turn = people.find(({ client, place }) => place && client === me.client);
   const click = () => (me.requests ? peopleOpen.set(true) : act("role/request", [ownName.value]));
   return html`<button class="chip" onClick=${click}>
-    ${me.requests ? "View only · Control requested" : "View only · Request control"}</button>`;
+    ${`View only · ${turn ? turnInWords(turn) : me.requests ? "Control requested" : "Request control"}`}</button>`;
 }

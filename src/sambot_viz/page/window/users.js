@@ -6,14 +6,26 @@ import { Cell, useData, useRow } from "../state.js";
 import { act, rows } from "../wire/channel.js";
 
 /**
- * @typedef {{presented: boolean, copy: boolean, copies: number}} State copies: how many have one
+ * @typedef {{presented: boolean, copy: boolean, copies: number, slot?: number, left?: number | null}} State
+ *   copies: how many have one; slot: how long a turn is [s]; left: of the one that runs
  * @typedef {{client: number, name: string, presenter: boolean, control: boolean,
  *   requests: boolean, key: string}} Me key: who comes again with it is the same user
  * @typedef {{id: string, name: string, client: number, presenter?: boolean, control?: boolean,
- *   requests?: boolean}} Person
+ *   requests?: boolean, place?: number, wait?: number}} Person
+ *   place: in the queue, from 1; wait: for how long at most [s]
  * @typedef {{state: State, me: Me, people: Person[], viewers: number, requests: Person[]}} Now
  *   viewers: how many are not in control
  */
+
+const ORDINALS = ["", "first", "second", "third", "fourth", "fifth"];
+
+/** A time in words. @param {number} seconds */
+export const timeInWords = (seconds) =>
+  seconds < 60 ? `${seconds} s` : `${Math.ceil(seconds / 60)} min`;
+
+/** Where someone is in the queue: "third, 4 min". @param {Person} person */
+export const turnInWords = ({ place = 0, wait = 0 }) =>
+  `${ORDINALS[place] ?? `number ${place}`}, ${timeInWords(wait)}`;
 
 /** The name of this user, for the next time. @type {Cell<string>} */
 export const ownName = new Cell("", "name");
@@ -78,6 +90,8 @@ export function usePeople() {
     me,
     people,
     viewers: people.filter((person) => !person.control).length,
-    requests: people.filter((person) => person.requests),
+    requests: people
+      .filter((person) => person.requests)
+      .sort((one, other) => (one.place ?? 0) - (other.place ?? 0)),
   };
 }

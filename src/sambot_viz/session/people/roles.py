@@ -33,7 +33,7 @@ class Participant:
         presenter: whether the page was opened by the presenter's address.
         name: what the others read.
         has_control: whether it may change the session.
-        requests: whether it waits for control.
+        requests: the number of its request for control, in their order; 0 for none.
         known: whether the name is that of a login, which cannot be changed.
         key: the page alone knows it; who comes again with it is the same user.
         only_looks: whether it never has control.
@@ -43,7 +43,7 @@ class Participant:
     presenter: bool
     name: str
     has_control: bool
-    requests: bool = False
+    requests: int = 0
     known: bool = False
     key: str = field(default_factory=lambda: secrets.token_urlsafe(12), repr=False)
     only_looks: bool = False
@@ -73,7 +73,7 @@ class Roles:
         self.copies = 0
         self.end_connection: Callable[[int], object] = lambda client_id: None
         self._people: dict[int, Participant] = {}
-        self._viewers = itertools.count(1)
+        self._viewers, self._requests = itertools.count(1), itertools.count(1)
         # One who loads the page again is the same presenter, and nobody takes the name
         # meanwhile.
         self._presenters: dict[int, str] = {1: "Presenter"}
@@ -157,7 +157,8 @@ class Roles:
         self._require_asking()
         person = self._people[client_id]
         self._name(client_id, "" if person.known else name)
-        person.requests = not person.has_control
+        if not person.has_control:
+            person.requests = person.requests or next(self._requests)
         self.changed.touch()
 
     def rename(self, by: int, client_id: int, name: str) -> None:
@@ -190,6 +191,7 @@ class Roles:
             return
         if key and secrets.compare_digest(key.encode(), self._key_of_control.encode()):
             person.has_control, self._key_of_control = True, ""
+            person.requests = 0
         # The user has not asked for anything that could be refused.
         with suppress(UsageError):
             self._name(client_id, name.strip() and self._free_name(name, client_id))
@@ -227,7 +229,7 @@ class Roles:
     def release(self, client_id: int) -> None:
         """Give control back, or request it no longer."""
         person = self._people[client_id]
-        person.requests = False
+        person.requests = 0
         person.has_control = person.presenter or not self.presented
         self.changed.touch()
 
@@ -243,12 +245,27 @@ class Roles:
                 "who looks at a follower has no control: its page leads to this one, "
                 "where it can be requested"
             )
+        self.pass_to(client_id)
+        return person
+
+    def pass_to(self, client_id: int) -> None:
+        """Give control to a viewer, and take it from the one who had it."""
         self._key_of_control = ""
         for other in self._people.values():
             other.has_control = other.presenter
-        person.has_control, person.requests = True, False
+        person = self._people[client_id]
+        person.has_control, person.requests = True, 0
         self.changed.touch()
-        return person
+
+    def queue(self) -> list[int]:
+        """Return the clients that request control, in the order of their requests."""
+        asking = [(p.requests, id) for id, p in self._people.items() if p.requests]
+        return [client_id for _, client_id in sorted(asking)]
+
+    def viewer_in_control(self) -> int | None:
+        """Return the client of the viewer who has control; None where none has."""
+        people = self._people.items()
+        return next((i for i, p in people if p.has_control and not p.presenter), None)
 
     def refuse(self, presenter_id: int, client_id: int) -> Participant:
         """Decline the request of a viewer.
@@ -257,7 +274,7 @@ class Roles:
             UsageError: as for `give`.
         """
         person = self._viewer(presenter_id, client_id)
-        person.requests = False
+        person.requests = 0
         self.changed.touch()
         return person
 
@@ -269,7 +286,7 @@ class Roles:
         """
         self._check_presenter(presenter_id)
         for person in self._people.values():
-            person.requests = False
+            person.requests = 0
         self.changed.touch()
 
     def remove(self, presenter_id: int, client_id: int) -> Participant:
