@@ -186,7 +186,7 @@ class ShownLesson:
                 continue
             model = self.study.model_of(step)
             if model not in works:
-                works[model] = self.study.work_of(step)
+                works[model] = self._work_of(step, {})
             try:
                 outcomes = self.study.outcomes(step, works[model])
             except Exception as error:
@@ -201,13 +201,19 @@ class ShownLesson:
                     self.also += (step,)
 
     def _read(self, step: LessonStep) -> list[DemandResult]:
-        model, trusted = self.study.model_of(step), self.study.trusted
         with self._change.lock:
-            text, texts = self._text, dict(self._texts())
-            loaded = None if text is None else text.known(model, texts, trusted)
-        work = self.study.work_of(step, loaded, edited=texts)
+            texts = dict(self._texts())
+        work = self._work_of(step, texts)
         with unsaved(texts):
             return self.study.outcomes(step, work)
+
+    def _work_of(self, step: LessonStep, texts: Mapping[str, str]) -> Work:
+        """Return what is written for a step; what the editor has loaded is taken."""
+        model, trusted = self.study.model_of(step), self.study.trusted
+        with self._change.lock:
+            text = self._text
+            loaded = None if text is None else text.known(model, texts, trusted)
+        return self.study.work_of(step, loaded, edited=texts)
 
     def _texts(self) -> Mapping[str, str]:
         return {} if self._text is None else self._text.texts
