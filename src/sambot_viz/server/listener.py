@@ -91,7 +91,7 @@ class Listener:
 
     async def tell_stop(self) -> None:
         """Tell all pages that the server stops; on the loop."""
-        await self._channels.tell_stop()
+        await self.channels.tell_stop()
 
     def url(self, host: str = "", *, presenter: bool = False) -> str:
         """Return the address to open in a browser: "http://127.0.0.1:8080".
