@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import lesson_page
-import limits_page
-import manual_page
+import docs
 import pytest
-from command_line_page import PAGE, page, parser_of
-from tests.benchmarks.peers import report, results
+from docs import Part
+from docs_parts import quotes
+from docs_parts.command_line_page import parser_of
 
 from sambot_viz.cli import COMMANDS
+from sambot_viz.export.browser_process import find_browser
 from sambot_viz.flags import declared, flag_of
 from sambot_viz.options import Options
 from sambot_viz.visualizer import Visualizer
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = ("README.md", "docs/guide.md", "docs/lessons.md", "docs/python.md")
+NOTHING_SAID = re.compile(
+    r"^.*\b(?:says|prints|answers):\n\s*(?:\Z|```\w*\n```|> *$|(?!>|```|\||[-*] ).+)",
+    re.MULTILINE,
+)
+"""What announces a quotation, and what follows it when there is none."""
 
 
 def written_commands() -> list[str]:
@@ -33,28 +37,75 @@ def written_commands() -> list[str]:
     return [line for line in lines if line.startswith("sambot-viz ")]
 
 
-def test_the_page_of_the_command_line_is_that_of_the_parsers() -> None:
-    assert PAGE.read_text("utf-8") == page(), (
-        "run: PYTHONPATH=tests/support python tests/support/command_line_page.py"
-    )
+def marks(part: Part) -> list[pytest.MarkDecorator]:
+    missing = part.browser and find_browser() is None
+    skip = pytest.mark.skipif(missing, reason="needs a Chromium or Chrome")
+    return [pytest.mark.browser, skip] if part.browser and part.files else []
 
 
-def test_the_manual_page_is_that_of_the_parsers() -> None:
-    assert manual_page.PAGE.read_text("utf-8") == manual_page.page(), (
-        "run: PYTHONPATH=tests/support python tests/support/manual_page.py"
-    )
+@pytest.mark.parametrize(
+    ("part", "file"),
+    [
+        pytest.param(part, file, id=f"{name}-{file}", marks=marks(part))
+        for name, part in docs.PARTS.items()
+        for file in (*part.files, *part.pictures)
+    ],
+)
+def test_what_the_documents_show_is_what_the_program_makes(
+    part: Part, file: str
+) -> None:
+    fault = "\n".join(part.faults(file))
+    assert not fault, f"{fault}\nrun: python tests/support/docs.py --write"
 
 
-def test_the_table_of_conditions_is_that_of_the_classes() -> None:
-    assert lesson_page.PAGE.read_text("utf-8") == lesson_page.page(), (
-        "run: PYTHONPATH=tests/support python tests/support/lesson_page.py"
-    )
+def test_every_picture_and_quotation_has_a_part_that_makes_it() -> None:
+    made = {name for part in docs.PARTS.values() for name in part.pictures}
+    made |= {name for part in docs.PARTS.values() for name in part.files}
+    quoting = {"docs/first-robot.md", "docs/problems.md"}
+    for document in docs.documents():
+        name, text = document.relative_to(ROOT).as_posix(), document.read_text("utf-8")
+        for picture in re.findall(r"\]\(([^)]+\.(?:png|svg|webp|gif|jpe?g))\)", text):
+            path = (document.parent / picture).resolve()
+            assert path.relative_to(ROOT).as_posix() in made, f"{name}: {picture}"
+        assert name in quoting or not re.search("^> ", text, re.MULTILINE), name
 
 
-def test_the_page_of_limits_is_that_of_the_table() -> None:
-    assert limits_page.PAGE.read_text("utf-8") == limits_page.page(), (
-        "run: PYTHONPATH=tests/support python tests/support/limits_page.py"
-    )
+@pytest.mark.parametrize("document", docs.documents(), ids=lambda path: path.name)
+def test_what_announces_a_quotation_has_one(document: Path) -> None:
+    assert NOTHING_SAID.findall(document.read_text("utf-8")) == []
+
+
+def test_an_announcement_without_a_quotation_is_found() -> None:
+    for quoted in ("> `a`\n", "```text\na\n```\n", "- a\n", "| a |\n"):
+        assert not NOTHING_SAID.search(f"`check` says:\n\n{quoted}")
+    for empty in ("", "## 9.\n", "**A name.** It\n", "> \n", "```text\n```\n"):
+        assert NOTHING_SAID.search(f"`check` says:\n\n{empty}")
+
+
+@pytest.mark.parametrize("before", ["", "a\n", None])
+def test_a_stale_an_empty_and_a_missing_file_are_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, before: str | None
+) -> None:
+    monkeypatch.setattr(docs, "ROOT", tmp_path)
+    part = Part({"page.md": lambda _: "b\n"})
+    if before is not None:
+        (tmp_path / "page.md").write_text(before)
+    assert len(list(part.faults("page.md"))) == 1
+    part.write()
+    assert list(part.faults("page.md")) == []
+
+
+def test_an_answer_that_nothing_runs_is_refused_and_a_lost_one_comes_back() -> None:
+    echo = 'echo a b --static-transform "0 0 0 0 0 0 a b"'
+    shown = f"```console\n$ sambot-viz {echo}\nAt time 0.0\n```\n"
+    with pytest.raises(ValueError, match="nothing runs 'sambot-viz echo a b"):
+        quotes.refreshed("docs/other.md", shown)
+    readme = (ROOT / "README.md").read_text("utf-8")
+    start = readme.index("$ sambot-viz check")
+    command, end = readme.index("\n", start) + 1, readme.index("```", start)
+    assert quotes.refreshed("README.md", readme[:command] + readme[end:]) == readme
+    with pytest.raises(ValueError, match="has no block with"):
+        quotes.refreshed("README.md", readme[:start] + readme[end:])
 
 
 def test_the_readme_calls_the_program() -> None:
@@ -138,17 +189,3 @@ def test_the_rooms_of_the_contributors_map_exist() -> None:
     rooms = {room for row in rows for room in re.findall(r"`(\w+)/`", row)}
     package = ROOT / "src" / "sambot_viz"
     assert rooms == {path.parent.name for path in package.glob("*/__init__.py")}
-
-
-@pytest.mark.parametrize(
-    ("name", "written"),
-    [("README.md", report.short_table), ("docs/benchmarks.md", report.for_docs)],
-)
-def test_figures_beside_peers_are_those_of_the_run_that_is_kept(
-    name: str, written: Callable[[results.Results], Iterator[str]]
-) -> None:
-    kept = results.read(ROOT / "docs" / "benchmarks" / "benchmarks.json")
-    document = (ROOT / name).read_text("utf-8")
-    assert report.with_figures(document, written(kept)) == document, (
-        "run: python -m tests.benchmarks --docs"
-    )

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import limits_page
+from docs_parts import limits_page
 
 import sambot_viz
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import data_limits
 import file_limits
-import limits_page
 import pytest
+from docs_parts import limits_page
 from lower_limit import lower
 
 from sambot_viz import limits

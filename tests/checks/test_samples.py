@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import get_args
 
 import pytest
+from docs_parts.problem_page import refusals
 from oracle import CORPORA
 from problem_codes import code_patterns
-from problem_page import PAGE, problem_page, refusals
 from problem_samples import Sample, all_samples
 
 import sambot_viz
@@ -74,9 +74,3 @@ def test_every_error_names_the_program_that_it_is_about() -> None:
         told = corpus.file.read_text("utf-8")
         errors.update(re.findall(r" error\[([a-z0-9-]+)\]", told))
     assert errors - set(codes) == set()
-
-
-def test_the_page_of_problems_is_what_the_program_says() -> None:
-    page = problem_page()
-    assert PAGE.read_text("utf-8") == page, "run python tests/support/problem_page.py"
-    assert all(sample.code in page for sample in all_samples())

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from command_line_page import parser_of
+from docs_parts.command_line_page import parser_of
 
 from sambot_viz.cli import COMMANDS, main
 

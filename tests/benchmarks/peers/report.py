@@ -196,13 +196,18 @@ def for_docs(results: Results) -> Iterator[str]:
 
 
 def write_docs(results: Results, repository: Path) -> None:
-    """Bring the figures of the README and of `docs/benchmarks.md` to these."""
-    for name, written in (
-        ("README.md", short_table(results)),
-        ("docs/benchmarks.md", for_docs(results)),
-    ):
+    """Bring the tables of the documents to these results."""
+    for name, written in DOCUMENTS.items():
         path = repository / name
-        path.write_text(with_figures(path.read_text("utf-8"), written), "utf-8")
+        document = with_figures(path.read_text("utf-8"), written(results))
+        path.write_text(document, "utf-8")
+
+
+DOCUMENTS: Mapping[str, Callable[[Results], Iterator[str]]] = {
+    "README.md": short_table,
+    "docs/benchmarks.md": for_docs,
+}
+"""Document → what it has between its lines."""
 
 
 def with_figures(document: str, written: Iterable[str]) -> str:

@@ -1,25 +1,26 @@
-"""Writes the table of conditions into docs/lessons.md.
-
-PYTHONPATH=tests/support python tests/support/lesson_page.py
-"""
+"""The table of conditions in docs/lessons.md, from their classes."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 from sambot_viz.lessons.conditions.kinds import KINDS
 from sambot_viz.lessons.reading.records import keys_of
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "lessons.md"
-_PART = re.compile(r"(?<=lesson_page.py -->\n).*(?=<!-- end of kinds -->)", re.DOTALL)
+_PART = re.compile(r"(?<=<!-- kinds: begin -->\n).*(?=<!-- kinds: end -->)", re.DOTALL)
 
 
-def page() -> str:
-    """The whole page, with the table of now."""
+def page(text: str) -> str:
+    """The page with the table of now.
+
+    Raises:
+        ValueError: the page has no place for it.
+    """
+    if not _PART.search(text):
+        raise ValueError("the two comments around the table are not there")
     table = "\n".join(_rows()) + "\n"
-    return _PART.sub(lambda _: table, PAGE.read_text("utf-8"))
+    return _PART.sub(lambda _: table, text)
 
 
 def _rows() -> Iterator[str]:
@@ -32,7 +33,3 @@ def _rows() -> Iterator[str]:
         )
         meaning = " ".join((kind.__doc__ or "").split()).rstrip(".")
         yield f"| `{name}` | {meaning[0].lower()}{meaning[1:]} | {keys} |"
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), "utf-8")

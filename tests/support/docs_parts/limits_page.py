@@ -1,17 +1,11 @@
-"""Writes docs/limits.md from the table of limits.
-
-tests/.venv/test/bin/python tests/support/limits_page.py
-"""
+"""docs/limits.md, from the table of limits."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from sambot_viz import limits
 from sambot_viz.limits import data, drawn, files, meshes, pages
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "limits.md"
 
 _HEAD = """\
 # Limits
@@ -53,7 +47,3 @@ def _lines() -> Iterator[str]:
 def page() -> str:
     """The whole page."""
     return "".join(_lines())
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")

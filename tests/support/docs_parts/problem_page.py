@@ -1,7 +1,4 @@
-"""The page of all codes, docs/problems.md.
-
-Run ``python tests/support/problem_page.py`` after a change of messages.
-"""
+"""docs/problems.md, from the smallest wrong model of each code."""
 
 from __future__ import annotations
 
@@ -10,14 +7,13 @@ from pathlib import Path
 from problem_samples import Sample, all_samples
 from quick_yaml import quick_yaml
 
-PAGE = Path(__file__).parents[2] / "docs" / "problems.md"
-"""Where the page is in the source tree."""
+REFUSALS = Path(__file__).parents[2] / "data" / "refusals.yaml"
 
 _HEAD = """\
 # What can be wrong with a model
 
 Each code is a heading here, so `problems.md#CODE` leads to it. This page is made by
-`python tests/support/problem_page.py` from the smallest wrong model of each code; what
+`python tests/support/docs.py` from the smallest wrong model of each code; what
 it quotes is what `sambot-viz check` says about these files.
 An *error* is something that ROS refuses or loses, a *warning* will cause trouble later,
 an *info* is worth knowing. A unit, a wheel or another guess from numbers is a *warning*
@@ -65,7 +61,7 @@ def problem_page() -> str:
 
 def refusals() -> list[dict[str, str]]:
     """Which program each error is about: program, does, known, codes."""
-    return quick_yaml(PAGE.parents[1] / "tests" / "data" / "refusals.yaml")
+    return quick_yaml(REFUSALS)
 
 
 def _refusal(row: dict[str, str]) -> str:
@@ -107,7 +103,3 @@ def _cell(text: str) -> str:
     # Two brackets in a row are a link of Markdown.
     safe = safe.replace("*", "\\*").replace("][", "]\\[")
     return " ".join(safe.split())
-
-
-if __name__ == "__main__":
-    PAGE.write_text(problem_page(), encoding="utf-8")

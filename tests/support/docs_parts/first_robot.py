@@ -3,10 +3,6 @@
 The page is the only source: its blocks are written to files where it says so, a block
 of changes is a mistake that lasts up to the next bold paragraph, and what is quoted
 after a command is what the command has to say.
-
-    PYTHONPATH=tests/support:src python tests/support/first_robot.py
-
-runs all commands and writes what they say now into the page.
 """
 
 from __future__ import annotations
@@ -23,7 +19,7 @@ from pathlib import Path
 
 from sambot_viz.cli import COMMANDS, main
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "first-robot.md"
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "first-robot.md"
 
 _PART = re.compile(
     r"^```(?P<kind>\w+)\n(?P<body>(?:(?!```).*\n)*)```$"
@@ -202,14 +198,14 @@ def write_files(files: Mapping[str, str], folder: Path) -> None:
 
 def said_in(folder: Path, trial: Trial) -> str:
     """Run the commands of a trial, and return the quotation that is right now."""
-    outputs = [_output(folder, command) for command in trial.commands]
+    outputs = [output_of(folder, command) for command in trial.commands]
     if trial.quoted:
         return "".join(_paragraphs(outputs[0]))
     pairs = zip(trial.commands, outputs, strict=True)
     return "".join(f"$ {command}\n{output}" for command, output in pairs)
 
 
-def _output(folder: Path, command: str) -> str:
+def output_of(folder: Path, command: str) -> str:
     """Run a command in this process; what `>` names gets its standard output."""
     words = shlex.split(command, comments=False)[1:]
     target = words[words.index(">") + 1] if ">" in words else None
@@ -257,7 +253,7 @@ def _paragraphs(output: str) -> Iterator[str]:
 def graph_in(folder: Path, trial: Trial) -> str:
     """Return the graph that a trial draws, without links: it is shown elsewhere."""
     command = trial.commands[0].partition(" -o ")[0]
-    return _output(folder, f"{command} --format svg").replace("\\", "/")
+    return output_of(folder, f"{command} --format svg").replace("\\", "/")
 
 
 def agrees(quotation: str, now: str) -> bool:
@@ -268,12 +264,17 @@ def agrees(quotation: str, now: str) -> bool:
     return re.fullmatch(pattern, now) is not None
 
 
-def refreshed(page: str) -> str:
-    """Return the page with the quotations that are right now."""
+def refreshed(page: str, *, drawn: bool = False) -> str:
+    """Return the page with the quotations that are right now.
+
+    Args:
+        page: its text.
+        drawn: run the commands that need a browser; without it, all others.
+    """
     pieces: list[str] = []
     end = 0
     for trial in Walk(page).trials:
-        if trial.said is None:
+        if trial.said is None or trial.draws != drawn:
             continue
         with tempfile.TemporaryDirectory() as folder:
             write_files(trial.files, Path(folder))
@@ -282,7 +283,3 @@ def refreshed(page: str) -> str:
         pieces += [page[end : trial.span[0]], trial.said if kept else now]
         end = trial.span[1]
     return "".join([*pieces, page[end:]])
-
-
-if __name__ == "__main__":
-    PAGE.write_text(refreshed(PAGE.read_text("utf-8")), "utf-8")

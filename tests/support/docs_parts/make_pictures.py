@@ -1,9 +1,6 @@
 """Makes the pictures of the README and of the tutorial: what a newcomer sees.
 
-    PYTHONPATH=tests/support:src python docs/make_pictures.py
-
-It needs sambot-viz and a Chromium or Chrome on this machine; with --graphs it draws
-only the graphs, for which no browser is needed.
+It needs a Chromium or Chrome on this machine, and takes some minutes.
 """
 
 from __future__ import annotations
@@ -19,13 +16,14 @@ from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
 
-from first_robot import PAGE, Walk, graph_in, said_in, write_files
 from PIL import Image
 
+from docs_parts.first_robot import PAGE, Walk, said_in, write_files
+from docs_parts.quotes import closed_too_early
 from sambot_viz.export.browser_page import BrowserPage
 from sambot_viz.export.chromium import Chromium
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 PICTURES = ROOT / ".github"
 SIZE = (1280, 720)
 DRAWN = "window.sambotVizLook?.frames > 2"
@@ -106,6 +104,14 @@ def film(arguments: Sequence[str], picture: Path, seen: str) -> None:
     )
 
 
+def names() -> list[str]:
+    """List the pictures by their files, without making any."""
+    trials = Walk(PAGE.read_text("utf-8")).trials
+    drawn = [trial.picture for trial in trials if trial.draws and trial.picture]
+    tutorial = [f"first_robot_{name}" for name in ("body.png", *drawn)]
+    return [*tutorial, "recording.webp", "sam_bot.png", "problem.png"]
+
+
 def tutorial(walk: Walk) -> None:
     """Make the pictures of docs/first-robot.md, by its own commands.
 
@@ -127,23 +133,9 @@ def tutorial(walk: Walk) -> None:
             (PICTURES / f"first_robot_{trial.picture}").write_bytes(picture)
 
 
-def graphs(walk: Walk) -> None:
-    """Draw the nodes and topics of the tutorial's package, chapter by chapter."""
-    for trial in walk.trials:
-        if trial.command == "graph":
-            with tempfile.TemporaryDirectory() as folder:
-                write_files(trial.files, Path(folder))
-                drawn = graph_in(Path(folder), trial)
-            (PICTURES / f"first_robot_{trial.picture}").write_text(drawn, "utf-8")
-
-
 def main() -> None:
-    """Make all pictures, or only those that need no browser."""
-    walk = Walk(PAGE.read_text("utf-8"))
-    graphs(walk)
-    if sys.argv[1:] == ["--graphs"]:
-        return
-    tutorial(walk)
+    """Make all pictures."""
+    tutorial(Walk(PAGE.read_text("utf-8")))
     film(
         [str(ROOT / "assets" / "square.mcap")],
         PICTURES / "recording.webp",
@@ -157,15 +149,9 @@ def main() -> None:
     )
     with tempfile.TemporaryDirectory() as folder:
         wrong = Path(folder) / "my_robot.urdf.xacro"
-        # The mistake of many beginners: the robot is closed before its links.
-        first, rest = model.read_text("utf-8").split("<xacro:property", 1)
-        wrong.write_text(f"{first}</robot>\n  <xacro:property{rest}", "utf-8")
+        wrong.write_text(closed_too_early(), "utf-8")
         take(
             ["--model", str(wrong)],
             PICTURES / "problem.png",
             "document.body.innerText.includes('too early')",
         )
-
-
-if __name__ == "__main__":
-    main()

@@ -1,19 +1,13 @@
-"""Writes docs/command-line.md from the parsers of the commands.
-
-tests/.venv/test/bin/python tests/support/command_line_page.py
-"""
+"""docs/command-line.md, from the parsers of the commands."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
 from collections.abc import Iterator
-from pathlib import Path
 
 from sambot_viz.cli import COMMANDS
 from sambot_viz.commands.command_line import Parser
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
 
 _HEAD = """\
 # The command line
@@ -72,8 +66,3 @@ def _argument(action: argparse.Action) -> str:
 
 def _escaped(text: str) -> str:
     return text.replace("|", "\\|")
-
-
-if __name__ == "__main__":
-    PAGE.parent.mkdir(exist_ok=True)
-    PAGE.write_text(page(), encoding="utf-8")

@@ -1,23 +1,16 @@
-"""Writes docs/sambot-viz.1, the manual page, from the parsers of the commands.
-
-tests/.venv/test/bin/python tests/support/manual_page.py
-"""
+"""docs/sambot-viz.1, the manual page, from the parsers of the commands."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
-from command_line_page import parser_of
-
+from docs_parts.command_line_page import parser_of
 from sambot_viz.cli import COMMANDS
 from sambot_viz.commands.command_line import Parser
 from sambot_viz.flags import declared, flag_of
 from sambot_viz.options import Options
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "sambot-viz.1"
-
-_HEAD = r""".\" Made by tests/support/manual_page.py
+_HEAD = r""".\" Made by tests/support/docs.py
 .TH SAMBOT\-VIZ 1
 .SH NAME
 sambot\-viz \- show a URDF, SDF or xacro robot in the browser
@@ -79,7 +72,3 @@ def _environment() -> str:
 def _roff(text: str) -> str:
     text = text.replace("\\", r"\e").replace("-", r"\-").replace('"', r"\(dq")
     return rf"\&{text}" if text[:1] in (".", "'") else text
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")

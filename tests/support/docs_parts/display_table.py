@@ -1,9 +1,4 @@
-"""The table of displays and their properties, for docs/displays.md.
-
-Write it again after a change of the declarations::
-
-    PYTHONPATH=tests/support python -m display_table > docs/displays.md
-"""
+"""docs/displays.md: displays and their properties, from the declarations."""
 
 from __future__ import annotations
 
@@ -73,7 +68,3 @@ def _rows(properties: Sequence[Property], above: str) -> Iterator[str]:
             about = prop.note or prop.help
             yield f"| {path} | {default}{unit} | {LEVELS[prop.support]} | {about} |"
         yield from _rows(prop.children, f"{path}/")
-
-
-if __name__ == "__main__":
-    print(display_table(), end="")
