@@ -158,8 +158,8 @@ ROOMS: Mapping[str, Row] = {
         "msgspec numpy viser",
     ),
     "server": Row(
-        "_version displays frames inputs joints meshes options page panels robot rviz "
-        "session sources topics viser_private",
+        "_version displays explanations frames inputs joints meshes options page "
+        "panels robot rviz session sources topics viser_private",
         "msgspec numpy prometheus_client segno viser watchfiles websockets zstandard",
         "asyncio concurrent http socket threading",
     ),
@@ -189,8 +189,8 @@ ROOMS: Mapping[str, Row] = {
     ),
     "commands": Row(
         "_version bundled checks classroom export fixes flags frames graph inputs "
-        "joints lab lessons listened moved_by options problems publishing robot rviz "
-        "server session sources topics visualizer",
+        "explanations joints lab lessons listened moved_by options problems publishing "
+        "robot rviz server session sources topics visualizer",
         "PIL",
         "signal threading webbrowser",
     ),
@@ -204,6 +204,7 @@ ROOMS: Mapping[str, Row] = {
     "cli": Row("problems"),
     "edits": Row(),
     "errors": Row(),
+    "explanations": Row("bundled lessons"),
     "extras": Row(),
     "files": Row(),
     "fixes": Row(),

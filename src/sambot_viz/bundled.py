@@ -57,6 +57,15 @@ def configs_folder() -> Path:
     return _folder("rviz")
 
 
+def problems_page() -> Path:
+    """Return docs/problems.md, which has a section for each code.
+
+    Raises:
+        UsageError: this installation was made without it.
+    """
+    return _folder("docs") / "problems.md"
+
+
 def model_path(name: str = DEFAULT_MODEL) -> Path:
     """Return the bundled model file `name`, such as "mbot.urdf.xacro".
 

@@ -184,6 +184,7 @@ def test_the_image_is_built_from_what_is_not_ignored(
         "page/main.js",
         "share/assets/sam_bot.urdf.xacro",
         "share/rviz/urdf_config.rviz",
+        "share/docs/problems.md",
         "jupyter/robot_viewer.svg",
     ):
         assert f"sambot_viz/{name}" in names

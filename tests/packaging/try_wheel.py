@@ -48,7 +48,11 @@ def find_what_is_bundled() -> None:
     expect(len(bundled.config_names()) >= 2, "configs are missing")
     manual = ENVIRONMENT / "share" / "man" / "man1" / "sambot-viz.1"
     expect(manual.is_file(), "the manual page is missing")
-    for path in (bundled.model_path(), bundled.config_path()):
+    for path in (
+        bundled.model_path(),
+        bundled.config_path(),
+        bundled.problems_page(),
+    ):
         expect(path.is_relative_to(package), f"{path} is not in the package")
 
 

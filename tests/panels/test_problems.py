@@ -88,7 +88,7 @@ def test_the_first_error_shows_its_remedy_lines_and_path(
     )
     (row,) = listed(panel)
     assert row.expanded
-    assert row.extra == {"place": "model.urdf:2", "lazy": False}
+    assert row.extra == {"place": "model.urdf:2", "lazy": False, "about": "e"}
     hint, lines, place = below(panel, row)
     assert hint.value == "To fix it: write <link>"
     assert lines.value == [(1, "<robot>"), (2, "  <lnk/>"), (3, "</robot>")]
@@ -102,7 +102,7 @@ def test_other_problems_show_that_when_they_are_unfolded(
     session.problems.set_model([Problem("warning", "w", "hm", "do that")])
     (row,) = listed(panel)
     assert not row.expanded
-    assert row.extra == {"place": "", "lazy": True}
+    assert row.extra == {"place": "", "lazy": True, "about": "w"}
     assert below(panel, row) == []
     unfold(panel, row)
     assert remade == [panel]

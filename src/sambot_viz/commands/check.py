@@ -15,7 +15,7 @@ from sambot_viz.commands.command_line import Parser, model_path, parse
 from sambot_viz.errors import Problem, UsageError
 from sambot_viz.files import each_file_once
 from sambot_viz.options import Options
-from sambot_viz.outlet import can_ask, write_json, write_out
+from sambot_viz.outlet import can_ask, write_json, write_lines, write_out
 from sambot_viz.problems import group_problems, write_problems
 
 if TYPE_CHECKING:
@@ -23,8 +23,16 @@ if TYPE_CHECKING:
 
 
 def run(words: list[str]) -> int:
-    """Check a model; 0 when it has no errors (it may have warnings), else 1."""
+    """Check a model; 0 when it has no errors (it may have warnings), else 1.
+
+    With --explain, print what a code means.
+    """
     given, options = parse(parser(), words)
+    if given.explain is not None:
+        from sambot_viz.explanations import as_text
+
+        write_lines(f"{as_text(given.explain)}\n")
+        return 0
     _refuse_what_cannot_be_fixed(given, options)
     # The import is late: completion and --help need no rules.
     from sambot_viz.checks.checked import check_all
@@ -113,6 +121,11 @@ def parser() -> Parser:
         "Exit status: 0 fine (there may be warnings), 1 errors found, 2 usage.",
     )
     made.add_format("sarif")
+    made.add_argument(
+        "--explain",
+        metavar="CODE",
+        help="print what a code means, with an example, and check nothing",
+    )
     made.add_argument(
         "--fix",
         action="store_true",

@@ -20,6 +20,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 from websockets.protocol import State
 
+from sambot_viz.errors import UsageError
 from sambot_viz.options import Options
 from sambot_viz.server.channel import SUBPROTOCOL
 from sambot_viz.server.connections import page_files
@@ -34,6 +35,8 @@ from sambot_viz.server.tickets import Channels
 _VERSION_MISMATCH = 1002
 COPY = "/copy"
 """Below this path, a page shows a private copy of the shared robot."""
+HELP = "/help"
+"""Below this path is what the codes of problems mean, as in docs/problems.md."""
 METRICS = "/metrics"
 """Where a program that watches many servers asks this one for its counts."""
 AnswerMetrics = Callable[[Request], Awaitable[Response]]
@@ -80,10 +83,23 @@ class Answers:
 
     def of(self, request: Request) -> Awaitable[Response] | None:
         """Return the answer to a request; None for all that ask for the page."""
-        path = request.path.partition("?")[0]
+        path = without_copy(request.path)[0].partition("?")[0]
+        if path.startswith(f"{HELP}/"):
+            return _help(path.removeprefix(f"{HELP}/"))
         if self.metrics is None or path != METRICS:
             return None
         return self.metrics(request)
+
+
+async def _help(code: str) -> Response:
+    """Return the page of a code, or that of all codes for ""."""
+    # No page needs it before a user asks.
+    from sambot_viz.explanations import as_html, index_html
+
+    try:
+        return page_files.reading_page(as_html(code) if code else index_html())
+    except UsageError as error:
+        return access.plain(http.HTTPStatus.NOT_FOUND, f"{error}.")
 
 
 @contextlib.contextmanager

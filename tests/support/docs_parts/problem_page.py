@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from problem_samples import Sample, all_samples
@@ -99,7 +100,13 @@ def _file(name: str, content: str | bytes) -> str:
 
 def _cell(text: str) -> str:
     """Text that keeps its meaning in Markdown."""
+    parts = re.split(r"(`[^`]*`)", text)
+    # Code is shown as it is.
+    parts[::2] = [_escaped(part) for part in parts[::2]]
+    return " ".join("".join(parts).split())
+
+
+def _escaped(text: str) -> str:
     safe = text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "\\|")
     # Two brackets in a row are a link of Markdown.
-    safe = safe.replace("*", "\\*").replace("][", "]\\[")
-    return " ".join(safe.split())
+    return safe.replace("*", "\\*").replace("][", "]\\[")

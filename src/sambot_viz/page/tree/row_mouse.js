@@ -44,7 +44,7 @@ export function useRowMouse(api, touch, press) {
       const byMouse = event.button === 0 && event.pointerType !== "touch";
       pressed.current = byMouse && selected.value[panel] !== row.id && row.kind !== "slider";
       press(row.id);
-      if (event.button !== 0 || event.target.closest("input, select, button, label, .twist"))
+      if (event.button !== 0 || event.target.closest("input, select, button, a, label, .twist"))
         return;
       select(panel, row.id);
       api.current.drag(event, row);

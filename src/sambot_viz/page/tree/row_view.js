@@ -84,8 +84,16 @@ function Wide({ row, twist, tab }) {
   return html`<span class="wide" role="gridcell">
     ${twist}${row.level && row.kind === "note" && html`<${Icon} name=${row.level} />`}${text}
     ${row.place && html`<span class="at">${row.place}</span>`}
-  </span>${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}
+  </span>${row.about && html`<span role="gridcell"><${AboutLink} row=${row} tab=${tab} /></span>`}
+  ${row.copy && html`<span role="gridcell"><${CopyButton} row=${row} tab=${tab} /></span>`}
   ${row.act && html`<span role="gridcell"><${ActButton} row=${row} tab=${tab} /></span>`}`;
+}
+
+/** Leads to what the code of a problem means. @param {{row: Row, tab: number}} props */
+function AboutLink({ row, tab }) {
+  const title = `What ${row.about} means, with an example`;
+  return html`<a class="about" href=${`help/${encodeURIComponent(row.about)}`} target="_blank"
+    rel="noopener" tabindex=${tab} title=${title} aria-label=${title}><${Icon} name="help" /></a>`;
 }
 
 /**

@@ -289,7 +289,11 @@ def _head(
         value=message,
         level=_LEVELS[problem.severity],
         expanded=not lazy,
-        extra={"place": place_of(problem), "lazy": lazy},
+        extra={
+            "place": place_of(problem),
+            "lazy": lazy,
+            **({} if parent else {"about": problem.code}),
+        },
     )
 
 

@@ -184,13 +184,27 @@ def plain_page(
         more: further headers.
     """
     content = _PLAIN_PAGE.format(title=title, text=text).encode()
+    return _html(status, content, {"Cache-Control": "no-store", **(more or {})})
+
+
+def reading_page(text: str) -> Response:
+    """Return an answer that is a page to read: HTML and styles, and nothing that runs.
+
+    Args:
+        text: the HTML; what a file or a request has brought is escaped in it.
+    """
+    policy = "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
+    more = {"Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff"}
+    return _html(http.HTTPStatus.OK, text.encode(), more)
+
+
+def _html(status: http.HTTPStatus, content: bytes, more: dict[str, str]) -> Response:
     headers = Headers(
         {
             "Content-Type": "text/html; charset=utf-8",
             "Content-Length": str(len(content)),
-            "Cache-Control": "no-store",
             "Referrer-Policy": "no-referrer",
-            **(more or {}),
+            **more,
         }
     )
     return Response(status, status.phrase, headers, content)
