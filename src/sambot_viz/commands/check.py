@@ -1,4 +1,4 @@
-"""``sambot-viz check``: what is wrong with a model, and how to fix it."""
+"""``sambot-viz check``: find the mistakes in a model, and how to fix them."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _print(path: Path, found: Checked, how: str) -> None:
 
 
 def _refuse_what_cannot_be_fixed(given: argparse.Namespace, options: Options) -> None:
-    """Raise UsageError where edits cannot be applied, or not be asked for."""
+    """Raise UsageError where no edit can be applied, or no question asked."""
     if not given.fix:
         if given.yes:
             raise UsageError("--yes answers the questions of --fix; give both")

@@ -32,7 +32,7 @@ def run(words: list[str]) -> int:
             announce(options, room.port, given.open, "/board", whose)
             stop.wait()
     finally:
-        # Whoever waits for a signal waits no more.
+        # End the wait for a signal in the other thread.
         signals.put(0)
     return 0
 

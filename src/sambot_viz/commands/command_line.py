@@ -18,7 +18,7 @@ from sambot_viz.options import Options
 from sambot_viz.outlet import write_err, write_lines
 from sambot_viz.text import line
 
-# Commands such as check must not wait for what only others need.
+# Commands such as check must not wait for modules that only others need.
 if TYPE_CHECKING:
     from sambot_viz.frames import FrameTree
     from sambot_viz.inputs import Inputs
@@ -35,7 +35,7 @@ _ABOUT_MODELS = (
 
 
 LISTEN, LONGEST_LISTEN = 2.0, 3600.0
-"""Commands that look once listen so long to a live robot, and at most so long [s]."""
+"""How long commands that look once listen to a live robot: usual and maximum [s]."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -43,7 +43,7 @@ class Parser(argparse.ArgumentParser):
 
     Args:
         prog: the command, such as "sambot-viz check".
-        groups: which of the `Options` it takes; with any, it takes a MODEL.
+        groups: the groups of `Options` that it takes; with any, it takes a MODEL.
         takes_model: whether it does.
         takes_arguments: whether it takes NAME:=VALUE, as it does with a MODEL.
         model: what MODEL is.
@@ -127,7 +127,7 @@ class Parser(argparse.ArgumentParser):
         )
 
     def error(self, message: str) -> NoReturn:
-        """Exit with the message, the flag that was meant, and where the help is."""
+        """Exit with the message, the nearest flag, and how to get help."""
         unknown = re.match(r"unrecognized arguments: (--[\w-]+)", message)
         flags = [name for action in self._actions for name in action.option_strings]
         near = nearest(unknown[1], flags) if unknown else None
@@ -141,9 +141,9 @@ class Parser(argparse.ArgumentParser):
 def parse(
     parser: Parser, words: Sequence[str], **fixed: Any
 ) -> tuple[argparse.Namespace, Options]:
-    """Read a command line, as a rule with a MODEL and with NAME:=VALUE words in it.
+    """Read a command line, which may have a MODEL and NAME:=VALUE words in it.
 
-    What is odd about a value, but accepted, is written to standard error.
+    Write warnings about odd, but accepted, values to standard error.
 
     Args:
         parser: of the command.
@@ -151,10 +151,10 @@ def parse(
         fixed: options that the command sets itself.
 
     Returns:
-        What the command's own arguments say, and the options.
+        The command's own arguments, and the options.
 
     Raises:
-        UsageError: a value that makes no sense, or two models.
+        UsageError: a value is invalid, or there are two models.
         JointError: a joint state file that cannot be read.
     """
     rest: list[str] = []
@@ -188,13 +188,13 @@ def parse(
             f"{parser.prog} takes no NAME:=VALUE; see {parser.prog} --help"
         )
     takes_source = any(option.name == "source" for option in parser.options)
-    # A model beside a recording; `Options` sees by itself that a model alone is one.
+    # A model beside a recording; `Options` recognises a recording given alone.
     both = takes_source and len(models) > 1
     recorded = [m for m in models if both and is_recording(m)]
     models = [m for m in models if m not in recorded]
     if len(models) > 1:
         raise UsageError(f"two models given: '{models[0]}' and '{models[1]}'; name one")
-    # A value is read by the room that knows it, imported only when there is a value.
+    # Each value is parsed by the package of its subject, imported only when needed.
     found = [(option, getattr(given, option.name)) for option in parser.options]
     values = {o.name: _value(o, value) for o, value in found if value != []}
     model = models[0] if models else None
@@ -235,7 +235,7 @@ def output_path(text: str, what: str, *endings: str) -> Path:
 
     Args:
         text: as the user wrote it.
-        what: what can be written, for the message.
+        what: the thing to write, for the message.
         endings: the endings of such files, the usual one first.
 
     Raises:
@@ -253,10 +253,10 @@ def output_path(text: str, what: str, *endings: str) -> Path:
 
 
 def drawing_format(path: Path, formats: Mapping[str, T]) -> T:
-    """Return what the ending of a drawing's file stands for.
+    """Return the format that a drawing's file name ends in.
 
     Raises:
-        UsageError: the ending is none of them.
+        UsageError: no format has this ending.
     """
     found = formats.get(path.suffix.lower())
     if found is None:
@@ -338,7 +338,7 @@ def _value(option: Field[Any], given: Any) -> Any:
 
 
 def start_state(robot: Robot, options: Options) -> JointState:
-    """Return the joint positions at the start; doubts are written as warnings.
+    """Return the joint positions at the start; write warnings about doubtful ones.
 
     Raises:
         JointError: a joint that does not exist or cannot be set.

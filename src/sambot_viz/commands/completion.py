@@ -14,7 +14,7 @@ from sambot_viz.commands.command_line import Parser
 from sambot_viz.outlet import write_lines
 
 _FOLDERS, _FILES = ("DIR",), ("FILE", "PATH", "MODEL")
-"""How the placeholders of values begin for which files are offered."""
+"""Beginnings of the placeholders whose values are files."""
 
 
 def run(words: list[str]) -> int:
@@ -39,13 +39,13 @@ def parser() -> Parser:
 
 
 def _all_parsers() -> dict[str, Parser]:
-    """Return the parser of each command; that of "show", which has no name, first."""
+    """Return the parser of each command, first that of "show", which has no name."""
     names = sorted(found.name for found in pkgutil.iter_modules(commands.__path__))
     modules = {
         name: importlib.import_module(f"sambot_viz.commands.{name}")
         for name in sorted(names, key=lambda name: name != "show")
     }
-    # Some modules are used by commands, and are none.
+    # Some modules here are used by commands but are no commands themselves.
     return {
         name: module.parser()
         for name, module in modules.items()
@@ -99,7 +99,7 @@ def _bash(parsers: dict[str, Parser]) -> str:
 
 
 def _first_words(parser: Parser) -> Iterable[str]:
-    """Yield the words that a command takes in place of a file."""
+    """Yield the words that a command accepts in place of a file."""
     for action in parser.actions:
         if not action.option_strings:
             yield from _choices(action)
@@ -172,7 +172,7 @@ def _zsh_arguments(parser: Parser, *rest: str) -> list[str]:
         about = _help(action).replace("[", "(").replace("]", ")").replace(":", " ")
         value = ""
         if action.nargs != 0:
-            # What may be left out has two colons.
+            # Optional arguments have two colons.
             colons = "::" if action.nargs == "?" else ":"
             value = (
                 f"{colons}{_value(action).strip(chr(34) + '=')}:{_zsh_value(action)}"

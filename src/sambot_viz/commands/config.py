@@ -1,4 +1,4 @@
-"""``sambot-viz config``: what of a .rviz file is shown, and what is only kept."""
+"""``sambot-viz config``: list which parts of a .rviz file are shown or only kept."""
 
 from __future__ import annotations
 

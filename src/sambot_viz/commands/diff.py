@@ -1,4 +1,4 @@
-"""``sambot-viz diff``: what differs between two models."""
+"""``sambot-viz diff``: list the differences between two models."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SAME, DIFFERENT, TROUBLE = 0, 1, 2
 
 
 def run(words: list[str]) -> int:
-    """Print what differs; returns 0, 1 with a difference, 2 for a broken model."""
+    """Print the differences; return 0 if none, 1 if some, 2 for a broken model."""
     given, options = parse(parser(), words)
     try:
         mine, theirs = (_load(name, options) for name in (given.mine, given.theirs))
@@ -79,7 +79,7 @@ def _as_json(found: Difference) -> dict[str, object]:
 
 
 def _in_words(found: Sequence[Difference], mine: str, theirs: str) -> Iterator[Line]:
-    """Write a table: whose value, what the first model has, what the second has."""
+    """Write a table with the rows: value, in the first model, in the second."""
     if not found:
         yield "the models are the same"
         return

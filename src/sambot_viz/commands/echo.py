@@ -18,15 +18,15 @@ from sambot_viz.problems import write_problems
 
 
 class _AnyOrder(Parser):
-    """Accepts options between MODEL, SOURCE and TARGET as well, and MODEL behind them.
+    """Accept options between MODEL, SOURCE and TARGET too, and MODEL after them.
 
-    Whoever has seen it without a MODEL adds one at the end.
+    Users who know the command without a MODEL add one at the end.
     """
 
     def parse_args(  # pyright: ignore[reportIncompatibleMethodOverride]
         self, args: Sequence[str] | None = None, namespace: None = None
     ) -> argparse.Namespace:
-        """Return what the command line says."""
+        """Return the arguments of the command line."""
         given = self.parse_intermixed_args(args, namespace)
         words = (given.model, given.looker, given.seen)
         if words[0] and not os.path.exists(words[0]) and os.path.exists(words[2]):
@@ -42,7 +42,7 @@ def run(words: list[str]) -> int:
         found = [p for p in inputs.problems() if p.severity != "info"]
         write_problems(found, model=options.model)
         tree = posed_frames(robot, inputs)
-    # What tf2_echo calls the source is the target of tf2's look-up.
+    # The "source" of tf2_echo is the target frame of tf2's look-up.
     found = explain(tree, given.looker, given.seen, robot)
     if found.transform is None:
         # The text that tf2 shows, then the reason.

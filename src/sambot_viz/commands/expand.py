@@ -18,7 +18,7 @@ def run(words: list[str]) -> int:
     """Print the text."""
     given, options = parse(parser(), words)
     model = open_model(find(model_path(options)).model)
-    # An SDF file has to be understood, not only expanded, before there is a URDF of it.
+    # An SDF file must be read as a model, not only expanded, to be written as URDF.
     as_urdf = given.to == "urdf" and model.document.tag == "sdf"
     print_as = _urdf_of if as_urdf else expand
     text = print_as(
@@ -54,7 +54,7 @@ def _urdf_of(
     package_path: Sequence[Path | str],
     trusted: bool,
 ) -> str:
-    """Return an SDF file as URDF; its problems are written to standard error.
+    """Return an SDF file as URDF; write its problems to standard error.
 
     Raises:
         RobotError: ROS would refuse the model.

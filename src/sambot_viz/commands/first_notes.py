@@ -1,4 +1,4 @@
-"""Says in the terminal, once, what the command names and is not there."""
+"""Report in the terminal, once, what the command names but does not exist."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from sambot_viz.sources.joined import each_of
 from sambot_viz.sources.source import Source
 
 PERIOD = 0.5
-"""So often it is looked [s]; an attempt to connect takes longer."""
+"""Time between two looks [s]; an attempt to connect takes longer."""
 SETTLED = 10
 """Number of looks after which a live robot has published its frames."""
 
 
 def write_notes(stop: threading.Event, inputs: Inputs, sessions: Sessions) -> None:
-    """Write a line about what is missing, as soon as that is certain.
+    """Write a line about missing data, as soon as it is certainly missing.
 
     Args:
-        stop: ends it.
+        stop: ends the wait when it is set.
         inputs: the sources, and the fixed frame of the command line.
-        sessions: know the frames.
+        sessions: the sessions, which know the frames.
     """
     waiting: list[Callable[[], bool]] = []
     if inputs.live is not None:
@@ -43,11 +43,11 @@ class _SourceNote:
         self._source = source
 
     def look(self) -> bool:
-        """Return whether the source answers, or has been said not to."""
+        """Return whether the source answers, or was reported not to."""
         status = self._source.status
         if status.is_connected:
             return True
-        # Only after an attempt it is known how long the next one is waited for.
+        # The time to the next attempt is only known after one has failed.
         if status.retry_s is not None:
             write_err(f"sambot-viz: note: {status.sentence}; the page goes on trying")
         return status.retry_s is not None
@@ -58,7 +58,7 @@ class _WheelsNote:
         self._sessions = sessions
 
     def look(self) -> bool:
-        """Return whether a robot has the wheels, or has been said not to."""
+        """Return whether a robot has the wheels, or was reported not to."""
         for session in self._sessions.all()[:1]:
             if session.robot.model is None:
                 return False
@@ -75,7 +75,7 @@ class _FrameNote:
         self._sessions = sessions
 
     def look(self) -> bool:
-        """Return whether the frame exists, or has been said not to."""
+        """Return whether the frame exists, or was reported not to."""
         for session in self._sessions.all()[:1]:
             with session.lock:
                 status = session.scene.global_status()

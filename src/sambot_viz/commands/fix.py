@@ -19,7 +19,7 @@ from sambot_viz.problems import ProblemGroup, group_in_words, group_problems
 from sambot_viz.robot.packages.package_index import package_of
 
 _MOST_ROUNDS = 10
-"""Edits may lead to findings with other edits, which are applied in other rounds."""
+"""Rounds at most: edits may bring findings to light that have edits themselves."""
 _MODELS = (".urdf", ".xacro", ".sdf", ".gazebo")
 _QUESTION = "Apply? [y]es [n]o [a]ll [q]uit"
 _STYLES: dict[str, Style] = {"+": "added", "-": "removed", "@": "dim"}
@@ -42,8 +42,8 @@ class Fixing:
 
     Args:
         check: finds the problems.
-        folders: those in which files may be changed.
-        asks: whether it asks before it writes.
+        folders: the folders whose files may be changed.
+        asks: whether to ask before each write.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class Fixing:
         self._files: set[str] = set()
 
     def run(self) -> list[Problem]:
-        """Apply what is wanted; returns the problems that are left."""
+        """Apply the wanted edits, and return the problems that are left."""
         problems = self._check()
         for _ in range(_MOST_ROUNDS):
             chosen = self._choose(problems)
@@ -83,7 +83,7 @@ class Fixing:
         taken: list[Edit] = []
         groups = [g for g in group_problems(problems) if g.edits]
         groups = [g for g in groups if _key(g) not in self._settled]
-        # What other files say may follow from the model, which is looked at first.
+        # Findings in other files may follow from the model, so it comes first.
         for group in list(filter(_is_of_model, groups)) or groups:
             key = _key(group)
             if _overlap(group.edits, taken):
@@ -120,7 +120,7 @@ class Fixing:
     def _apply(
         self, groups: Sequence[ProblemGroup], before: list[Problem]
     ) -> list[Problem]:
-        """Apply edits together or, if that makes errors, one after the other."""
+        """Apply edits together or, if that causes errors, one by one."""
         alone = len(groups) == 1
         try:
             made = self._write(groups)
@@ -165,7 +165,7 @@ class Fixing:
 
 
 def _key(group: ProblemGroup) -> object:
-    """Return what stays the same when other edits have moved a text in its line."""
+    """Return a key that stays the same when other edits move a text in its line."""
     edits = tuple((e.file, e.end - e.start, e.text) for e in group.edits)
     return group.first.code, group.first.file, group.first.line, group.hint, edits
 
@@ -187,7 +187,7 @@ def _errors(problems: Sequence[Problem]) -> int:
 
 
 def _new_errors(before: Sequence[Problem], after: Sequence[Problem]) -> list[Problem]:
-    """Return the errors of codes of which there are more than before."""
+    """Return the errors whose codes occur more often than before."""
     old = Counter(p.code for p in before if p.severity == "error")
     new = Counter(p.code for p in after if p.severity == "error")
     more = new - old

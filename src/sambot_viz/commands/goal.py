@@ -16,9 +16,9 @@ from sambot_viz.publishing.outbound import GOAL_TOPIC, MAP, Goal, NavGoal
 from sambot_viz.text import text
 
 WAIT = 120.0
-"""A goal is followed so long [s]."""
+"""The time limit for following a goal [s]."""
 FARTHEST = 1e6
-"""No robot is sent so far [m]."""
+"""The largest coordinate of a goal [m]."""
 
 
 def run(words: list[str]) -> int:
@@ -30,7 +30,7 @@ def run(words: list[str]) -> int:
         raise UsageError(f"name the robot: --source {LIVE_SOURCES}")
     robot = open_moved_by(options)
     assert robot is not None
-    # What nobody follows is a message: a goal of an action needs its connection.
+    # The goal of an action needs a connection; with --no-wait there is none to keep.
     kind = Goal if given.topic or given.no_wait else NavGoal
     topic = given.topic or GOAL_TOPIC
     goal = kind(given.frame, given.x, given.y, given.yaw)
@@ -43,7 +43,7 @@ def run(words: list[str]) -> int:
 
 
 def _follow(sender: GoalSender, seconds: float) -> int:
-    """Say what becomes of a goal, and return the exit status."""
+    """Report the progress of a goal, and return the exit status."""
     if not sender.can_follow:
         topic = text(sender.status_topic, 80)
         write_lines(

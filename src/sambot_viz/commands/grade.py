@@ -1,4 +1,4 @@
-"""``sambot-viz grade``: which steps of a lesson hold for a model."""
+"""``sambot-viz grade``: list which steps of a lesson a model passes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PASSED, FAILED, TROUBLE = 0, 1, 2
 
 
 def run(words: list[str]) -> int:
-    """Grade; returns 0 when all steps hold, 1 when one does not, 2 for usage."""
+    """Grade; return 0 when all steps hold, 1 when one does not, 2 for usage errors."""
     given = parser().parse_args(words)
     try:
         found = grade(given.path, given.lesson, step=given.step)
@@ -88,7 +88,7 @@ def _plain(written: Line) -> str:
 
 
 def _write(path: Path, document: str) -> None:
-    """Write a file, and make its folder: those of graders may not be there.
+    """Write a file, and make its folder: that of a grader may not exist yet.
 
     Raises:
         UsageError: it cannot be written.

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 FORMATS = {".svg": "svg", ".dot": "dot", ".gv": "dot", ".json": "json"}
 _QUIET = 0.5
-"""What comes in pieces has come when nothing more does for so long [s]."""
+"""Silence after which an answer that comes in pieces is complete [s]."""
 
 
 def run(words: list[str]) -> int:
@@ -136,7 +136,7 @@ def _expected(options: Options, name: str | None) -> NodeGraph:
 
 
 def _note_unknown(given: Iterable[str], declared: frozenset[str]) -> None:
-    """Say which arguments no launch file declares; xacro may have them."""
+    """Report the arguments that no launch file declares; xacro may have them."""
     for name in given:
         if name not in declared:
             near = did_you_mean(name, sorted(declared))
@@ -147,7 +147,7 @@ def _note_unknown(given: Iterable[str], declared: frozenset[str]) -> None:
 def _chosen(
     found: Sequence[StartedLaunch], name: str | None, path: Path
 ) -> StartedLaunch:
-    """Return the launch file to draw; the first one starts most.
+    """Return the launch file to draw; the first one starts the most nodes.
 
     Raises:
         UsageError: there is none, or none of that name.
@@ -172,7 +172,7 @@ def _chosen(
 
 
 def _running(options: Options, seconds: float) -> NodeGraph:
-    """Return what a robot says that runs.
+    """Return the nodes and topics that a robot reports.
 
     Raises:
         SourceError: there is no robot.
@@ -194,7 +194,7 @@ def _running(options: Options, seconds: float) -> NodeGraph:
 def _listen(
     robot: SourceRobot, nodes: RunningNodes, changed: threading.Event, seconds: float
 ) -> None:
-    """Connect, and wait until the robot has said who publishes and who reads.
+    """Connect, and wait until the robot has reported its publishers and subscribers.
 
     Raises:
         SourceError: there is no robot.
@@ -218,7 +218,7 @@ def _listen(
 
 
 def _wait(changed: threading.Event, is_so: Callable[[], bool], seconds: float) -> bool:
-    """Wait until something is so, at most so many seconds; return whether it is."""
+    """Wait for a condition, with a time limit [s]; return whether it became true."""
     end = time.monotonic() + seconds
     while not is_so():
         left = end - time.monotonic()

@@ -135,11 +135,11 @@ def _write(given: Namespace, solution: Path | None) -> int:
 
 
 def lesson_of(word: str, actions: Sequence[str]) -> Lesson:
-    """Return a lesson; a word that is nearly an action says so.
+    """Return a lesson; the error for a misspelt action offers the action.
 
     Args:
         word: its name, its file or its folder.
-        actions: what may stand in its place.
+        actions: the words that are valid in its place.
 
     Raises:
         UsageError: there is no such lesson.

@@ -1,4 +1,4 @@
-"""What ROS and RViz take on a command line, as the flags that mean the same here."""
+"""Translate arguments of ROS and RViz into the flags that mean the same here."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ _ONE_WORD = {
     "-e": "an enclave",
     "--enclave": "an enclave",
 }
-"""What ROS takes with a word, and what that is: it has no meaning here."""
+"""ROS's flags that take a value, and the name of the value: both are ignored."""
 _LOGS = ("rosout", "stdout", "external-lib")
 _ALONE = {f"--{on}able-{one}-logs" for on in ("en", "dis") for one in _LOGS}
 
 
 def without_ros_arguments(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Return a command line with rules of names as flags, and what to say of the rest.
+    """Return a command line with remappings as flags, and warnings about the rest.
 
     Args:
-        words: the command line; what is between ``--ros-args`` and ``--`` is ROS's.
+        words: the command line; the words from ``--ros-args`` to ``--`` are ROS's.
 
     Raises:
-        UsageError: a flag of ROS without its word, or one that there is not.
+        UsageError: a flag of ROS lacks its value, or does not exist.
     """
     left: list[str] = []
     notes: list[str] = []
     given = iter(words)
     for word in given:
         if word != BEGIN:
-            # As a separate word it would be taken for an argument of xacro.
+            # A separate word would be read as an argument of xacro.
             is_rule = word == _RULE[1]
             left.append(f"{word}={next(given, '')}" if is_rule else word)
             continue

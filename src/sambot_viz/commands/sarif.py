@@ -16,15 +16,15 @@ from sambot_viz.problems import in_order
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS: dict[Severity, str] = {"error": "error", "warning": "warning", "info": "note"}
 _ROOT = "%SRCROOT%"
-"""The folder in which the command runs; readers put their own copy in its place."""
+"""Stands for the folder in which the command runs; readers replace it by theirs."""
 
 
 def sarif_log(problems: Iterable[Problem], model: Path) -> dict[str, Any]:
     """Return a log with one run.
 
     Args:
-        problems: each is a result.
-        model: the place of those that are in no file.
+        problems: the results.
+        model: the place of problems that are in no file.
     """
     results = in_order(problems)
     codes = sorted({problem.code for problem in results})

@@ -76,7 +76,7 @@ _OF_RVIZ: Sequence[tuple[tuple[str, str], dict[str, Any], str]] = (
         "a page has no splash screen",
     ),
 )
-"""Flags that only RViz has a use for: names, how they are added, and what is said."""
+"""Flags that only RViz has a use for: names, how they are added, and a warning."""
 
 _WAITING = (
     "sambot-viz: note: the page is open and will load the file once its errors are "
@@ -87,8 +87,8 @@ _WAITING = (
 _LARGE_BLOCK = 2**22
 """A block of this size goes back to the system as soon as it is free [bytes]."""
 _KEPT = 2**23
-"""So much of what is free stays with each thread [bytes]: messages with clouds need it
-again and again, and to get it from the system costs more than to fill it."""
+"""Freed memory that each thread keeps [bytes]: messages with clouds need it again and
+again, and getting it from the system costs more than filling it."""
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 
 
@@ -114,8 +114,8 @@ def serve(options: Options, open_it: bool) -> None:
     """Show the page of some options until Ctrl-C.
 
     Args:
-        options: what is shown; changes while files are followed are written.
-        open_it: whether it is opened in this machine's browser.
+        options: the inputs; while their files are followed, changes are reported.
+        open_it: whether to open the page in this machine's browser.
     """
     _return_large_blocks()
     if options.follow is not None:
@@ -156,7 +156,7 @@ def _serve(inputs: Inputs, report: _Reports, open_it: bool) -> None:
         pass  # Ctrl-C while the robot was loaded ends the server like one later.
     finally:
         listener.close()
-        # Whoever waits for a signal waits no more.
+        # End the wait for a signal in the other thread.
         signals.put(0)
 
 
@@ -205,11 +205,11 @@ def parser() -> Parser:
 
 
 def _report_recording(inputs: Inputs) -> None:
-    """Write what a recording of the command line has, when it has ended."""
+    """Report the content of the recording of `--record`, after its end."""
     live, path = inputs.live, inputs.options.record
     if live is None or live.recorder is None or path is None:
         return
-    # The first one: the button of the page may have made others since.
+    # The first recording: the page's button may have made others since.
     status = (*live.recorder.ended, live.recorder.status)[0]
     if status is None or status.is_running:
         return
@@ -222,12 +222,13 @@ def _report_recording(inputs: Inputs) -> None:
 
 
 def _refuse_early(inputs: Inputs) -> None:
-    """Raise what ends the program before an address is printed.
+    """Raise the errors that end the program before it prints an address.
 
-    Only what needs the robot makes the page wait for it.
+    Only checks that need the robot make the page wait for it.
 
     Raises:
-        SambotVizError: options that cannot be, or a model that will not be followed.
+        SambotVizError: options contradict each other, or a broken model is not
+            followed.
     """
     options = inputs.options
     if options.transforms:
@@ -248,7 +249,7 @@ def _refuse_early(inputs: Inputs) -> None:
 def _report_start(
     inputs: Inputs, report: _Reports, reference: ReferenceModel | None
 ) -> None:
-    """Write what is wrong with the model, the config, the reference and the pose."""
+    """Report the problems of the model, the config, the reference and the pose."""
     from sambot_viz.commands.command_line import start_state
 
     options = inputs.options
@@ -261,7 +262,7 @@ def _report_start(
 
 
 class _Reports:
-    """Writes what is wrong, at the start and after a reload, each problem once.
+    """Reports problems at the start and after a reload, each of them once.
 
     Attributes:
         model: the model as the user wrote it.
@@ -273,7 +274,7 @@ class _Reports:
         self._written: set[Problem] = set()
 
     def __call__(self, problems: Sequence[Problem]) -> None:
-        """Write what a reload has changed."""
+        """Report the changes that a reload made."""
         if not problems:
             write_err("sambot-viz: all problems are fixed")
         elif self._written.issuperset(problems):
@@ -281,7 +282,7 @@ class _Reports:
         self.write(problems)
 
     def write(self, problems: Sequence[Problem]) -> None:
-        """Write those problems that are not on the terminal as the last ones."""
+        """Write the problems that the last report did not have."""
         new = [problem for problem in problems if problem not in self._written]
         self._written = set(problems)
         write_problems(new, model=self.model)
@@ -294,15 +295,15 @@ def announce(
     below: str = "",
     whose: tuple[str, str] = ("viewers:   ", "presenter: "),
 ) -> None:
-    """Write the addresses that can be opened, and who else can open them.
+    """Write the addresses to open, and warn about who else can open them.
 
     Args:
-        options: where the program listens, and its secrets.
-        port: on which it listens.
-        open_it: whether the presenter's, or that for everyone, is opened in this
-            machine's browser.
-        below: where the presenter's page is below that for everyone.
-        whose: whom each is for, where there is a presenter.
+        options: the address, and the secrets of the links.
+        port: the port of the server.
+        open_it: whether to open the page in this machine's browser: the presenter's,
+            where there is one.
+        below: path of the presenter's page below the page for everyone.
+        whose: the readers of each link, where there is a presenter.
     """
     from sambot_viz.server.listener import page_url, public_url, reachable_at
     from sambot_viz.server.protection.access import only_this_machine
@@ -320,7 +321,7 @@ def announce(
         # The wrong link in a chat would give the class thirty presenters.
         _announce(link, False, whose[0])
         _announce(presenter_link, open_it, whose[1])
-    # What others can open: behind a proxy not the address that is listened on.
+    # The address that others can open: with a proxy it is not our own.
     public = public_url(options)
     if public is not None:
         presented = presenter_link is not None
@@ -357,8 +358,8 @@ def stop_on_signals(
     """End the program quietly on Ctrl-C and a service manager's stop.
 
     Args:
-        stop: is set then.
-        give_up: called then: a robot may take long to load, and the wait for it ends.
+        stop: set at that moment.
+        give_up: called at that moment, to end the wait for a robot that loads.
 
     Returns:
         The signals that have come.
@@ -380,10 +381,10 @@ def stop_on_signals(
 
 
 def _return_large_blocks() -> None:
-    """Have Linux's C library give large blocks back; elsewhere nothing is done.
+    """Make Linux's C library return large blocks to the system; elsewhere do nothing.
 
-    That library raises the limit by itself up to 32 MB, and keeps what is below: after
-    thirty pages with 50 MB of meshes each, 0.7 GB that nothing uses.
+    That library raises its threshold by itself up to 32 MB and keeps smaller blocks:
+    after thirty pages with 50 MB of meshes each, it held 0.7 GB unused.
     """
     if sys.platform == "linux":
         # Other C libraries, such as that of Alpine, have no such function.

@@ -43,7 +43,7 @@ def run(words: list[str]) -> int:
 
 
 def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
-    """Draw what a page would show."""
+    """Draw the page's 3D view into a picture."""
     from sambot_viz.export.chromium import Chromium
     from sambot_viz.export.view_picture import LONGEST_WAIT, snapshot
     from sambot_viz.session.shown_problems import problems_of_topics
@@ -54,16 +54,16 @@ def _picture(inputs: Inputs, size: tuple[int, int], fit: bool) -> Picture:
         stack.enter_context(_exit_on_sigterm())
         viz = stack.enter_context(Visualizer.of_inputs(inputs))
         session = viz.server.sessions.all()[0]
-        # Before there is a page: the camera looks at all that is drawn.
+        # Set before a page is opened: the camera then fits everything that is drawn.
         stack.enter_context(session.looked_at())
         if inputs.moved_by is not None and inputs.moved_by.can("seek"):
-            # The page would play it.
+            # Without this the page would play the recording.
             viz.player.pause()
             viz.player.jump(viz.player.duration if options.at is None else options.at)
         write_problems(session.document.config.problems)
         write_problems([*problems_of_topics(session.scene.displays)])
         _report_fixed_frame(session.scene)
-        # A browser takes seconds to start: what is wrong has been reported by now.
+        # A browser takes seconds to start, so problems were reported before it.
         with Chromium() as chromium:
             camera = session.document_view.camera
             config = session.document.config
@@ -101,7 +101,7 @@ def parser() -> Parser:
 
 @contextmanager
 def _exit_on_sigterm() -> Generator[None]:
-    """Let SIGTERM, such as `timeout` sends, leave the block, so that it cleans up."""
+    """Let SIGTERM, which `timeout` sends, leave the block, so that it cleans up."""
 
     def leave(number: int, frame: object) -> None:
         del frame

@@ -1,4 +1,4 @@
-"""``sambot-viz topics``: what there is, and why nothing of a topic is seen."""
+"""``sambot-viz topics``: list topics, and explain why one shows nothing."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def run(words: list[str]) -> int:
     statuses, found, topics = _looked_at(options, given.listen)
     if options.model is not None:
         found = [p for p in found if p.code != "no-description"]
-    # That it has no messages says it all.
+    # "No messages" already explains it.
     if any(problem.severity == "error" for problem in found):
         found = [p for p in found if p.severity == "error"]
     write_problems(found, most=None)
@@ -58,14 +58,14 @@ def run(words: list[str]) -> int:
 def _looked_at(
     options: Options, seconds: float
 ) -> tuple[list[Account], list[Problem], Mapping[str, SourceTopic]]:
-    """Return what is to be said of each topic, what is wrong, and a robot's topics."""
+    """Return the account of each topic, the problems, and a robot's topics."""
     refuse_time_of_live(options)
     refuse_mixture(options)
     moved_by = open_moved_by(options)
     if moved_by is None:
         raise UsageError(_no_recording(options))
     if moved_by.recording is None:
-        # A recording needs nothing of the network.
+        # The import is late: a recording needs no network.
         from sambot_viz.listened import Listened
 
         with closing(Listened(moved_by, seconds, None)) as listened:
@@ -77,7 +77,7 @@ def _looked_at(
 
 
 def _say_together(paths: Sequence[Path]) -> None:
-    """Say which files are one recording, if rosbag2 does not say it."""
+    """Report which files form one recording, where rosbag2's metadata is missing."""
     if len(paths) < 2 or all(
         (path.parent / "metadata.yaml").is_file() for path in paths
     ):
@@ -117,7 +117,7 @@ def _of_live(listened: Listened) -> tuple[list[Account], list[Problem]]:
     rows, found = list[Account](), list[Problem]()
     recorded = listened.recorded
     if recorded is not None:
-        # At its end nothing is still to come.
+        # At the end no message is still to come.
         end_ns = None if recorded.recording is None else recorded.recording.end_ns
         rows, found = _of_recording(recorded, end_ns)
     came = {row.name for row in rows}
@@ -169,7 +169,7 @@ def topics_text(
 
     Args:
         rows: its topics.
-        topics: those of a robot; the nodes of each stand below it.
+        topics: those of a robot; the nodes of each are listed below it.
     """
     rows = [*rows]
     cells = [_cells(row) for row in rows]
