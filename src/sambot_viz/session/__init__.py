@@ -1,7 +1,7 @@
 """One robot, config, joints, frames and displays, shown to one audience.
 
-`Session` makes the parts and joins them. Each part has what it uses, and tells what it
-changes by signals: document, scene, robot, people, clients, undo, problems.
+`Session` makes the parts and joins them: document, scene, robot, people, clients, undo,
+problems. Each part holds only what it uses, and reports its changes by signals.
 """
 
 from sambot_viz.session.clients.client import Client

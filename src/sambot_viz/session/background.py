@@ -32,12 +32,12 @@ class Background:
         self._is_running = False
 
     def do(self, owner: object, work: Work, *, after: float = 0.0) -> None:
-        """Do something soon; returns at once.
+        """Schedule work, and return at once.
 
         Args:
-            owner: whose work it is, in place of what waits for it.
-            work: what is done.
-            after: not before this time has passed [s].
+            owner: the object that the work is for; work that waits for it is replaced.
+            work: the function to call.
+            after: the shortest delay [s].
         """
         with self._changed:
             self._waiting[id(owner)] = _WaitingWork(time.monotonic() + after, work)
@@ -47,7 +47,7 @@ class Background:
                 threading.Thread(target=self._run, name=self._name, daemon=True).start()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until there is no more work; False when that takes longer [s]."""
+        """Wait until all work is done; return False after the time limit [s]."""
         with self._changed:
             return self._changed.wait_for(lambda: not self._is_running, timeout)
 

@@ -1,7 +1,7 @@
 """A picture of the view at a chosen size, drawn by the browser that asks for it.
 
-What comes back is checked: it may be late, no picture at all, or one that takes
-gigabytes to unpack.
+The answer is checked: it may be late, may be no picture, or may take gigabytes to
+unpack.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ async def picture_of(
     """Have a client draw its view at a size.
 
     Args:
-        client: who draws.
-        background: colour behind what is drawn, 0 to 255.
+        client: the client that draws.
+        background: background colour, 0 to 255.
         width: of the picture [pixels].
         height: of the picture [pixels]; it shows as much as the window's does.
 
@@ -74,15 +74,15 @@ async def picture_of(
 def finished(
     answer: bytes, size: tuple[int, int], background: tuple[int, int, int]
 ) -> bytes:
-    """The PNG file of a picture, made from what a browser has drawn.
+    """Return the PNG file of a picture that a browser has drawn.
 
     Args:
-        answer: what the browser sent.
-        size: the width and height that it was asked for [pixels].
-        background: colour behind what was drawn, 0 to 255.
+        answer: the answer of the browser.
+        size: the requested width and height [pixels].
+        background: background colour, 0 to 255.
 
     Raises:
-        PictureError: that is not a PNG file of this size.
+        PictureError: the answer is not a PNG file of this size.
     """
     # The size is in the first bytes: nothing larger is ever unpacked.
     if answer[:8] == _PNG_MARK and answer[16:24] != struct.pack(">II", *size):
@@ -100,10 +100,10 @@ def finished(
 
 
 def on_background(drawn: np.ndarray, color: tuple[int, int, int]) -> Image.Image:
-    """A picture with its background behind it.
+    """Return a picture with the background under its transparent pixels.
 
-    viser puts the background where the window's camera sees it; a picture of
-    another shape has none at its sides.
+    viser draws the background where the window's camera sees it; a picture of another
+    shape has none at its sides.
 
     Args:
         drawn: (height, width, 4) uint8, RGBA.

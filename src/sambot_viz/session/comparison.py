@@ -35,23 +35,23 @@ class ComparisonChoice:
 
 
 class Comparison:
-    """Compares the robot of a session, and draws what differs as a ghost.
+    """Compares the robot of a session, and draws the differences as a ghost.
 
-    It is compared in a thread, and only after one of the two models has changed.
+    The comparison runs in a thread, and only after one of the two models has changed.
 
     Args:
-        robot: what is shown.
-        scene: where the ghost is drawn.
-        change: of the session.
-        report: shows an error that nobody expected.
-        choice: what is compared at first.
+        robot: the shown robot.
+        scene: the scene that the ghost is drawn in.
+        change: the session's changes.
+        report: shows an internal error.
+        choice: the first choice of what to compare.
 
     Attributes:
-        changed: told after a change of the choice, or of what differs.
-        choice: what users have chosen.
-        reference: the name of the reference; "" where there is none.
-        found: what differs; None while there is nothing to compare.
-        ghost: what is drawn.
+        changed: emitted when the choice or the differences change.
+        choice: the users' choice.
+        reference: the name of the reference; "" without one.
+        found: the differences; None while there is nothing to compare.
+        ghost: the drawn ghost.
     """
 
     def __init__(

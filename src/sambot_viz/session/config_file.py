@@ -23,7 +23,7 @@ from sambot_viz.text import text
 
 ENDING = ".rviz"
 UNNAMED = f"sambot_viz{ENDING}"
-"""What a config without a file is called when it is downloaded."""
+"""The name of a downloaded config that has no file."""
 _FORBIDDEN = '<>:"|?*'
 _RESERVED = re.compile(
     r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³])(\.|$)", re.IGNORECASE
@@ -35,8 +35,8 @@ class ConfigFile:
     """The file of a session's document.
 
     Args:
-        document: what is saved.
-        robot: a config without a file is saved beside it.
+        document: the document to save.
+        robot: a config without a file is saved beside its model.
         scene: knows the config that the command line opened.
     """
 
@@ -99,7 +99,7 @@ class ConfigFile:
         return [*self._files.names(), *_of_the_program()]
 
     def listed(self, name: str) -> Path:
-        """The file that is shown under a name.
+        """Return the file that is listed under a name.
 
         Raises:
             UsageError: there is no such file.
@@ -148,8 +148,8 @@ class ConfigFile:
             The file that was written.
 
         Raises:
-            UsageError: there is no file to write, or it cannot be written; what was
-                there is untouched.
+            UsageError: there is no file to write, or it cannot be written; the old
+                content is kept.
         """
         target = path or self.target
         if target is None:

@@ -1,8 +1,8 @@
-"""What is seen at first of a recording or a robot, where no config says it.
+"""The displays of a recording or a robot that is opened without a config.
 
-RViz shows nothing that is not in its config. Who opens a recording wants to see what is
-in it: a display for each topic that one draws, in the order of need, at sizes for the
-eye. A config is shown as it is, and nothing else.
+RViz shows only its config. Users who open a recording want to see its content: one
+display for each topic that can be drawn, the most useful first, at visible sizes. A
+config is shown as it is, without additions.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _VALUES: Mapping[str, Mapping[str, object]] = {
 _COSTMAP = {"Color Scheme": "costmap", "Alpha": 0.4}
 """As Nav2's own config: the walls of the map below stay visible."""
 _DOTS = ((300, 6), (3_000, 4), (50_000, 3))
-"""Up to so many points, so large a dot [pixels]: few points are large enough to see."""
+"""Number of points, and the size of dots up to it [pixels]: few points, large dots."""
 _LOOSE = WantedQos("Best Effort", "Volatile")
 _SMALLEST_DOT = 2
 _ROBOT = "/robot_description"

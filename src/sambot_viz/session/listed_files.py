@@ -11,13 +11,13 @@ from sambot_viz.files import is_below
 
 
 class ListedFiles:
-    """Lists what fits in a folder: nothing hidden, and no link that leads elsewhere.
+    """Lists the files of a kind in a folder, but no hidden ones and no links elsewhere.
 
-    What was opened is listed all the same.
+    Opened files are listed in any case.
 
     Args:
-        folder: whose files they are; those of folders in it are not listed.
-        fits: tells whether a file or folder is of the wanted kind.
+        folder: the folder; its subfolders are not searched.
+        fits: returns whether a file or folder is of the wanted kind.
         most: maximum number of listed files, the first ones by their names.
         opened: paths in the folder that are neither hidden nor elsewhere.
         beside: further resolved folders into which links may lead.

@@ -37,7 +37,7 @@ class ModelEdits:
 
     Args:
         model: its file.
-        watched: whether what is saved is shown.
+        watched: whether saved files are followed.
         folder: the whole path of a student's folder, which may be written in place of
             the package of the model.
 

@@ -1,8 +1,8 @@
-"""The config that comes with the program, for a robot that has none of its own.
+"""Adapt the config that comes with the program to a robot without a config.
 
 It was made for the tutorial's robot: each frame has its axes and its name, and the
-robot can be seen through. Other robots have frames too, but are opaque, and sizes fit
-them.
+robot is transparent. Other robots show frames too, but are opaque, and sizes are scaled
+to them.
 """
 
 from __future__ import annotations
@@ -78,19 +78,18 @@ def fit_own_config(document: RvizConfig, robot: Robot | None) -> None:
 
 
 class SizeOfRobot:
-    """Gives displays the size of the robot, where nobody has given them one.
+    """Scales displays to the robot, unless a user has chosen a size.
 
-    Those of the config get it once the meshes are read, those that show the data of a
-    source too; those that are added have it from the start. That is in a config that
-    is not a user's.
+    Displays of the config and of a source's data are scaled once the meshes are read;
+    added ones from the start. A user's own config is left alone.
 
     Args:
-        document: what is shown.
+        document: the shown document.
         scene: reads the meshes.
-        robot: what is to be fitted.
-        picker: finds how large it is.
-        edits: set the sizes.
-        history: records nothing of that.
+        robot: the robot to fit.
+        picker: measures it.
+        edits: sets the sizes.
+        history: leaves these edits out.
     """
 
     def __init__(

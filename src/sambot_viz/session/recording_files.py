@@ -47,15 +47,15 @@ class RecordingFiles:
         return list(self._found())
 
     def instead(self, shown: Given, part: str, name: str) -> tuple[GivenSource, ...]:
-        """Return what is shown with one part of it replaced.
+        """Return the shown sources with one of them replaced.
 
         Args:
-            shown: what is shown.
-            part: which part, of `parts`.
-            name: of the recording, of `names`.
+            shown: the shown sources.
+            part: the source to replace, from `parts`.
+            name: the recording, from `names`.
 
         Raises:
-            UsageError: there is no such part or recording, by now.
+            UsageError: there is no such part or recording now.
         """
         parts, found = parts_of(shown), self._found()
         if part not in parts:
@@ -144,7 +144,7 @@ def _is_recording(entry: os.DirEntry[str]) -> bool:
         return entry.name.lower().endswith(ENDINGS)
     if not entry.is_dir() or not is_recording(entry.path):
         return False
-    # What is in it may be elsewhere.
+    # The files in the folder may be links to elsewhere.
     folder = Path(entry.path)
     files = [one for one in folder.iterdir() if one.is_symlink()]
     return all(is_below(one, [folder.parent.resolve()]) for one in files)

@@ -6,14 +6,14 @@ from sambot_viz.errors import UsageError
 
 
 def require_room(count: int, most: int, what: str) -> None:
-    """Refuse one more when there are as many as there may be.
+    """Refuse to add one more when the limit is reached.
 
-    A file, and a program, may have more of them.
+    Files and programs may exceed the limit.
 
     Args:
-        count: how many there will be.
-        most: how many there may be.
-        what: of what, in the plural.
+        count: the number after the addition.
+        most: the limit.
+        what: the noun for the message, in the plural.
 
     Raises:
         UsageError: there is no room.

@@ -66,7 +66,7 @@ class Session:
 
     Args:
         audience: where to draw.
-        worker: the thread that clients, timers and files act in; it is closed with
+        worker: the thread for actions of clients, timers and files; it is closed with
             the session.
         config: the .rviz document; the session changes it as the user does.
         meshes: mesh files that are read already (shared by all sessions).
@@ -78,18 +78,18 @@ class Session:
             sliders.
 
     Attributes:
-        saved: the files that were saved last, by whatever program.
-        lock: the worker's; held while the state changes.
-        change: changes the state, sends that, and tells it.
+        saved: the files that were last saved, by any program.
+        lock: the worker's lock; held while the state changes.
+        change: changes the state, sends the change, and emits its signals.
         private: whether only one client sees it.
-        own_model: whether its robot is its own: that of the server is not shown in it.
-        sources: what messages come from, and what they move.
+        own_model: whether it shows its own robot instead of the server's.
+        sources: the sources of messages, and the data that moves the robot.
         publisher: the way back to a live robot.
         joints_out: publishes the joints that users move.
-        sent: the last messages that went to it; sending is told with each.
-        driven: who drives that robot.
+        sent: the last messages to the robot; emitted with each.
+        driven: drives the live robot by hand.
         graph: the nodes and topics of the package and of the robot.
-        comparison: what the robot is compared with, and what differs.
+        comparison: compares the robot with a reference.
 
     Raises:
         FrameError: static transforms that form a ring.
@@ -253,7 +253,7 @@ class Session:
                     self.data.leave(viewer)
 
     def take_camera(self, client_id: int, number: int, camera: Camera) -> None:
-        """Take what a page reports of its camera; see `ClientCamera.take`."""
+        """Accept a page's report of its camera; see `ClientCamera.take`."""
         client = self.clients.all.get(client_id)
         if client is not None:
             client.view.take_report(number, camera)
@@ -329,9 +329,8 @@ class Session:
 
         Args:
             moved_by: the robot of the sources.
-            robot: what is shown then, with all joints at their start.
-            document: the config, in place of one that is the program's; None keeps
-                the one that is shown.
+            robot: the robot to show, with all joints at their start.
+            document: the config, in place of the program's; None keeps the shown one.
             own: as for `show_robot`.
         """
         with self.change():
@@ -358,7 +357,7 @@ class Session:
                 self.data.begin()
 
     def copy(self) -> SessionCopy:
-        """Copy what is shown now."""
+        """Return a copy of the shown state."""
         with self.lock:
             joints, context = self.robot.joints, self.scene.context
             data = self.data
@@ -387,7 +386,7 @@ class Session:
             )
 
     def prepare(self, copy: SessionCopy) -> None:
-        """Take, before anything is drawn, what a program has set in a copied session.
+        """Copy a program's settings from a copied session, before anything is drawn.
 
         The models that it trusts are trusted here; its document may name others, which
         a client has chosen.
@@ -413,7 +412,7 @@ class Session:
             self.robot.move({n: q for n, q in copy.positions.items() if n in known}, {})
 
     def close(self) -> None:
-        """Send nothing any more; a second call does nothing.
+        """Stop sending for good; a second call does nothing.
 
         The client of a private session may leave while the server stops.
         """
@@ -435,7 +434,7 @@ class Session:
         self.worker.close()
 
     def _take_robot(self) -> None:
-        """Let what is sent go to the live robot among the sources, if there is one."""
+        """Connect the publisher to the live robot among the sources, if any."""
         data = self.data
         if data is None or not data.moved_by.can("clock"):
             self.publisher.take(None, lambda: 0)

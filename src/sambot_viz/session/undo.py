@@ -29,7 +29,7 @@ Apply = Callable[[Restore], None]
 
 @dataclass
 class _Action:
-    """What a client does at the moment."""
+    """The edit that a client is making."""
 
     client_id: int
     gesture: object
@@ -57,14 +57,14 @@ class History:
     """The edits of a session, for each of its clients.
 
     Args:
-        change: undoes and redoes, and tells.
+        change: undoes and redoes, and sends the changes.
 
     Attributes:
-        modified: whether the document has edits that are not saved.
-        is_as_saved: tells if the document says what its file says; it looks at all of
-            it, so it is asked after single edits only, and not in a drag.
-        take_page: gives a client what was another page's (see `UndoableEdit`), and
-            tells whether that can be.
+        modified: whether the document has unsaved edits.
+        is_as_saved: returns whether the document equals its file; it compares all of
+            it, so it is called after single edits only, not in a drag.
+        take_page: gives a client the state of another page (see `UndoableEdit`), and
+            returns whether that is possible.
     """
 
     def __init__(self, change: Change) -> None:
@@ -87,11 +87,11 @@ class History:
     def acting(
         self, client_id: int | None, gesture: object = None, *, by_viewer: bool = False
     ) -> Generator[None]:
-        """Record what is changed inside as one edit of a client.
+        """Record the changes of the block as one edit of a client.
 
         Args:
             client_id: the client; None for a program, whose edits cannot be undone.
-            gesture: what all movements of one drag have in common; None for a single
+            gesture: a value that all movements of one drag share; None for a single
                 action.
             by_viewer: whether the client has no control.
         """
@@ -114,7 +114,7 @@ class History:
 
     @property
     def recording(self) -> bool:
-        """Whether there is a client that could undo what is changed now."""
+        """Whether a client could undo the changes that are being made."""
         return self._action is not None and not self._undoing
 
     def record(
@@ -154,7 +154,7 @@ class History:
 
     @contextmanager
     def unrecorded(self) -> Generator[None]:
-        """Keep nothing of what is changed inside: no user has asked for it."""
+        """Leave the changes of the block out of the history: no user made them."""
         with self._change.lock:
             before, self._undoing = self._undoing, True
             try:
@@ -169,9 +169,9 @@ class History:
         """Record the properties that are set in the document inside.
 
         Args:
-            label: what is done, in a few words.
-            apply: calls the function it is given, which puts the properties back, and
-                draws them; it may raise SambotVizError instead.
+            label: a few words for the edit.
+            apply: calls its argument, which restores the properties, and draws them; it
+                may raise SambotVizError instead.
             merge: see `record`.
         """
         with record_changes() as changes:
@@ -216,14 +216,14 @@ class History:
 
         Args:
             client_id: the client.
-            may_edit: whether it has control; others undo what they did as viewers.
+            may_edit: whether it has control; others undo their edits as viewers.
 
         Returns:
-            What was undone; None when there is nothing to undo.
+            The label of the edit; None when there is nothing to undo.
 
         Raises:
-            UsageError: it needs control, or cannot be undone now, or not any more,
-                because of what was done since; then it is forgotten.
+            UsageError: it needs control, or cannot be undone now, or never again
+                because of later edits; then it is forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
@@ -241,18 +241,18 @@ class History:
             return step.edits[0].label
 
     def redo(self, client_id: int, *, may_edit: bool = True) -> str | None:
-        """Do again what a client has undone last.
+        """Redo the edit that a client last undid.
 
         Args:
             client_id: the client.
             may_edit: as for `undo`.
 
         Returns:
-            What was done again; None when there is nothing.
+            The label of the edit; None when there is nothing to redo.
 
         Raises:
-            UsageError: it needs control, or cannot be done again now, or not any more;
-                then it is forgotten.
+            UsageError: it needs control, or cannot be redone now, or never again; then
+                it is forgotten.
         """
         with self._change.lock:
             history = self._steps_of(client_id)
@@ -300,7 +300,7 @@ class History:
             self._undoing = False
 
     def state(self, client_id: int) -> Signal[UndoState]:
-        """What a client can undo and redo."""
+        """Return the edits that a client can undo and redo."""
         return self._steps_of(client_id).state
 
     def key(self, client_id: int) -> str:
@@ -314,13 +314,13 @@ class History:
             self._left.keep(steps)
 
     def resume(self, client_id: int, key: str) -> None:
-        """Give a client the edits of the page that it was before it was loaded again.
+        """Give a client its edits from before its page was loaded again.
 
-        Nothing happens when they are not known any more.
+        Nothing happens if they are no longer known.
 
         Args:
             client_id: the client.
-            key: what `key` has returned for that page.
+            key: the value of `key` for the earlier page.
         """
         with self._change.lock:
             steps = self._steps_of(client_id)

@@ -1,15 +1,15 @@
 """The thread of a session, the pace of its streams, and its clock.
 
 viser calls back on its event loop, which serves every browser and must never wait. So
-a callback only posts an action here. The worker runs the actions one after the other
-and holds the session's lock while it does, so that a program's own threads, which take
-the same lock, never see a session that is half changed. Clients take turns, so that one
-that asks for much holds up nobody; when those who have control and those who have not
-wait, every other action is of one in control.
+a callback only posts an action here. The worker runs the actions one by one and holds
+the session's lock meanwhile, so that a program's own threads, which take the same lock,
+never see a half-changed session. Clients take turns, so that a busy one does not hold
+up others; while clients with and without control wait, every other action is from one
+in control.
 
 A throttle runs an action at once for a single event, and at a steady rate for a
-stream. All parts of a session measure time with the worker's clock, which also says
-when an action that was put off is due. It is the computer's; a test moves one by hand.
+stream. All parts of a session measure time with the worker's clock, which also decides
+when a delayed action is due. It is the computer's; tests move their own by hand.
 """
 
 from __future__ import annotations
@@ -70,14 +70,14 @@ class Worker(threading.Thread):
     def post(
         self, action: Action, latest_of: object = None, *, client: int | None = None
     ) -> None:
-        """Run an action soon, after what its client has posted; returns at once.
+        """Queue an action after the earlier ones of its client, and return at once.
 
         Args:
-            action: what to run.
-            latest_of: of a client's actions that say the same here, only the last one
-                runs, unless one that says nothing was posted in between: a flood of
-                slider values costs one step.
-            client: who has caused it; None for the program itself.
+            action: the function to run.
+            latest_of: a key; of a client's queued actions with the same key only the
+                last one runs, unless one without a key was posted in between: a flood
+                of slider values costs one step.
+            client: the client that caused it; None for the program itself.
         """
         with self._changed:
             if self._closed:
@@ -155,10 +155,10 @@ class Worker(threading.Thread):
             return None
 
     def _take_due(self) -> None:
-        """Let what is due wait with the rest of the program.
+        """Queue the due actions with all others.
 
-        A stream that takes longer than its period is always due: whoever opens a page
-        must not wait until it ends.
+        A stream that takes longer than its period is always due: opening a page must
+        not wait until it ends.
         """
         while self._timers and self._timers[0][0] <= self.clock.now():
             action = heapq.heappop(self._timers)[2]
@@ -173,7 +173,7 @@ class Worker(threading.Thread):
         waiting = self._inbox.pop(turn)
         _, action = waiting.popleft()
         if waiting:
-            # Behind the others.
+            # Last in the queue.
             self._inbox[turn] = waiting
         return turn, action
 

@@ -1,11 +1,11 @@
 """The camera of one client, as its page and the server agree on it.
 
-The page owns it: a hand moves it, and it moves by itself with the frame that the view
-follows. So all that is said of it, either way, is relative to that frame, whose motion
-changes nothing in it. The server says what the frame is, and asks for a camera when
-somebody wants one: a view, a value, an undo, a presenter who leads, a program. Each of
-these has a number, which the page's reports carry from then on; a report with an
-earlier number is of a camera that has been replaced since.
+The page owns the camera: the user moves it, and it moves by itself with the frame that
+the view follows. Both sides therefore give it relative to that frame, so that the
+frame's motion changes no number. The server names the frame, and requests a camera for
+a view, a typed value, an undo, a presenter who leads, or a program. Each request has a
+number, which the page's reports carry from then on; a report with an earlier number is
+about a camera that has been replaced.
 """
 
 from __future__ import annotations
@@ -77,21 +77,21 @@ def followed_of(scene: Scene, view: View, target: Target) -> Followed:
 
 
 class ClientCamera:
-    """What a client's page shows, as far as is known, and what it was asked for.
+    """Hold the camera that a client's page last reported, and the one requested of it.
 
-    It is one of the `Versioned` parts that a page is sent: the page that lacks it gets
-    the newest.
+    One of the `Versioned` parts of a page: a page with an older version gets the
+    newest.
 
     Args:
-        camera: what the page shows at first, relative to `followed`.
+        camera: the page's first camera, relative to `followed`.
         followed: the frame that the view follows.
 
     Attributes:
-        camera: relative to the followed frame; another object as soon as somebody has
-            asked for another one, or a hand has moved it.
-        number: of the camera that was asked for last; 0 before the first.
-        confirmed: whether the page has shown that one.
-        version: counts what is to be sent.
+        camera: relative to the followed frame; replaced by another object when another
+            camera is requested, or the user has moved it.
+        number: number of the last request; 0 before the first.
+        confirmed: whether the page has shown the requested camera.
+        version: counts the changes to send.
         listeners: called when there is something to send.
     """
 
@@ -127,15 +127,15 @@ class ClientCamera:
             self._tell()
 
     def take(self, number: int, camera: Camera) -> bool:
-        """Take what the page reports.
+        """Accept a report of the page.
 
         Args:
-            number: of the camera that the page was asked for when it showed this one.
+            number: the newest request that the page knew when it showed this camera.
             camera: relative to the followed frame.
 
         Returns:
-            Whether somebody has moved it there. False for the camera that was asked
-            for, and for one that was replaced since.
+            Whether the user has moved the camera there. False for the requested camera,
+            and for one that has been replaced.
         """
         if number != self.number:
             return False
@@ -146,7 +146,7 @@ class ClientCamera:
         return True
 
     def since(self, version: int) -> tuple[int, str | None]:
-        """Return the present version, and what a page lacks that has another one."""
+        """Return the present version, and the message for a page with another one."""
         now, message = self._message
         return now, None if version == now else message
 
@@ -161,12 +161,12 @@ class ClientCamera:
 def camera_message(
     number: int, followed: Followed, asked: Camera | None
 ) -> dict[str, object]:
-    """Return what a page is told of its camera (page/view/camera.js).
+    """Return the message about its camera for a page (page/view/camera.js).
 
     Args:
-        number: of the camera that was asked for last.
-        followed: the frame that it moves with.
-        asked: that camera, relative to the frame; None before the first.
+        number: number of the last request.
+        followed: the frame that the camera moves with.
+        asked: the requested camera, relative to the frame; None before the first.
     """
     return {
         "of": "camera",
@@ -207,17 +207,17 @@ def leaning(camera: Camera) -> Camera:
 def reported(
     position: Vector, look_at: Vector, up: Vector, fov: float, scale: float | None
 ) -> Camera | None:
-    """Return a camera that a page reports.
+    """Return a camera from the numbers of a page's report.
 
     Args:
         position: relative to the followed frame, as the others are [m].
-        look_at: in the middle of the picture [m].
+        look_at: the point in the middle of the picture [m].
         up: up in the picture.
         fov: vertical field of view [rad].
-        scale: pixels per metre of one that looks straight down without perspective.
+        scale: pixels per metre of an orthographic camera that looks straight down.
 
     Returns:
-        None for numbers that are no camera.
+        None for numbers that make no valid camera.
     """
     away = length(look_at - position)
     if away < 1e-9 or length(np.cross(look_at - position, up)) < 1e-9 * away:

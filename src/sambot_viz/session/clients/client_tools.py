@@ -1,7 +1,7 @@
 """The tools of one client: the current one, its clicks and keys, and the selection.
 
-Only the current tool gets clicks, and only one that uses them: with any other, a press
-of the mouse moves the camera. What tools draw is drawn for their own client alone.
+Only the current tool gets clicks, and only if it uses them: otherwise a press of the
+mouse moves the camera. Drawings of tools are visible to their own client only.
 """
 
 from __future__ import annotations
@@ -59,26 +59,26 @@ class ClientTools:
     Implements `tools.tool.ToolContext`.
 
     Args:
-        client: whose tools these are.
-        change: sends what they draw to this client.
+        client: the owner of the tools.
+        change: sends their drawings to this client.
         view: the camera that they turn.
         document: lists tools, with their settings.
-        scene: what is shown.
+        scene: the drawn scene.
         robot: the selection moves with it.
-        picker: finds what is clicked on.
+        picker: follows the rays of clicks.
         worker: acts on clicks.
-        selected: called with the number of the client and what it has selected.
-        publisher: sends what they send to a robot.
-        roles: who of the clients may do that.
+        selected: called with the number of the client and its selection.
+        publisher: sends goals, poses and points to a robot.
+        roles: knows which clients may publish.
 
     Attributes:
-        changed: the tools, the selection or the status.
-        status: what the current tool reports; empty shows its help.
-        wants_map: whether it would do what was asked in the frame map.
-        selection: what is selected, in the order of selection.
-        pointed: what was clicked on twice last, and how often that has happened.
-        over: where the mouse was last, and whether a press there is a drag of the tool.
-        menu: how many menus were shown, the title of the last one and its entries.
+        changed: emitted when the tools, the selection or the status change.
+        status: the report of the current tool; empty shows its help.
+        wants_map: whether the last refusal would not hold with the fixed frame map.
+        selection: the selected things, in the order of selection.
+        pointed: the target of the last double click, and the number of double clicks.
+        over: the last place of the mouse, and whether a press there is the tool's.
+        menu: the number of menus shown, the title of the last one and its entries.
         tools: those of the document first, then the others.
         current: the tool that gets clicks.
     """
@@ -246,7 +246,7 @@ class ClientTools:
                 self.current.place(x, y, yaw, sends=sends)
 
     def double_click(self, at: ScreenPoint) -> None:
-        """Note what is under the mouse; a tool with clicks of its own has them alone.
+        """Note what is under the mouse; a tool that takes clicks gets them alone.
 
         Args:
             at: from 0 (left, top) to 1 (right, bottom) of the picture.
@@ -279,14 +279,14 @@ class ClientTools:
             self.current.choose_entry(number)
 
     def focus(self, at: ScreenPoint | None = None) -> None:
-        """Key F: look at what is under the mouse, or show the whole robot.
+        """Look at the thing under the mouse (key F), or show the whole robot.
 
-        As in RViz, Select looks at what is selected; so does any tool when it is not
-        known where the mouse is. Unlike there, the selection then fills the picture.
+        As in RViz, Select looks at the selection; so does any tool while the mouse is
+        not over the picture. Unlike in RViz, the selection then fills the picture.
 
         Args:
-            at: where the mouse is, from 0 (left, top) to 1 (right, bottom) of the
-                picture; None when it is not over it.
+            at: place of the mouse, from 0 (left, top) to 1 (right, bottom) of the
+                picture; None when the mouse is not over it.
         """
         click = None if at is None else pointed_at(self._client, at)
         if click is None or isinstance(self.current, SelectTool):
@@ -334,7 +334,7 @@ class ClientTools:
         self._moving.to(*(self._drawn if selection else ()))
 
     def data_of(self, item: Selectable) -> SelectedData | None:
-        """Return what is known of selected data; None when it is not drawn any more."""
+        """Return the details of selected data; None if they are no longer drawn."""
         return self._picker.data_of(item)
 
     def look_at(self, point: Array) -> None:
@@ -369,9 +369,9 @@ class ClientTools:
 
     @property
     def pose_refusal(self) -> str:
-        """Why nobody may send a pose of the current tool; empty when that is allowed.
+        """The reason why the current tool may not publish; empty if it may.
 
-        Who has control is not asked: the page knows it itself.
+        Control is not checked here: the page knows who has it.
         """
         tool = self.current
         sends = isinstance(tool, PoseTool)
@@ -406,13 +406,13 @@ class ClientTools:
         return self._publisher.robot is not None and self._picker.has_handles
 
     def handle(self, item: Selectable) -> Handle | None:
-        """Return what a hand can move of what a ray has met; None for nothing."""
+        """Return the movable marker that a ray has hit; None without one."""
         return self._picker.handle(item)
 
     def tell_program(
         self, messages: Sequence[Outbound], topic: str, *, follows: bool = False
     ) -> bool:
-        """Send what is done with a marker, all at once; return whether it was sent."""
+        """Send the events of a marker together; return whether they were sent."""
         try:
             for number, message in enumerate(messages):
                 if why := self.publish_refusal(message.kind):
@@ -460,7 +460,7 @@ class ClientTools:
         self._picker.follow((self, what), lambda s: s.first_hit(*ray), then, facing)
 
     def _follow_mouse(self, tool: Tool) -> None:
-        """Give a tool what is under the mouse, once more when it has moved on."""
+        """Give a tool the hits under the mouse, and again if the mouse has moved."""
         click = pointed_at(self._client, self._mouse)
         if click is None:
             return

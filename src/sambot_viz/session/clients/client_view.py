@@ -190,7 +190,7 @@ class ClientView:
         """Set one value.
 
         Raises:
-            UsageError: there is no such value, or it cannot be that.
+            UsageError: there is no such value, or it cannot be set to that.
         """
         with self._edit(f"View: {path}", merge=("view", path)):
             before = self.target
@@ -276,7 +276,7 @@ class ClientView:
             self._begin()
 
     def show_first(self) -> None:
-        """Take the document's view as it is now, where nobody has taken another one."""
+        """Follow a change of the document's view, unless the client has its own."""
         if self._framing.wanted:
             self.show()
 
@@ -388,10 +388,10 @@ class ClientView:
         return self._config
 
     def restore(self, shown: ViewConfig, config: ViewConfig, values: Values) -> None:
-        """Show what was shown before an edit, or after it.
+        """Show the view as it was before or after an edit.
 
         Raises:
-            UsageError: `shown` is not shown any more.
+            UsageError: `shown` is no longer there.
         """
         if self._config is not shown:
             raise UsageError("another view was shown since")
@@ -408,7 +408,7 @@ class ClientView:
             self.view.config.set(path, value)
 
     def _move(self, values: Callable[[], Values]) -> None:
-        """Move the camera from where it is now; as with a mouse, that is no edit."""
+        """Move the camera from its present place; as with a mouse, this is no edit."""
         self._framing.stop()
         with self._change(self.changed):
             self._take_camera()

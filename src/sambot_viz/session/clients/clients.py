@@ -25,25 +25,25 @@ from sambot_viz.session.worker import Worker
 
 
 class Clients:
-    """Makes what belongs to each client, and forgets it when the page is closed.
+    """Makes the view and tools of each client, and drops them when its page closes.
 
     Args:
         document: its views and tools come first.
-        scene: what clients look at.
+        scene: the drawn scene.
         robot: views follow it.
-        picker: finds what is clicked on.
+        picker: follows the rays of clicks.
         history: records views.
-        roles: whose view the others may follow.
-        publisher: sends what tools send to a robot.
-        worker: acts on what clients send.
+        roles: knows whose view the others may follow.
+        publisher: sends goals, poses and points to a robot.
+        worker: acts on the messages of clients.
 
     Attributes:
-        leading: whether all clients show what the client shows whose camera moved
-            last, of those that may change the session.
-        free: the clients that do not follow then.
-        brought: the client that has brought all others to its view last, and how often
-            that has been done.
-        pointer: shows all clients what one of them points at.
+        leading: whether all clients follow the view of one in control: of these, the
+            one whose camera moved last.
+        free: the clients that do not follow it.
+        brought: the client that last brought all others to its view, and the number
+            of times.
+        pointer: shows one client's selection to all.
         listeners: called with a client that joined (True) or left (False), with the
             session locked.
     """
@@ -155,7 +155,7 @@ class Clients:
             first.view.store()
 
     def close(self) -> None:
-        """Follow nothing any more; who leaves after this is gone already."""
+        """Stop following changes; clients that leave later are not handled."""
         self.pointer.hide()
         clients, self._clients = self._clients, {}
         for client in clients.values():
@@ -179,7 +179,7 @@ class Clients:
         return len(others)
 
     def _point(self, client_id: int, items: Selection) -> None:
-        """Show all what a client has selected, where it presents."""
+        """Show the selection of a presenter to all clients."""
         if self._roles.presented and self._roles.may_edit(client_id) and items:
             self.pointer.show(items)
 

@@ -83,13 +83,13 @@ class FollowView:
         self._looking.close()
 
     def show_motion(self) -> bool:
-        """Make the fixed frame one that the robot moves in, if it moves with the robot.
+        """Replace a fixed frame that moves with the robot by one that does not.
 
-        That is an edit that can be undone. The robot stays in the picture of the
-        client that drives.
+        This is an edit that can be undone. The robot stays in the picture of the client
+        that drives.
 
         Returns:
-            Whether the fixed frame was another one.
+            Whether the fixed frame was replaced.
 
         Raises:
             FrameError: the root link cannot be attached to odom.
@@ -122,7 +122,7 @@ class FollowView:
         """Bring the robot to the middle of a client's picture, unless it is in it.
 
         Args:
-            client_id: the client; None for the one that acts now.
+            client_id: the client; None for the acting one.
         """
         with self._lock:
             who = self._history.actor if client_id is None else client_id
@@ -191,7 +191,7 @@ class FollowView:
         if client is None or before is None or place is None:
             return
         if self._camera is not self._shown:
-            # Somebody has moved it: to the robot, or away from it.
+            # A user has moved it: to the robot, or away from it.
             self._shown, self._following = self._camera, _shows(client, before)
         if self._is_seen(client, place):
             self._following = True

@@ -1,4 +1,4 @@
-"""What a presenter points at, shown to all clients for some seconds."""
+"""Show a presenter's selection to all clients for some seconds."""
 
 from __future__ import annotations
 
@@ -18,17 +18,16 @@ THICKNESS = 5.0
 
 
 class Pointer:
-    """Draws boxes round what is selected, for all clients alike.
+    """Draws boxes around a selection, for all clients alike.
 
-    They are in the scene of all, so that the message is packed once, and one who comes
-    meanwhile sees them too. When they are removed, nothing of them is left for those
-    who come later.
+    They are nodes of the shared scene: the message is packed once, and clients that
+    join see the boxes too. Removing them leaves nothing for clients that join later.
 
     Args:
-        scene: where they are drawn.
-        picker: finds where the boxes are.
+        scene: the scene that they are drawn in.
+        picker: computes the boxes.
         robot: the boxes move with it.
-        change: sends what is drawn.
+        change: sends the drawing.
         worker: removes them again.
     """
 
@@ -49,7 +48,7 @@ class Pointer:
         self._moving = Listening(self._draw)
 
     def show(self, items: Selection) -> None:
-        """Show what is selected from now on, for some seconds."""
+        """Show a selection for some seconds, beginning now."""
         self._items, self._until = dict(items), self._worker.clock.now() + SHOWN_FOR
         self._draw()
         self._moving.to(*self._motion)

@@ -24,12 +24,12 @@ def listen(
     clicked: Callable[[Tool, Click], None],
     drawn: Callable[[Tool, RayGrid, str | None], None],
 ) -> None:
-    """Have viser send what a tool uses, and nothing else.
+    """Subscribe to the pointer events that a tool uses, and to no others.
 
     Args:
-        client: who uses the tool.
-        tool: the current one.
-        worker: acts on what is sent.
+        client: the user of the tool.
+        tool: the current tool.
+        worker: acts on the events.
         clicked: called with a click.
         drawn: called with the rays of a rectangle, and a modifier.
     """
@@ -72,7 +72,7 @@ def click_of(event: viser.SceneClickEvent) -> Click | None:
 def pointed_at(
     client: viser.ClientHandle, at: ScreenPoint, modifier: str | None = None
 ) -> Click | None:
-    """What a click at a point of a browser's picture would be.
+    """Return the event of a click at a point of a browser's picture.
 
     Args:
         client: the browser.
@@ -80,7 +80,7 @@ def pointed_at(
         modifier: a held key.
 
     Returns:
-        None when the point is not in the picture, or the camera is nonsense.
+        None if the point is outside the picture, or the camera is invalid.
     """
     picture, point = Picture.of(client.camera), _numbers(at)
     if picture is None or point.shape != (2,):
@@ -107,7 +107,7 @@ def rays_of(event: viser.SceneRectSelectEvent) -> RayGrid | None:
 
 
 def _numbers(values: object) -> Array:
-    """What a browser sent as an array; an empty one for what is not numbers."""
+    """Return a browser's values as an array; an empty one if they are not numbers."""
     try:
         return np.asarray(values, np.float64)
     except (TypeError, ValueError):

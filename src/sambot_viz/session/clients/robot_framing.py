@@ -29,19 +29,19 @@ def window_of(client: viser.ClientHandle) -> Size:
 
 
 class RobotFraming:
-    """When a browser's camera is to be moved so that it shows robot and data whole.
+    """Decides when to move a browser's camera so that it shows robot and data whole.
 
     That is when the robot comes, once its meshes are read, when more of its links have
-    a place, when one more display has drawn data, when a changed model has its first
-    shape or is much larger, and in a window of another size; never after the user has
-    moved the camera.
+    a place, when one more display has drawn data, when a changed model gets its first
+    shape or grows much larger, and when the window is resized; never after the user
+    has moved the camera.
 
     Args:
         client: the client.
-        document: says whether data are shown that no config names.
+        document: knows whether data are shown that no config names.
         scene: reads the meshes.
-        robot: what is to be shown.
-        picker: finds how large it is.
+        robot: the robot to show.
+        picker: measures it.
     """
 
     def __init__(
@@ -69,12 +69,12 @@ class RobotFraming:
 
     @property
     def wanted(self) -> bool:
-        """Whether the robot is to be shown whole: nobody has taken another view."""
+        """Whether to show the robot whole: the user has not chosen another view."""
         return self._wanted
 
     @property
     def waiting(self) -> bool:
-        """Whether no robot was there yet to show, and nobody has taken another view."""
+        """Whether no robot was shown yet, and the user has not chosen another view."""
         return self._wanted and self._window is None
 
     def begin(self, view: View) -> None:
@@ -117,7 +117,7 @@ class RobotFraming:
     def _is_much_larger(self) -> bool:
         """Whether another robot is drawn now, larger than the picture was made for.
 
-        What a robot of a source says of itself again is no new one.
+        A source that describes its robot again does not make it a new one.
         """
         context = self._scene.context
         drawn = context.robot

@@ -78,8 +78,8 @@ def camera_of(handle: viser.CameraHandle) -> Camera | None:
     """Return the camera that a page has reported last, in the fixed frame.
 
     Returns:
-        None for nonsense: viser does not check what a browser sends. Any number may be
-        NaN or missing, and the camera may be in the point that it looks at.
+        None for an invalid one: viser does not check the messages of browsers. Any
+        number may be NaN or missing, and the camera may be at the point it looks at.
     """
     position, look_at, up = (
         _numbers(values, 3)

@@ -64,7 +64,7 @@ class SourceDescriptions:
         if not moved_by.spaces:
             return link
         if topic not in self.topics():
-            # It stands for the robot that was opened.
+            # This description replaces the robot that was opened.
             topic = moved_by.topics.description or topic
         return moved_by.spaces.link_frame(topic, link)
 
@@ -73,7 +73,7 @@ class SourceDescriptions:
         return self._moved_by.topics.joints_of.get(topic, ())
 
     def transform_doubts(self) -> Mapping[str, TopicReason]:
-        """Return what is wrong with topics of transforms, by their names."""
+        """Return the problems of topics with transforms, by their names."""
         topics, known = self._moved_by.topics, self._moved_by.source.topics()
         told = {
             name: self._reason_of(name)
@@ -83,7 +83,7 @@ class SourceDescriptions:
         return {n: why for n, why in told.items() if why and why.severity != "info"}
 
     def of(self, topic: str, qos: WantedQos) -> Description:
-        """Return what a topic says, and ask for its messages."""
+        """Return the description on a topic, and subscribe to it."""
         told = self._of(topic, qos)
         self._told[topic, qos] = told, self.joint_topics(topic)
         return told
@@ -142,7 +142,7 @@ class SourceDescriptions:
         return _trouble(topic, why if none is None else none.text)
 
     def close(self) -> None:
-        """Take nothing any more."""
+        """Unsubscribe from all topics."""
         self._moved_by.on_topics.remove(self._look)
         self._moved_by.on_status.remove(self._look)
 
@@ -174,13 +174,13 @@ def wanted_qos(qos: WantedQos) -> Qos:
 def not_there(
     topic: str, known: Sequence[str], missing: str, level: Level = "Error"
 ) -> Description:
-    """Say that there is no such topic, and which one was meant.
+    """Return the status for a missing topic, with the nearest name.
 
     Args:
-        topic: its name.
+        topic: the missing name.
         known: the topics that describe robots.
-        missing: what to do when there are none.
-        level: of the status.
+        missing: the advice when there are none.
+        level: the level of the status.
     """
     if not known:
         return _trouble(topic, f"there is no topic {topic}: {missing}", level)

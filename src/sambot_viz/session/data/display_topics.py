@@ -29,19 +29,19 @@ _UNREAD = ("encoding", "type-unknown", "not-decodable")
 
 
 class DisplayTopics:
-    """Keeps what displays have subscribed to.
+    """Keeps the subscriptions of displays.
 
-    While nobody looks, what may rest is neither asked for nor decoded.
+    While no page is open, displays that may rest get no messages, and none are decoded.
 
     Args:
         moved_by: decodes the messages.
-        feed: has them.
-        placement: says why a frame has no place.
-        wake: called in the thread of a live source when something has come.
-        report: tells an exception that no display should have raised.
+        feed: delivers them.
+        placement: explains why a frame has no place.
+        wake: called in the thread of a live source when a message has come.
+        report: reports an exception that a display should not have raised.
 
     Attributes:
-        unheard: returns why a topic gives nothing, whatever displays it.
+        unheard: returns why a topic gives nothing to any display.
     """
 
     def __init__(
@@ -126,7 +126,7 @@ class DisplayTopics:
             service.refused(str(error))
 
     def rest(self) -> None:
-        """Ask for what may rest no longer: nobody looks."""
+        """Unsubscribe displays that may rest: no page is open."""
         self._is_seen = False
         for one in self._subscriptions.keys() - self._asleep:
             if self._rests(one):
@@ -134,7 +134,7 @@ class DisplayTopics:
                 self._feed.remove(one)
 
     def wake(self) -> None:
-        """Ask for all again: somebody looks. Recorded messages of now wait at once."""
+        """Subscribe to all again; recorded messages of this time wait at once."""
         self._is_seen = True
         for one in self._asleep:
             one.clear()
@@ -211,7 +211,7 @@ class DisplayTopics:
             if not source.status.is_connected:
                 sentence = source.status.sentence
                 return TopicDoubt("Warn", TopicReason("not-connected", sentence))
-            # What is not published may come.
+            # A topic that is not published yet may still come.
             level = "Warn" if "clock" in source.capabilities else "Error"
             return not_there(topic, meanings, self.types(), level)
         type_name = self._moved_by.decoder(known).type_name
@@ -250,7 +250,7 @@ class DisplayTopics:
 
 
 def _suiting(qos: Qos | None, is_latched: bool) -> WantedQos:
-    """Return what a display should ask for, as RViz does for a topic from its list."""
+    """Return the QoS that RViz would request for a topic from its list."""
     words = reasons.QOS_WORDS
     reliability = "Reliable" if qos is None else words.get(qos.reliability, "")
     durability = "Transient Local" if is_latched else "Volatile"
@@ -263,13 +263,13 @@ def not_there(
     known: Mapping[str, str],
     level: Literal["Warn", "Error"] = "Error",
 ) -> TopicDoubt:
-    """Say that there is no such topic, and which one was meant.
+    """Return the status for a missing topic, with the nearest name.
 
     Args:
-        topic: its name.
-        wanted: what the display draws.
+        topic: the missing name.
+        wanted: the types that the display draws.
         known: all topics, with their types.
-        level: of the status.
+        level: the level of the status.
     """
     fitting = topics_of(known, wanted)
     why = reasons.no_such_topic(topic, fitting or known)

@@ -33,11 +33,11 @@ class Feed:
         return self.source.clock_ns()
 
     def add(self, subscriber: Subscriber, receive: OnMessage) -> None:
-        """Give one more the messages of its topics; recorded ones of now at once.
+        """Add a subscriber; it gets the recorded messages of this time at once.
 
         Args:
-            subscriber: takes what is recorded, in the session's worker.
-            receive: gets what comes by itself, in the thread of its source.
+            subscriber: takes recorded messages, in the session's worker.
+            receive: takes live messages, in the thread of their source.
         """
         if self.player is not None and not self._is_live(subscriber.topics):
             self.player.add(subscriber)
@@ -50,7 +50,7 @@ class Feed:
         return has_live and not any(map(self.is_recorded, topics))
 
     def listen(self, subscriber: Subscriber, topics: Iterable[str]) -> None:
-        """Ask for the topics that one that was added has by now, and for no others."""
+        """Subscribe to the present topics of a subscriber, and to no others."""
         live = self.source.live
         if live is None:
             return
@@ -65,7 +65,7 @@ class Feed:
             live.unsubscribe(topic, receive)
 
     def remove(self, subscriber: Subscriber) -> None:
-        """Give one that was added no more messages."""
+        """Remove a subscriber."""
         if self.player is not None:
             self.player.remove(subscriber)
         receive, asked = self._receivers.pop(subscriber)

@@ -11,7 +11,7 @@ from sambot_viz.session.worker import Worker
 from sambot_viz.sources.message import Recorded
 
 SLICE = 2**18
-"""So much of what waits is taken before clients get their turn [bytes]."""
+"""Messages that are taken in one step, so that clients get their turn [bytes]."""
 
 
 class Inbox:

@@ -19,12 +19,12 @@ _SIMULATED = 100_000_000.0
 
 @dataclass(frozen=True, slots=True)
 class ClockState:
-    """What a page needs to show the time of a robot by itself.
+    """The values from which a page computes the time of a robot.
 
     Attributes:
-        simulated: the robot tells its time, as a simulation does.
+        simulated: whether the robot publishes its time, as a simulation does.
         time: that time [s]; else how far the robot's clock is ahead of this one [s].
-        rate: how fast a simulated time goes on; 0 while it is paused.
+        rate: speed of simulated time; 0 while it is paused.
     """
 
     simulated: bool = False
@@ -36,12 +36,12 @@ class LiveClock:
     """Follows the clock of a source; not thread-safe.
 
     Args:
-        source: has the clock.
-        change: tells the state.
-        wall: the time of this computer [s].
+        source: the source with the clock.
+        change: sends the state to pages.
+        wall: returns the time of this computer [s].
 
     Attributes:
-        state: what a page is told; only when it could not know it by itself.
+        state: the state for pages; changes only if they could not compute it.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class LiveClock:
         last, self._last = self._last, (now, wall)
         rate = 1.0 if last is None else (now - last[0]) / max(wall - last[1], 1e-3)
         told = ClockState(True, round(now, 3), round(max(0.0, rate), 2))
-        # A paused simulation is told once more, with its rate.
+        # Of a paused simulation the rate is sent too, once.
         if told != state:
             self._tell(told)
 

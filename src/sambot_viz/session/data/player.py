@@ -22,13 +22,13 @@ SLOWEST, FASTEST = 0.01, 100.0
 
 @dataclass(frozen=True, slots=True)
 class PlayerState:
-    """What a player does.
+    """The state of a player.
 
     Attributes:
         playing: whether the time goes on.
-        rate: how much faster than it was recorded.
+        rate: speed, relative to the recorded one.
         loop: whether it begins again at the end.
-        time_ns: log time of the picture [ns]; while it plays, when it began to.
+        time_ns: log time of the picture [ns]; while it plays, the time of its start.
     """
 
     playing: bool = False
@@ -38,21 +38,21 @@ class PlayerState:
 
 
 class Player:
-    """Moves the time of a recording, and so gives its messages to subscribers.
+    """Moves the time of a recording, and with it gives its messages to subscribers.
 
-    A jump shows what the recording had at that time, also while paused. A paused player
+    A jump shows the recording at that time, also while paused. A paused player
     does nothing.
 
     Args:
         source: the recording, with a time of this session.
-        draw: shows what subscribers have taken; told whether the time has jumped.
-        change: tells what the player does.
+        draw: draws the messages that subscribers took; given whether the time jumped.
+        change: sends the state of the player.
         worker: takes the steps.
-        is_begun: whether a time was asked for, which is shown until somebody plays.
+        is_begun: whether a time was requested, which is shown until a user plays.
 
     Attributes:
-        playback: what it does; told when that changes, not at every step.
-        stepped: told at every step while it plays.
+        playback: the state; emitted when it changes, not at every step.
+        stepped: emitted at every step while it plays.
         period: the time between two steps [s].
     """
 
@@ -109,7 +109,7 @@ class Player:
                 self._worker.post_later(self.period, self._step)
 
     def begin(self) -> None:
-        """Play when the first page is there, unless somebody has stopped it before."""
+        """Play when the first page has opened, unless it was paused before."""
         if not self._begun:
             self.play()
 
@@ -155,12 +155,12 @@ class Player:
             self.source.add(subscriber)
 
     def remove(self, subscriber: Subscriber) -> None:
-        """Give one that was added no more messages."""
+        """Remove a subscriber."""
         with self._change.lock:
             self.source.remove(subscriber)
 
     def close(self) -> None:
-        """Play nothing any more."""
+        """Stop playing for good."""
         self._closed = True
 
     def resume(self) -> None:

@@ -43,32 +43,32 @@ RESTS_AFTER = 10.0
 
 
 class RobotData:
-    """Moves a robot and its frames as messages say.
+    """Moves a robot and its frames by messages.
 
-    What can seek has a player. Messages that come by themselves wait in an inbox.
+    Recordings, which can seek, have a player. Live messages wait in an inbox.
 
     Args:
         moved_by: the robot's messages.
-        history: of the session's frames.
-        frames: the same, as they are drawn.
-        robot: is moved.
-        change: tells what is wrong, and how a live source is.
+        history: the history of the session's frames.
+        frames: the same frames, as they are drawn.
+        robot: the robot to move.
+        change: sends problems and the state of a live source.
         worker: takes the messages.
-        scene: what displays draw of them.
-        problems: gets what the transforms that were taken had wrong.
+        scene: the displays of the messages.
+        problems: collects the faults of the received transforms.
 
     Attributes:
         moved_by: as given.
-        name: of the recording or the live robot.
+        name: the name of the recording or the live robot.
         transforms: takes /tf and /tf_static.
         player: the time of a recording; None without one.
-        inbox: what has come of a live robot.
-        topics: what is said of the topics.
-        messages: those that displays draw.
-        status: told when a live source is doing otherwise.
+        inbox: the messages of a live robot that wait.
+        topics: the accounts of the topics.
+        messages: the messages that displays draw.
+        status: emitted when the state of a live source changes.
         clock: the time of a live robot.
-        time: when frames are drawn.
-        doubt: what is wrong with that time.
+        time: the time at which frames are drawn.
+        doubt: the problem of that time.
     """
 
     def __init__(
@@ -131,7 +131,7 @@ class RobotData:
             moved_by, report, live, drawing, self.player, change, worker
         )
         messages.unheard = self.topics.unheard
-        # What is known of topics is in the statuses of displays.
+        # The statuses of displays contain the accounts of their topics.
         connect([self.topics.looked], partial(self._look_at_time, True))
         frames.changed = self.transforms.changed
         frames.pairs = self.transforms.pairs
@@ -170,15 +170,15 @@ class RobotData:
 
     @property
     def is_looked_at(self) -> bool:
-        """Whether somebody sees it."""
+        """Whether a page shows it."""
         return bool(self._viewers)
 
     def rest(self) -> None:
-        """Decode no data until somebody looks; the robot and its frames move on."""
+        """Decode no data until a page is open; the robot and its frames move on."""
         self.messages.rest()
 
     def look(self, viewer: object) -> None:
-        """Show what is there now to one more viewer."""
+        """Show the present state to one more viewer."""
         if not self._viewers:
             with self._change():
                 self.messages.wake()
@@ -241,7 +241,7 @@ class RobotData:
 
     @property
     def is_unfollowed(self) -> bool:
-        """Whether a live robot tells how it moves, and Follow is off."""
+        """Whether a live robot publishes its motion, and Follow is off."""
         is_followed = bool(self._robot.followed.value)
         return self.source.live is not None and self._moves and not is_followed
 
@@ -250,7 +250,7 @@ class RobotData:
         return self.source.clock_ns() * 1e-9
 
     def stamp_ns(self) -> int:
-        """Return the time of what is sent to the robot now [ns]."""
+        """Return the time for the stamp of a message to the robot [ns]."""
         return time_of(self.source, self.transforms.newest_ns)
 
     def is_paced(self, frame: str) -> bool:
@@ -261,7 +261,7 @@ class RobotData:
         return bool(told_by) and all(map(self._feed.is_recorded, told_by))
 
     def close(self) -> None:
-        """Take nothing any more."""
+        """Stop taking messages."""
         self._closed = True
         self.moved_by.on_topics.remove(self._look)
         self.moved_by.on_status.remove(self._tell_status)
@@ -405,7 +405,7 @@ class RobotData:
             stamp, now = self.transforms.newest_ns * 1e-9, self.time_s()
             has_topic = CLOCK in source.topics()
             doubt = wrong_clock(stamp, now, has_topic, source.has_clock)
-        # What is so only until the first message is no news, nor that its times go on.
+        # A state that ends with the first message is no news, nor is a later time.
         last, self._doubted = self._doubted, _without_times(doubt)
         if self._doubted == last and last != _without_times(self.doubt):
             self.doubt = doubt

@@ -19,23 +19,23 @@ from sambot_viz.topics.whole_run import whole_run
 
 
 class SessionSources:
-    """Has what a session makes of its sources: at the start, and of others later.
+    """Connects a session to its sources, and to others that replace them.
 
     Args:
-        history: of the session's frames; None where no messages come.
-        frames: the same, as they are drawn.
-        robot: is moved by the messages.
+        history: the history of the session's frames; None where no messages come.
+        frames: the same frames, as they are drawn.
+        robot: the robot that the messages move.
         scene: draws them.
-        change: tells what the messages change.
+        change: sends the changes that messages cause.
         worker: takes the messages.
-        is_given: a robot was named on the command line, and takes the place of the
+        is_given: whether a robot was named on the command line, which replaces the
             source's.
 
     Attributes:
-        data: what the messages move; None without a source.
-        replaced: told when others have taken the place of the sources.
-        problems: what is wrong with the transforms that were taken.
-        notes: what is wrong with the recording itself.
+        data: moves the robot; None without a source.
+        replaced: emitted when other sources have replaced these.
+        problems: the faults of the received transforms.
+        notes: the faults of the recording itself.
     """
 
     def __init__(
@@ -106,7 +106,7 @@ class SessionSources:
             self.replaced.touch()
 
     def close(self) -> None:
-        """Take nothing any more."""
+        """Stop taking messages."""
         if self._descriptions is not None:
             self._descriptions.close()
         if self.data is not None:

@@ -1,4 +1,4 @@
-"""What a session says of the topics of its sources."""
+"""The accounts of a session's topics, as its pages show them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.survey import Survey
 
 PERIOD = 1.0
-"""So often what is said of topics that are listened to is looked at again [s]."""
+"""Period of the accounts of live topics [s]."""
 SLICE = 0.01
 """So long messages of a recording are looked at before others get their turn [s]."""
 PAUSE = 0.01
@@ -32,24 +32,23 @@ NEVER = sys.maxsize
 
 
 class SourceTopics:
-    """Looks at the topics that somebody sees, and says what each of them has.
+    """Inspects the topics on the screen, and gives the account of each.
 
-    The first messages of what can seek are looked at once. To what comes by itself it
-    listens while its rows are on the screen; large messages are left alone until
-    somebody chooses their row. One connection serves all sessions: what others listen
-    to as well costs it nothing more.
+    The first messages of a recording are read once. A live topic is subscribed to while
+    its row is on the screen; one with large messages only while its row is selected.
+    One connection serves all sessions, so a second subscriber costs nothing more.
 
     Args:
         moved_by: the sources.
-        report: what is known of what can seek; None without that.
-        live: what is known of what comes by itself.
-        drawing_of: says what displays do with a topic.
-        player: its time is that of the ages; None without what can seek.
-        change: tells what is said.
-        worker: looks at the messages.
+        report: the report about recordings; None without any.
+        live: the facts about live topics.
+        drawing_of: returns what displays do with a topic.
+        player: gives the time for ages; None without a recording.
+        change: sends the accounts.
+        worker: reads the messages.
 
     Attributes:
-        looked: told when something else is to be said.
+        looked: emitted when an account has changed.
     """
 
     def __init__(
@@ -123,12 +122,12 @@ class SourceTopics:
     def follow(
         self, viewer: object, names: Collection[str] | None, chosen: str = ""
     ) -> None:
-        """Look at topics for a viewer, in the session's worker.
+        """Inspect topics for a viewer, in the session's worker.
 
         Args:
-            viewer: who sees them.
-            names: of the topics; None when they are no longer on the screen.
-            chosen: the one that may be large.
+            viewer: the viewer that has them on the screen.
+            names: the names of the topics; None when they have left the screen.
+            chosen: the selected topic, which may have large messages.
         """
         if names is None:
             self._viewers.pop(viewer, None)
@@ -159,7 +158,7 @@ class SourceTopics:
             self.looked.touch()
 
     def account(self, name: str) -> Account:
-        """Return what is to be said of a topic now."""
+        """Return the present account of a topic."""
         if (recorded := self._recorded(name)) is not None:
             made, until = self._of_recorded(name, *recorded)
             self._until[name] = made.reason, until
@@ -171,9 +170,9 @@ class SourceTopics:
         return made
 
     def reason(self, name: str) -> TopicReason | None:
-        """Return why nothing of a topic is seen, or what to know of it.
+        """Return why a topic shows nothing, or a note about it.
 
-        `looked` tells when that changes.
+        `looked` is emitted when that changes.
         """
         recorded = self._recorded(name)
         if self._is_closed:
@@ -198,9 +197,9 @@ class SourceTopics:
         return None if topic is None else topic.count
 
     def rate(self, name: str) -> float | None:
-        """Return how often messages come [Hz]; None when there are less than two.
+        """Return the rate of messages [Hz]; None for fewer than two.
 
-        Latched messages come when somebody asks for them: they have none.
+        Latched messages come with a subscription: they have no rate.
         """
         if (recorded := self._recorded(name)) is not None:
             return recorded[0].rate(name)
@@ -239,7 +238,7 @@ class SourceTopics:
     # What can seek
 
     def _recorded(self, name: str) -> tuple[TopicReport, Player] | None:
-        """Return what knows a topic of a recording; None for one that comes live."""
+        """Return the report about a topic of a recording; None for a live topic."""
         report, player = self._report, self._player
         if report is None or player is None or name not in player.recording.topics:
             return None

@@ -1,1 +1,1 @@
-"""The .rviz document of a session, and what is drawn of it."""
+"""The .rviz document of a session, its edits and its view."""

@@ -84,11 +84,11 @@ class DisplayEdits:
         """Set one property of a link, a joint or a frame of a display.
 
         Args:
-            display: whose it is.
+            display: the display.
             title: "Links", "Joints" or "Frames".
-            name: of the link, joint or frame.
+            name: the name of the link, joint or frame.
             path: the property, such as "Alpha"; "Value" is the box.
-            value: what it is to be; others may follow.
+            value: the new value; others may follow.
 
         Raises:
             UsageError: there is no such property, or the value cannot be meant.
@@ -108,10 +108,10 @@ class DisplayEdits:
     def _told(
         self, display: Display | None, declared: Declared | None
     ) -> tuple[Signal[Any], ...]:
-        """Return what changes with a value of a display.
+        """Return the facts that change with a value of a display.
 
         A number or a colour changes the picture and the status of its display; a frame,
-        a file, a box or what is set of a topic may change what others show.
+        a file, a box or a setting of a topic may change the state of others.
         """
         if display is not None:
             display.revision += 1
@@ -177,10 +177,10 @@ class DisplayEdits:
 
         Args:
             kind: ROS 2 class id.
-            after: the display behind which it goes; the end of all when not given.
+            after: the display to insert it after; by default the last one.
             name: its label; by default one after its class that no other display has.
-            values: of properties that are not to have their defaults, by path.
-            place: the index from 0 and the group, None for the top, where it goes.
+            values: values other than the defaults, by the paths of their properties.
+            place: the index from 0, and the group or None for the top level.
 
         Raises:
             UsageError: `after` or the group is not in the document, or there are too
@@ -201,13 +201,13 @@ class DisplayEdits:
             for path, value in {**self.sizes_of(kind), **(values or {})}.items():
                 config.set(path, value)
             if place is not None:
-                # A document puts new displays behind others.
+                # A document adds new displays at the end.
                 self._document.config.move(config, *place)
             self._added(f"Add {label}", config)
         return config
 
     def duplicate_display(self, config: DisplayConfig) -> DisplayConfig:
-        """Add a copy of a display behind it, under a name that no other display has.
+        """Add a copy of a display after it, under a name that no other display has.
 
         Raises:
             UsageError: it is not in the document, or there are too many.
@@ -336,7 +336,7 @@ class DisplayEdits:
             )
 
     def _require(self, config: DisplayConfig) -> None:
-        """Raise UsageError for a display that is not in the document any more."""
+        """Raise UsageError for a display that is no longer in the document."""
         if not self._document.config.holds(config):
             raise UsageError(f"the display '{config.name}' was removed")
 

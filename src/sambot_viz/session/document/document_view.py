@@ -54,11 +54,11 @@ class DocumentView:
         return self._target(view_of(self._document.config.view))
 
     def camera_on_robot(self, width: int, height: int) -> Camera:
-        """Return that camera, moved to where it shows what is seen at first.
+        """Return that camera, moved so that it shows the first sight of the scene.
 
         Args:
-            width: of the picture [pixels].
-            height: of the picture [pixels].
+            width: width of the picture [pixels].
+            height: height of the picture [pixels].
         """
         view = self.view
         target = self._target(view)
@@ -74,9 +74,9 @@ class DocumentView:
         """Look at a point of the fixed frame.
 
         Args:
-            point: what is to be in the middle of the picture, (3,) [m].
-            position: where from, (3,) [m]; by default from where the camera is. A view
-                that looks straight down becomes one that can look from there.
+            point: the point for the middle of the picture, (3,) [m].
+            position: the place of the camera, (3,) [m]; by default the present one. A
+                view that looks straight down becomes one that can look from there.
         """
         view = self.view
         if position is not None:
@@ -104,7 +104,7 @@ class DocumentView:
         """Set some of its values, by their paths.
 
         Raises:
-            UsageError: there is no such value, or it cannot be that.
+            UsageError: there is no such value, or it cannot be set to that.
         """
         self._store(self.view, values)
 
@@ -152,10 +152,10 @@ class DocumentView:
 
 
 def first_box(document: ShownDocument, scene: Scene, picker: Picker) -> Corners | None:
-    """Return the box around what is seen at first; None when nothing is drawn.
+    """Return the box around the first sight of the scene; None if nothing is drawn.
 
-    That is the robot, and all data where no config says what of it is shown. Frames
-    alone are seen at each time of their recording.
+    It contains the robot and, where no config chooses among them, all data. A recording
+    of frames alone counts with all its times.
     """
     if document.config.unasked:
         return picker.first_box()

@@ -12,10 +12,10 @@ _LIKE_LATIN = str.maketrans(
 
 
 def same_form(name: str) -> str:
-    """Return what names have in common that look alike to a person.
+    """Return a key that is equal for names that look alike to a person.
 
-    Letters of other scripts that look like Latin ones count as these, and what is not
-    seen counts as nothing.
+    Letters of other scripts count as the Latin ones that they look like; invisible
+    characters do not count.
     """
     form = unicodedata.normalize("NFKC", name).casefold().translate(_LIKE_LATIN)
     return " ".join("".join(c for c in form if c.isprintable()).split())

@@ -179,12 +179,12 @@ class Roles:
         self.changed.touch()
 
     def greet(self, client_id: int, name: str, key: str = "") -> None:
-        """Take what a page has kept of its user.
+        """Restore the name and role that a page has kept of its user.
 
         Args:
             client_id: the new client of the page.
-            name: its name; it gets a number when it is another's now.
-            key: of the user; "" for none.
+            name: its name; it gets a number if another client has it now.
+            key: key of the user; "" for none.
         """
         person = self._people[client_id]
         if person.presenter:
@@ -222,7 +222,7 @@ class Roles:
         return same_form(name) in map(same_form, others)
 
     def _free_name(self, name: str, client_id: int) -> str:
-        """Return a name that nobody else has: "Ada", or "Ada 2"."""
+        """Return a name that no other client has: "Ada", or "Ada 2"."""
         numbered = (name if n == 1 else f"{name} {n}" for n in itertools.count(1))
         return next(one for one in numbered if not self._is_taken(one, client_id))
 

@@ -1,7 +1,7 @@
-"""The joints that users move, published to a live robot again and again.
+"""Publish the joints that users move to a live robot.
 
-As joint_state_publisher_gui does: all of them, ten times a second, on /joint_states.
-That is done while Follow is off, and while nobody else publishes the topic.
+As joint_state_publisher_gui does: all joints, ten times a second, on /joint_states,
+while Follow is off and no other node publishes the topic.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from sambot_viz.session.worker import Worker
 from sambot_viz.text import capitalized
 
 KNOWN_AFTER = 2.0
-"""What a robot publishes itself is known so long after connecting [s]."""
+"""Time after connecting until a robot's own publishers are known [s]."""
 PERIOD = 0.1
 """Between two messages [s], as of joint_state_publisher_gui."""
 
@@ -25,13 +25,13 @@ class JointsOut:
     """Publishes the joints of a robot that users move, where that is allowed.
 
     Args:
-        robot: has the joints.
+        robot: the robot with the joints.
         publisher: sends them.
-        change: tells what is new.
-        worker: sends them when it is time.
+        change: sends changes of `said` to pages.
+        worker: calls the timer.
 
     Attributes:
-        said: who takes them, or why they are not sent; "" where nothing is wanted.
+        said: the receiver, or why nothing is sent; "" where sending is not wanted.
         publishes: whether they were sent the last time.
     """
 
@@ -54,7 +54,7 @@ class JointsOut:
     @property
     def _is_wanted(self) -> bool:
         robot, model = self._robot, self._robot.model
-        # What stands in for a robot that is still to come has no joints.
+        # The placeholder of a robot that has not come yet has no joints.
         has_joints = robot.joints is not None and bool(robot.joints.all_positions())
         is_free = has_joints and model is not None and not robot.followed.value
         return is_free and not self._publisher.refusal("joints")
@@ -66,7 +66,7 @@ class JointsOut:
             self._worker.post(self._tick)
 
     def close(self) -> None:
-        """Publish nothing any more."""
+        """Stop publishing for good."""
         self._closed = True
         self._disconnect()
 

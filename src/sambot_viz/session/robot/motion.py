@@ -48,13 +48,13 @@ class Motion:
     """Moves joints and the driven robot, step by step.
 
     Args:
-        robot: its joints and frames move.
-        drive: the robot on its two wheels.
-        change: tells what turns.
-        worker: takes the steps; its clock is the time between two.
+        robot: the robot whose joints and frames move.
+        drive: the differential drive.
+        change: sends the list of turning joints.
+        worker: takes the steps; its clock measures the time between two.
 
     Attributes:
-        turning: the joints that turn at the moment.
+        turning: the joints that turn now.
         period: time between two steps [s].
     """
 
@@ -89,11 +89,11 @@ class Motion:
 
         Args:
             joint: a free joint; one with limits stops there.
-            rate: [rad/s or m/s]; 0 stops it.
-            seconds: how long [s].
+            rate: the velocity [rad/s or m/s]; 0 stops it.
+            seconds: the duration [s].
 
         Raises:
-            JointError: an unknown joint, one that cannot be set, no finite number.
+            JointError: the joint is unknown or cannot be set, or a number not finite.
         """
         with self._change.lock:
             state = self._robot.joints
@@ -115,11 +115,11 @@ class Motion:
             self._tell()
 
     def glide(self, positions: Mapping[str, float], seconds: float) -> None:
-        """Move joints to a pose; one that is moved meanwhile stays where it was put.
+        """Move joints to a pose; a joint that a user moves meanwhile is left alone.
 
         Args:
             positions: free joint → position [rad or m].
-            seconds: how long it takes, whatever the way.
+            seconds: the duration, whatever the distance [s].
         """
         with self._change.lock:
             state = self._robot.joints

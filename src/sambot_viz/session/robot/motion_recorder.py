@@ -1,8 +1,7 @@
 """Records how joints and driven frames move; the last minute is kept.
 
-It is written at every step of a motion, so a note is a few numbers behind each other:
-one step of 300 joints takes 2.4 kB, and names are kept once as long as they are the
-same.
+A record is added at every step of a motion, so it is only an array of numbers: one step
+of 300 joints takes 2.4 kB, and names are stored once while they stay the same.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from sambot_viz.geometry import Matrix
 from sambot_viz.session.worker import Clock
 
 LONGEST = 60.0
-"""So much is kept [s]."""
+"""Length of the kept motion [s]."""
 PERIOD = 0.025
 """Steps that follow faster are one [s]; those of the usual 30 Hz do not."""
 MOST_NUMBERS = 300_000
@@ -134,7 +133,7 @@ class MotionRecorder:
             last.frames = {**(last.frames or {}), **frames}
 
     def _forget(self, before: float) -> None:
-        """What is older only says where things were at the beginning."""
+        """Merge the records before the kept time into the poses at its start."""
         notes = self._notes
         while notes and (notes[0].time < before or self._numbers > MOST_NUMBERS):
             old = notes.popleft()

@@ -28,8 +28,8 @@ from sambot_viz.session.worker import Throttle, Worker
 ODOM = "odom"
 """The frame that the robot moves in; its origin is on the floor below the start."""
 KEEP = 1.5
-"""A robot that a page drives stops this long after the last message of the pages that
-drive it [s]; such a page sends four per second."""
+"""A driven robot stops this long after the last message of the pages that drive it [s];
+such a page sends four per second."""
 TRAIL_PERIOD = 0.2
 """The trail is drawn at most this often [s]."""
 
@@ -282,7 +282,7 @@ class DriveTrail:
         connect([drive.pose_changed], self._moved)
 
     def close(self) -> None:
-        """Draw nothing any more."""
+        """Stop drawing for good."""
         self._drawing.close()
 
     def _moved(self) -> None:

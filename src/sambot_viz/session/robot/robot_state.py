@@ -26,28 +26,29 @@ from sambot_viz.topics.robot_topics import STAND_IN_NAME
 
 
 class RobotState:
-    """What a session shows of a robot, and how users and programs move it.
+    """The shown robot, and the methods by which users and programs move it.
 
-    What a user does is recorded. A program that moves joints sixty times a second pays
-    nothing for that. A single move is drawn at once, a stream at the Frame Rate.
+    Moves by users are recorded for undo; a program that moves joints sixty times a
+    second does not pay for that. A single move is drawn at once, a stream at the Frame
+    Rate.
 
     Args:
-        tree: the frames; this fills them.
+        tree: the frames; this class fills it.
         added: frames that were added by hand or by driving.
-        data: frames that messages bring; they come before the robot's joints.
+        data: frames from messages; they override the robot's joints.
 
     Attributes:
-        changed: another robot is shown, or the same after an edit.
-        positions: the positions of joints, and the poses of frames that move.
-        model: what is shown, or None before the first robot.
+        changed: emitted when another robot is shown, or the same after an edit.
+        positions: emitted when joint positions or poses of frames change.
+        model: the shown robot; None before the first.
         joints: the positions of its joints; move them with the methods of this class.
-        first: joint → its position before anything has moved it [rad or m].
-        moved: whether anything has moved a joint.
-        leads: whether its joints are published to a live robot: that they come back
-            does not make messages move them.
-        followed: what moves the joints by its messages, such as a recording; "" while
-            users and programs do.
-        recorder: how joints and frames have moved lately.
+        first: joint → its position before any move [rad or m].
+        moved: whether a joint was moved.
+        leads: whether its joints are published to a live robot, so that the messages
+            that come back do not move them.
+        followed: the source whose messages move the joints, such as a recording; ""
+            while users and programs do.
+        recorder: the latest motion of joints and frames.
     """
 
     def __init__(
@@ -137,7 +138,7 @@ class RobotState:
             name: prefix + plain_name(joint.child)
             for name, joint in self.model.joints.items()
         }
-        # Nobody publishes a frame of what is in place of a robot that is still to come.
+        # The frames of a placeholder for a robot to come are published by no node.
         if self.model.name != STAND_IN_NAME:
             hang_robot(self._tree, self.model, kinematics, positions, joints, prefix)
         refused = self._added.set_again()
@@ -155,7 +156,7 @@ class RobotState:
         self._pacer.period = period
 
     def close(self) -> None:
-        """Draw nothing any more."""
+        """Stop drawing for good."""
         self._pacer.close()
 
     def joint_of(self, frame: str) -> Joint | None:
@@ -310,11 +311,11 @@ class RobotState:
         self._pacer.request()
 
     def note_followed(self, positions: Mapping[str, float]) -> None:
-        """Note positions that messages bring, for `draw_moved`.
+        """Store positions from messages, for `draw_moved`.
 
         Args:
-            positions: joint → position [rad or m], finite; what is no free joint is
-                passed over.
+            positions: joint → position [rad or m], finite; names that are no free joint
+                are ignored.
         """
         with self._change.lock:
             joints = self.joints

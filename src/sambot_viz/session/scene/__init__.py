@@ -1,1 +1,1 @@
-"""What a session draws: displays, frames, background, and rays through them."""
+"""The scene of a session: displays, frames, background, and rays through them."""

@@ -1,8 +1,8 @@
 """Nodes that move with frames, for the nodes of a program to hang below.
 
-The node of a frame has a longer name when the frame is hung elsewhere, as it is when
-the robot begins to drive; what a program has hung below it would be gone then. An
-anchor keeps its name, and is there again when a model that lost its frame has it back.
+The node of a frame is renamed when the frame gets another parent, as when the robot
+begins to drive; a program's nodes below it would be gone then. An anchor keeps its
+name, and comes back when a model that lost its frame has it again.
 """
 
 from __future__ import annotations

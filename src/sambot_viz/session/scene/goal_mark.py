@@ -12,18 +12,18 @@ from sambot_viz.session.signals import Change
 from sambot_viz.tools.publish import GREEN, HEAD, SHAFT
 
 ALPHA = 0.4
-"""The arrow of the tool, which is opaque, is what a hand draws."""
+"""Transparent, because an opaque arrow is the one that the tool is drawing."""
 
 
 class GoalMark:
-    """Shows the goal that was sent last, to everyone, until it has ended.
+    """Shows the last sent goal to everyone, until it has ended.
 
-    It hangs below the node of the goal's frame, and so it moves with the frame.
+    Its node is below that of the goal's frame, so it moves with the frame.
 
     Args:
-        publisher: sends goals, and knows what becomes of them.
-        scene: where to draw.
-        change: sends what is drawn.
+        publisher: sends goals, and reports their progress.
+        scene: the scene to draw in.
+        change: sends the drawing.
     """
 
     def __init__(self, publisher: Publisher, scene: Scene, change: Change) -> None:

@@ -1,4 +1,4 @@
-"""Rays through what a session draws, followed without blocking clients."""
+"""Follow rays through the scene of a session without blocking clients."""
 
 from __future__ import annotations
 
@@ -45,17 +45,17 @@ class Picker:
         then: Callable[[T], None],
         facing: Matrix | None = None,
     ) -> None:
-        """Follow rays through what is drawn now, then act.
+        """Follow rays through the present scene, then act on the hits.
 
-        A rectangle over millions of triangles takes seconds. A thread of its own does
-        that, so that neither clients nor the session wait.
+        A rectangle over millions of triangles takes seconds, so this runs in a separate
+        thread: neither clients nor the session wait.
 
         Args:
-            of: who asks, for what; of several that wait only the latest is followed.
-            rays: follows them.
-            then: acts, in the session's worker.
-            facing: rotation of what faces the view, (4, 4), where all that a hand can
-                move counts; None where it does not.
+            of: client and purpose; of several waiting calls only the latest is done.
+            rays: follows the rays.
+            then: acts on the hits, in the session's worker.
+            facing: rotation of markers that face the view, (4, 4), if movable markers
+                count as hits; None if they do not.
         """
         scene = self._scene
         snapshot = scene.snapshot() if facing is None else scene.with_handles(facing)
@@ -89,23 +89,23 @@ class Picker:
         return self._scene.has_handles
 
     def handle(self, item: Selectable) -> Handle | None:
-        """Return what a hand can move of what a ray has met; None for nothing."""
+        """Return the movable marker that a ray has hit; None without one."""
         return self._scene.handle(item)
 
     def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
-        """Return the edges of the boxes around what is selected.
+        """Return the edges of the boxes around a selection.
 
         Args:
-            selection: what; that which is not drawn now has no box.
+            selection: the selected things; those not drawn now have no box.
         """
         return self._scene.boxes_of(selection)
 
     def box_of(self, selection: Selection) -> Corners | None:
-        """Return the box around what is selected; None when nothing of it is drawn."""
+        """Return the box around a selection; None if nothing of it is drawn."""
         return self._scene.box_of(selection)
 
     def data_of(self, item: Selectable) -> SelectedData | None:
-        """Return what a display knows of data; None when it is not drawn any more."""
+        """Return a display's details of data; None if they are no longer drawn."""
         return self._scene.data_of(item)
 
     def kept(self, selection: Selection) -> Selection:

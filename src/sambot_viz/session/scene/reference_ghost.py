@@ -29,10 +29,10 @@ _Pose = tuple[Wxyz, Vector3]
 class ReferenceGhost:
     """Draws the ghost below the nodes of the robot's links, so that it moves with them.
 
-    Not thread-safe: the session holds the lock, and sends what is drawn.
+    Not thread-safe: the session holds the lock, and sends the drawing.
 
     Args:
-        scene: where it is drawn.
+        scene: the scene to draw in.
         given: returns the positions of the robot's joints [rad or m].
     """
 
@@ -73,7 +73,7 @@ class ReferenceGhost:
         return None if node is None else node.name
 
     def draw(self, alpha: float) -> None:
-        """Draw what is missing and change what differs; 0 draws nothing."""
+        """Add missing parts and update others; with 0 draw nothing."""
         reference = self._reference if alpha > 0.0 else None
         links = () if reference is None else self._links
         wanted = {each.link.name for each in links}

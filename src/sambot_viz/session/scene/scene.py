@@ -1,4 +1,4 @@
-"""What a session draws: the nodes of its frames, its displays, the background."""
+"""The scene of a session: the nodes of its frames, its displays, the background."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ class Scene:
     """Draws for one audience; not thread-safe, the session holds the lock.
 
     Args:
-        audience: where to draw.
+        audience: the viser scene of its clients.
         tree: the frames.
-        change: sends what is drawn.
+        change: sends the drawing.
         meshes: mesh files that are read already (shared by all sessions).
         models: reads other models, for a RobotModel from a file.
         reader: reads mesh files in the background; None reads them while drawing.
 
     Attributes:
-        context: what displays draw with.
+        context: the objects that displays draw with.
         anchors: nodes of a program that move with frames.
         displays: the supported displays of the document, in its order.
-        statuses: what displays report, and what has been read for them.
-        frames: the frames that are drawn, their parents and poses, and the fixed frame;
-            moves of joints are told by the robot.
-        data: what displays draw of messages.
-        progress: how many files of how many have been read; None when all have been.
-        assumed_frame: returns the fixed frame that no user has asked for; "" for none.
-        whole_run: returns where frames are over the length of a recording.
+        statuses: emitted when reports of displays or their read files change.
+        frames: emitted when the drawn frames, their parents or poses, or the fixed
+            frame change; the robot has another signal for moves of joints.
+        data: emitted when displays have drawn messages.
+        progress: numbers of read files and of all files; None when all have been read.
+        assumed_frame: returns the fixed frame chosen by the program; "" for none.
+        whole_run: returns the places of frames over the length of a recording.
     """
 
     def __init__(
@@ -148,7 +148,7 @@ class Scene:
         self.frames.touch()
 
     def redraw(self) -> None:
-        """Draw all displays that are shown; what is the same is not sent again."""
+        """Draw all shown displays; unchanged nodes are not sent again."""
         for display in self.displays:
             if display.shown:
                 display.draw()
@@ -245,7 +245,7 @@ class Scene:
         self._apply(draw)
 
     def _finish(self) -> None:
-        """Draw what a change made outdated, before it is sent."""
+        """Draw the parts that a change made outdated, before it is sent."""
         if self.context.tree.version != self._tree_drawn:
             # A display, or an undone edit, has set frames.
             self.draw_frames()
