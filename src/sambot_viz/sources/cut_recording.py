@@ -56,19 +56,19 @@ class _WholeChunk:
 
 
 def finish_cut(path: Path, flushed: int, definitions: Sequence[McapRecord]) -> int:
-    """Cut a file behind its last whole chunk, and write the index.
+    """Truncate a file after its last whole chunk, and write the index.
 
     Args:
-        path: a file of `McapFile` that ends anywhere.
-        flushed: up to here it is known to be whole [bytes].
-        definitions: the schemas and channels that it has.
+        path: a file of `McapFile`, which may end anywhere.
+        flushed: offset up to which it is known to be whole [bytes].
+        definitions: its schemas and channels.
 
     Returns:
-        How many messages it has now. It has no index if even the last eight chunks
-        are not room enough for it.
+        The number of its messages. It gets no index if the space of its last eight
+        chunks is not enough for one.
 
     Raises:
-        OSError: it cannot be read or cut.
+        OSError: the file cannot be read or truncated.
     """
     with FileIO(path, "r+") as stream:
         chunks = _whole_chunks(stream, flushed)
@@ -118,7 +118,7 @@ def _whole_chunks(stream: FileIO, flushed: int) -> list[_WholeChunk]:
 
 
 def _summary(chunks: Sequence[_WholeChunk], definitions: Sequence[McapRecord]) -> bytes:
-    """Return what stands behind the last chunk."""
+    """Return the records after the last chunk."""
     from mcap.data_stream import RecordBuilder
     from mcap.records import Channel, ChunkIndex, DataEnd, Footer, Statistics
 

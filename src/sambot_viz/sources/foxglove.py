@@ -94,7 +94,7 @@ class FoxgloveConversation(Conversation):
         """Say nothing: the server speaks first."""
 
     def receive(self, frame: str | bytes) -> None:
-        """Take a frame; one that makes no sense is counted."""
+        """Accept a frame; malformed ones are counted."""
         try:
             if isinstance(frame, bytes):
                 self._binary(frame)
@@ -104,7 +104,7 @@ class FoxgloveConversation(Conversation):
             self.unreadable += 1
 
     def topic_of(self, head: bytes) -> str:
-        """Return the topic of a message; a file is answered as one that is refused."""
+        """Return the topic of a message that was too large; refuse such a file."""
         try:
             parsed = wire.parse_binary(head)
         except wire.Malformed:
@@ -202,7 +202,7 @@ class FoxgloveConversation(Conversation):
         )
 
     def notes(self) -> list[str]:
-        """Return the server's warnings, and what is left out."""
+        """Return the server's warnings, and sentences about left out topics."""
         lines = [*self._lines.values(), *([self._line] if self._line else [])]
         notes = [f"it says: {text(line, 200)}" for line in lines[-_MOST_NOTES:]]
         if len(self._channels) >= limits.TOPICS.value:
@@ -415,7 +415,7 @@ class FoxgloveConversation(Conversation):
             self._from_parameters[topic] = channel
             self.topics_changed = True
         content = description.encode("utf-8", "replace") + b"\0"
-        # As a node would publish it, so that nobody needs to know the difference.
+        # As a node would publish it, so that no other code sees a difference.
         payload = b"\0\1\0\0" + len(content).to_bytes(4, "little") + content
         now = self.ends.clock.now_ns()
         channel = self._from_parameters[topic]

@@ -38,7 +38,7 @@ class FoxgloveServices:
                 self._ids[service.name] = service.id
 
     def answered(self, frame: wire.ServiceFrame | wire.ServiceFailure) -> None:
-        """Take an answer; one that nobody waits for is dropped."""
+        """Accept an answer; drop it if no request waits for it."""
         if isinstance(frame, wire.ServiceFrame):
             self.calls.take(frame.call_id, frame.content)
         else:

@@ -78,10 +78,10 @@ BinaryFrame = MessageFrame | TimeFrame | AssetFrame | ServiceFrame
 
 
 def parse_binary(frame: bytes) -> BinaryFrame | None:
-    """Read a binary frame; None for one that a client without requests does not get.
+    """Read a binary frame; None for kinds that only answer other clients' requests.
 
     Raises:
-        Malformed: it is shorter than it says.
+        Malformed: it is shorter than its own length.
     """
     opcode = frame[0] if frame else -1
     try:
@@ -120,7 +120,7 @@ def _service(frame: bytes) -> ServiceFrame:
 
 
 class ServerInfo(msgspec.Struct, rename="camel"):
-    """What a server says first."""
+    """The first frame of a server."""
 
     name: str = ""
     capabilities: tuple[str, ...] = ()
@@ -281,8 +281,8 @@ _LISTS: Mapping[str, tuple[str, type[Any], Callable[[tuple[Any, ...]], TextFrame
     "parameterValues": ("parameters", ParameterValue, ParameterValues),
     "advertiseServices": ("services", OfferedService, ServicesAdvertised),
 }
-"""Frames with a list of which each entry is read by itself: its field, the entries, and
-what is made of those that make sense."""
+"""Frames with a list whose entries are read one by one: the field, the type of an
+entry, and the frame that is made of the valid ones."""
 _T = TypeVar("_T")
 
 
@@ -291,9 +291,9 @@ class ParsedText:
     """A text frame.
 
     Attributes:
-        op: what it is, such as "advertise".
-        content: what it says; None for one that nothing here needs.
-        malformed: entries that made no sense and were left out.
+        op: its kind, such as "advertise".
+        content: its content; None for kinds that are not needed here.
+        malformed: number of invalid entries that were left out.
     """
 
     op: str

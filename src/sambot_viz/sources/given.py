@@ -27,8 +27,8 @@ class GivenSource:
 
     Attributes:
         uri: the address of a live robot, or bag:PATH.
-        name: what the user calls it; "" for none.
-        prefix: what is put before its topics and frames; "" for nothing.
+        name: the user's name for it; "" without one.
+        prefix: prefix of its topics and frames; "" without one.
         remaps: topics with other names at the source: name here → name there.
     """
 
@@ -55,7 +55,7 @@ class GivenSource:
 
     @property
     def label(self) -> str:
-        """What a recording without a name is called."""
+        """The name of a recording without one."""
         place = self.path
         return name_of_address(place) if isinstance(place, str) else place.name
 
@@ -72,7 +72,7 @@ def given_source(words: str) -> GivenSource:
         return GivenSource(uri, name)
     if is_web_address(uri):
         return GivenSource(f"{_RECORDING}{uri}", name)
-    # That a recording does not exist is said where it is opened.
+    # A missing recording is reported where it is opened.
     is_named_so = ":" not in uri and uri.lower().endswith(RECORDING_ENDINGS)
     if uri and (is_named_so or os.path.exists(uri)):
         return GivenSource(f"{_RECORDING}{uri}", name)
@@ -97,12 +97,12 @@ def given_sources(
 
     Args:
         words: as for `given_source`.
-        prefixes: name → what is put before the topics and frames of that source.
+        prefixes: name → prefix of the topics and frames of that source.
         remaps: topics with other names at all sources: name here → name there.
 
     Raises:
-        UsageError: as `given_source`; a prefix of no source, or one that cannot be; or
-            a robot with the name of another source.
+        UsageError: as `given_source`; a prefix names no source or is invalid; or a
+            robot has the name of another source.
     """
     found = [given_source(one) for one in words]
     names = [one.name for one in found if one.name]

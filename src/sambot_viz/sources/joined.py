@@ -77,9 +77,9 @@ class JoinedSources:
 
     @property
     def status(self) -> SourceStatus:
-        """How all of them are: connected when one of those is that can be lost.
+        """The status of all: connected if one of the live sources is.
 
-        What is missing is said first.
+        Missing sources are named first.
         """
         parts = [part for part in self.parts if part.live is not None] or self.parts
         named = [(part.uri, part.status) for part in parts]
@@ -135,7 +135,7 @@ class JoinedSources:
 
     @property
     def hidden(self) -> tuple[Problem, ...]:
-        """What is hidden, and by what."""
+        """The hidden topics, and the sources that hide them."""
         return hidden_topics([(part.uri, part.topics()) for part in self.parts])
 
     def subscribe(
@@ -165,7 +165,7 @@ class JoinedSources:
         return first.clock_ns()
 
     def fetch_asset(self, uri: str) -> Asset:
-        """Ask the first one that hands out files for one."""
+        """Request a file from the first source that serves files."""
         for part in self.parts:
             if "files" in part.capabilities:
                 return part.fetch_asset(uri)

@@ -44,22 +44,22 @@ class SourceTopic:
     """A topic of a recording or of a live robot.
 
     Attributes:
-        name: as the file or the peer writes it.
+        name: the name, as the file or the peer writes it.
         schema: the definition of its messages, that of the first channel when several
             differ; its name may be empty.
         message_encoding: "cdr", "ros1", "json", … or ""; of the first channel.
-        qos: what its publishers offer, None when that is not said.
-        is_latched: late subscribers get its messages, as far as that can be known; in
-            a recording they hold at any time, see `bag/latched.py`.
-        publishers: their names, how many they are, or None when that is not said.
-        subscribers: names of the nodes that read it; None when that is not said.
-        endpoints: both with their QoS; None when that is not said of each.
+        qos: the QoS that its publishers offer; None if unknown.
+        is_latched: whether late subscribers get its messages, as far as known; in a
+            recording they hold at any time, see `bag/latched.py`.
+        publishers: their names or their number; None if unknown.
+        subscribers: names of the nodes that read it; None if unknown.
+        endpoints: both with their QoS; None if not all are known.
         reason: why it cannot be read, with the remedy; None if it may be read.
-        count: how many messages a recording has that can be read; None while that is
-            not known, and of a live robot.
-        left_out: what of it is not read, and why; empty for nothing.
-        frame_prefix: what is put before the frames in its messages, without a slash at
-            its end; empty for nothing.
+        count: number of readable messages in a recording; None while unknown, and for a
+            live robot.
+        left_out: a sentence about unread messages; empty without any.
+        frame_prefix: prefix of the frames in its messages, without a slash at its end;
+            empty without one.
     """
 
     name: str

@@ -25,14 +25,14 @@ _CAPABILITIES = frozenset[Capability](("topics", "subscribe", "latched", "seek")
 
 
 class RecordingPlayback:
-    """Hands on the messages of a recording up to its time, as `source.Playback`.
+    """Delivers the messages of a recording up to its time, as `source.Playback`.
 
-    Nothing is read before somebody subscribes. Not thread-safe: callbacks are called in
-    the thread that calls `advance`, `seek` or `subscribe`.
+    Nothing is read before the first subscription. Not thread-safe: callbacks are called
+    in the thread that calls `advance`, `seek` or `subscribe`.
 
     Args:
         recording: the messages.
-        uri: what the user calls it.
+        uri: the user's name for it.
         at_ns: the log time to begin with; by default that of the first message [ns].
 
     Attributes:
@@ -42,7 +42,7 @@ class RecordingPlayback:
         on_status: as of `Source`.
         start_ns: the log time of the first message [ns].
         end_ns: the log time of the last message [ns].
-        time_ns: the log time up to which messages were handed on [ns].
+        time_ns: the log time up to which messages were delivered [ns].
     """
 
     has_clock = False
@@ -76,7 +76,7 @@ class RecordingPlayback:
             self.recording.close()
 
     def of_session(self) -> RecordingPlayback:
-        """Return the same recording with a time that nobody else moves."""
+        """Return the same recording with an independent time."""
         made = RecordingPlayback(self.recording, self.uri, self.time_ns)
         made._owns = False
         return made
@@ -89,7 +89,7 @@ class RecordingPlayback:
 
     @property
     def capabilities(self) -> frozenset[Capability]:
-        """What a recording can do."""
+        """The capabilities of a recording."""
         return _CAPABILITIES
 
     @property
@@ -156,7 +156,7 @@ class RecordingPlayback:
         jump(self.recording, self.time_ns, (subscriber,))
 
     def remove(self, subscriber: Subscriber) -> None:
-        """Give one that was added no more messages."""
+        """Remove a subscriber."""
         kept = (one for one in self._subscribers if one is not subscriber)
         self._subscribers = tuple(kept)
         self._forget_coming()
@@ -184,8 +184,8 @@ class RecordingPlayback:
         """Return the log time of the next message of a topic, or of the last [ns].
 
         Args:
-            topic: its name; None for any that somebody has subscribed to.
-            back: before the present time, not after it.
+            topic: its name; None for any subscribed topic.
+            back: whether to look before the present time, not after it.
         """
         wanted = self._wanted() if topic is None else (topic,)
         find = self.recording.previous if back else self.recording.next
@@ -216,7 +216,7 @@ class RecordingPlayback:
 
 
 class _Callback:
-    """Somebody who takes one message after the other, and nothing of jumps."""
+    """A subscriber that takes messages one by one, and no jumps."""
 
     always: Sequence[str] = ()
 
@@ -230,7 +230,7 @@ class _Callback:
         return self.topics == (topic,) and self._callback == callback
 
     def until(self, recording: Bag, at_ns: int) -> Iterable[Recorded]:
-        """Hand on what a late subscriber gets, and return nothing to take."""
+        """Deliver the messages for a late subscriber, and return none to take."""
         kept = latched_until(recording, self.topics, at_ns)
         last = recording.last(self.topics[0], at_ns) if not kept else None
         for message in kept if last is None else (last,):

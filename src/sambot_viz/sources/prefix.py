@@ -1,7 +1,7 @@
 """Other names for the topics and the frames of a source.
 
-A prefix tells them from those of other sources; rules give single topics the names that
-a config knows them by.
+A prefix distinguishes them from those of other sources; rules give single topics the
+names that a config uses.
 """
 
 from __future__ import annotations
@@ -18,13 +18,12 @@ NO_NAMES: Mapping[str, str] = MappingProxyType({})
 class Prefix:
     """Gives topics and channels of a source their names among other sources.
 
-    What has the prefix already keeps its name, as of a robot whose topics and frames
-    have it by themselves.
+    Names that already have the prefix are kept: some robots use it themselves.
 
     Args:
-        name: such as "robot1"; "" changes nothing.
-        remaps: topics that are called otherwise at the source, behind the prefix: name
-            here → name there.
+        name: the prefix, such as "robot1"; "" changes nothing.
+        remaps: topics with other names at the source, after the prefix: name here →
+            name there.
     """
 
     def __init__(self, name: str, remaps: Mapping[str, str] = NO_NAMES) -> None:

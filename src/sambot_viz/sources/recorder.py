@@ -1,4 +1,4 @@
-"""Record what a live source gives: all topics, also those that nobody shows."""
+"""Record all topics of a live source, also those that no display shows."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ _log = logger(__name__)
 class SourceRecorder:
     """Starts and stops recordings of a source, one at a time.
 
-    It passes `source.on_topics` on to who had set it before.
+    It calls the earlier callback of `source.on_topics` too.
 
     Args:
-        source: what is recorded.
-        folder: where recordings are made that users of the page start; None: they may
+        source: the source to record.
+        folder: the folder for recordings that users of the page start; None if they may
             not.
         on_change: called once in a period while there is a recording, in its thread;
             must only post.
-        on_trouble: gets why a recording ended before it was stopped, in the same
-            thread; by default it is logged.
+        on_trouble: called in the same thread with the reason if a recording ends before
+            it was stopped; by default it is logged.
         period: between reports, and between flushes at first [s].
 
     Attributes:
@@ -97,7 +97,7 @@ class SourceRecorder:
                 self._on_trouble,
                 self._period,
             )
-            # It is told of topics before it asks for them, so that none is missed.
+            # Listen for new topics before reading the first list, so that none is lost.
             self._recording = made
             made.start()
         self._on_change()
@@ -176,7 +176,7 @@ def _named(folder: Path | None) -> tuple[Path, BinaryIO]:
 
 
 def _created(path: Path) -> tuple[Path, BinaryIO]:
-    """Create a file that is not there yet."""
+    """Create a file that does not exist yet."""
     try:
         return path, open(path, "xb")
     except FileExistsError as error:

@@ -85,15 +85,16 @@ class RecordingThread:
     """Writes one file until it is stopped.
 
     Args:
-        source: what is recorded.
+        source: the source to record.
         path: name of the file.
         stream: the file, new and open; it is closed at the end.
         on_change: called once in a period, in the thread; must only post.
-        on_trouble: gets why a recording ended before it was stopped, in the thread.
+        on_trouble: called in the thread with the reason if a recording ends before it
+            was stopped.
         period: between reports, and between flushes at first [s].
 
     Attributes:
-        status: how the recording is.
+        status: the state of the recording.
     """
 
     def __init__(
@@ -262,7 +263,7 @@ class RecordingThread:
         if self._begin_ns is None:
             self._begin_ns = message.log_ns
             self._write_held(file)
-        # What was latched before the start stands at the beginning of the file.
+        # Messages that were latched before are at the beginning of the file.
         log_ns = max(message.log_ns, self._begin_ns) if is_kept else message.log_ns
         self._count(file.write(message, log_ns))
 

@@ -23,14 +23,14 @@ def is_live(uri: str) -> bool:
 
 
 def live_address(uri: str) -> Address:
-    """Return what the address of a live source says.
+    """Parse the address of a live source.
 
     Args:
         uri: such as foxglove://robot:8765/path, foxglove+wss://lab or
             rosbridge://robot:9090.
 
     Raises:
-        UsageError: there is no such kind of source, the address makes no sense, or a
+        UsageError: there is no such kind of source, the address is invalid, or a
             package is missing.
     """
     scheme = _scheme(uri)

@@ -17,11 +17,11 @@ _RULE = re.compile(r"(?:(?P<node>\w+):)?(?P<name>[\w/~]+):=(?P<other>[\w/~]+)")
 def remaps_of(rules: Iterable[str]) -> Mapping[str, str]:
     """Return the topics that have other names at the robot: name here → name there.
 
-    Relative names are in the namespace that a rule ``__ns:=/robot1`` gives; rules for
-    other nodes, and the name of the node, mean nothing here.
+    Relative names are in the namespace of a rule ``__ns:=/robot1``; rules for other
+    nodes, and for the name of the node, are ignored.
 
     Raises:
-        UsageError: what is not a rule.
+        UsageError: a word is not a rule.
     """
     found: dict[str, str] = {}
     namespace = ""
@@ -39,7 +39,7 @@ def remaps_of(rules: Iterable[str]) -> Mapping[str, str]:
             namespace = other
         else:
             found[name] = other
-    # The namespace holds for all rules, wherever it stands.
+    # The namespace applies to all rules, also to earlier ones.
     return {
         _absolute(name, namespace): _absolute(other, namespace)
         for name, other in found.items()

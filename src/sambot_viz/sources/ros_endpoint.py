@@ -1,4 +1,4 @@
-"""What a node publishes, subscribes to or serves, and all of that of one topic."""
+"""Publishers, subscriptions and services of nodes, and all of those of one topic."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _MANGLED = re.compile(r"(\w+)::(msg|srv|action)::dds_::(\w+?)_", re.ASCII)
 NODE = "/sambot_viz"
 """What this program is called among the nodes."""
 UNNAMED = "an unnamed program"
-"""Who has told nobody of which node it is."""
+"""Stands for an endpoint whose node is unknown."""
 NO_HASH = "TypeHashNotSupported"
 """What ROS 2 Humble has where later ones have the hash of a type."""
 
@@ -62,7 +62,7 @@ class RosGraph:
 
     @property
     def has_nodes(self) -> bool:
-        """Whether somebody has said of which node an endpoint is."""
+        """Whether the node of an endpoint is known."""
         return any(one.node for one in self._endpoints.values())
 
     def topics(self) -> Iterator[str]:
@@ -106,7 +106,7 @@ class RosGraph:
 
 
 def mangled(type_name: str) -> str:
-    """Return what a type such as std_msgs/msg/String is called on the wire."""
+    """Return the name on the wire of a type such as std_msgs/msg/String."""
     package, kind, name = type_name.split("/")
     return f"{package}::{kind}::dds_::{name}_"
 

@@ -1,7 +1,7 @@
-"""What ROS has at the other side of a rosbridge, as the node rosapi tells it.
+"""The topics and nodes at the other side of a rosbridge, from the node rosapi.
 
-rosapi tells nothing by itself: topics, definitions of their messages and publishers are
-asked for, and a server without it answers late or never.
+rosapi announces nothing by itself: topics, definitions of their messages and publishers
+are polled, and a server without it answers late or never.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ class Rosapi:
     def ask_subscribers(
         self, topic: str, then: Callable[[tuple[str, ...] | None], None]
     ) -> None:
-        """Ask who has subscribed to a topic; `then` gets None if nobody knows that."""
+        """Request the subscribers of a topic; `then` gets None if they are unknown."""
 
         def take(response: wire.ServiceResponse | None) -> None:
             found = _values(response, wire.SubscriberList)

@@ -2,8 +2,8 @@
 
 rosbridge fixes the durability of a subscription when it begins: one that begins before
 its publisher never gets the publisher's latched messages. So a topic is subscribed to
-when it appears, and again when its first publisher does. Where rosapi cannot say that,
-those that are latched by custom are tried again until a message has come.
+when it appears, and again when its first publisher does. Where rosapi cannot report
+publishers, topics that are usually latched are tried again until a message has come.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class RosbridgeConversation(Conversation):
         self._rosapi.poll()
 
     def receive(self, frame: str | bytes) -> None:
-        """Take a frame; one that makes no sense is counted."""
+        """Accept a frame; malformed ones are counted."""
         try:
             operation = wire.parse_operation(frame)
         except wire.MalformedOperation:
@@ -186,7 +186,7 @@ class RosbridgeConversation(Conversation):
         return f"{self.ends.address.label} does not answer in rosbridge's protocol"
 
     def notes(self) -> list[str]:
-        """Return the server's warnings, and what is left out."""
+        """Return the server's warnings, and sentences about left out topics."""
         notes = [] if self._rosapi.is_there else [_NO_ROSAPI]
         if self._line:
             notes.append(f"it says: {text(self._line, 200)}")

@@ -31,9 +31,9 @@ EACH_COUNTS = {
 a topic, or a message holds a change. Of all others only the newest is asked for."""
 
 FEWEST_MS = 33
-"""Other messages come at most so often [ms]: nothing is drawn more often."""
+"""Shortest period of other messages [ms]: nothing is drawn more often."""
 QUEUE = 100
-"""The server keeps so many of `EACH_COUNTS` and of latched topics for us."""
+"""The length of the server's queue for `EACH_COUNTS` and latched topics."""
 
 TYPES_BY_NAME = {
     "/tf": "tf2_msgs/msg/TFMessage",
@@ -230,7 +230,7 @@ def _with_nan(operation: Any) -> Operation:
     found = cast("dict[str, Any]", operation)
     topic = found.get("topic")
     if kind := _OF_GOALS.get(str(found.get("op"))):
-        # What is not a number is null in this.
+        # NaN is null in this encoding.
         return msgspec.json.decode(msgspec.json.encode(found), type=kind)
     if found.get("op") != "publish" or not isinstance(topic, str) or "msg" not in found:
         raise MalformedOperation("a number that JSON does not have")
@@ -262,10 +262,10 @@ def _from_cbor(frame: bytes) -> Publication | ForeignOperation:
 
 
 def decode_values(response: ServiceResponse | None, kind: type[_T]) -> _T:
-    """Return what a service has answered; None stands for no answer.
+    """Return the answer of a service; None without one.
 
     Raises:
-        MalformedOperation: it has failed, or has answered something else.
+        MalformedOperation: the service failed, or its answer is malformed.
     """
     if response is None:
         raise MalformedOperation("no answer")

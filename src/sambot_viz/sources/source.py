@@ -26,11 +26,11 @@ Asset = Future[bytes]
 
 @dataclass(frozen=True, slots=True)
 class Receivers:
-    """Who gets what is published on a topic.
+    """The receivers of a topic at the peer.
 
     Attributes:
-        names: of the nodes that have subscribed to it; None where the peer says none.
-        type_name: of the messages that they know; "" where nobody says it.
+        names: names of the subscribed nodes; None where the peer reports none.
+        type_name: the message type that they expect; "" if unknown.
     """
 
     names: tuple[str, ...] | None = None
@@ -59,14 +59,14 @@ OnReply = Callable[[Reply], object]
 
 @dataclass(frozen=True, slots=True)
 class GoalReport:
-    """What a robot says of a goal that was sent to one of its actions.
+    """A robot's report about a goal that was sent to one of its actions.
 
     Attributes:
-        status: as in action_msgs/msg/GoalStatus; 0 where it is not said.
+        status: as in action_msgs/msg/GoalStatus; 0 if unknown.
         feedback: a message of the action's feedback topic.
-        result: of an end: the response of the action's service get_result.
-        refusal: why the goal is followed no further: it was not taken, or the
-            connection was lost; a phrase.
+        result: at the end, the response of the action's service get_result.
+        refusal: a phrase with the reason why no more reports come: the goal was
+            rejected, or the connection was lost.
     """
 
     status: int = 0
@@ -76,7 +76,7 @@ class GoalReport:
 
     @property
     def is_last(self) -> bool:
-        """Whether nothing more is said of the goal."""
+        """Whether this is the last report about the goal."""
         return bool(self.refusal) or self.status in GOAL_ENDS
 
 
@@ -157,19 +157,20 @@ class Outgoing(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class SourceStatus:
-    """How a source is.
+    """The status of a source.
 
     Attributes:
-        is_connected: messages can come.
-        sentence: for the page: what is, what is missing and the remedy.
-        retry_s: length of the pause before the next attempt [s], None if there is none.
-        lag_s: how much later than at best the newest messages came [s], None when that
-            cannot be known.
-        dropped: messages that came and were dropped, since callbacks were too slow.
-        unreadable: frames of the peer that made no sense.
-        session: grows when the peer starts again; what came before is of another run.
-        is_whole: of several sources each one is connected.
-        received: messages that came and somebody wanted; no change of it is told.
+        is_connected: whether messages can come.
+        sentence: for the page: the state, what is missing, and the remedy.
+        retry_s: length of the pause before the next attempt [s]; None without one.
+        lag_s: delay of the newest messages, compared with the fastest [s]; None if
+            unknown.
+        dropped: number of messages dropped because callbacks were too slow.
+        unreadable: number of malformed frames of the peer.
+        session: grows when the peer starts again; earlier messages are of another run.
+        is_whole: whether, of several sources, each one is connected.
+        received: number of received messages of subscribed topics; its changes are not
+            reported.
     """
 
     is_connected: bool = False
@@ -195,13 +196,13 @@ Capability = Literal[
     "publish",
     "call",
 ]
-"""What a source can do.
+"""A word for something that a source can do.
 
-topics: it lists them. subscribe: it hands on their messages. latched: those who come
-late get the messages that hold. seek: its time can be moved, see `playback`. clock: it
-has a time that goes on by itself. files: it hands out the files of a robot. publish:
-topics can be published to the robot. graph: it tells who has subscribed to a topic. No
-source has the others yet: parameters of nodes; call, of services.
+topics: list them. subscribe: deliver their messages. latched: late subscribers get the
+messages that still hold. seek: its time can be moved, see `playback`. clock: its time
+goes on by itself. files: serve the files of a robot. publish: publish topics to the
+robot. graph: list the subscribers of a topic. No source has the others yet: parameters
+of nodes; call, for services.
 """
 
 
@@ -267,14 +268,14 @@ class Source(Protocol):
     ) -> None:
         """Call back with each message of a topic, which need not exist yet.
 
-        The same pair a second time changes nothing. The messages that a late subscriber
-        of ROS would get come first: all of latched topics, the last one of others, of a
-        live source as far as somebody has listened before.
+        The same pair a second time changes nothing. The messages for a late subscriber
+        come first: all of latched topics, and the last one of others; of a live source
+        only those that came during an earlier subscription.
 
         Args:
             topic: its name.
-            callback: gets the messages.
-            on_kept: gets those that came before; by default the callback does.
+            callback: called with the messages.
+            on_kept: called with those that came before; by default the callback is.
         """
         ...
 
@@ -304,11 +305,11 @@ class Source(Protocol):
 
         Args:
             topic: its name.
-            type_name: of its messages, such as geometry_msgs/msg/PoseStamped.
+            type_name: the type of its messages, such as geometry_msgs/msg/PoseStamped.
 
         Raises:
-            SourceError: there is no connection, or it lacks the capability publish:
-                then with what would turn that on.
+            SourceError: there is no connection, or it lacks the capability publish; the
+                message says how to turn that on.
         """
         ...
 
@@ -319,9 +320,9 @@ class Source(Protocol):
 
         Args:
             service: its name.
-            write: returns the request, as the peer wants it written.
-            answered: called once with the answer, or with why there is none; it must
-                only post.
+            write: returns the request in the encoding of the peer.
+            answered: called once with the answer, or the reason why there is none; it
+                must only post.
 
         Raises:
             SourceError: there is no connection, or nothing can be called.
@@ -329,18 +330,18 @@ class Source(Protocol):
         ...
 
     def action(self, name: str, type_name: str) -> OutgoingAction:
-        """Return an action that takes goals now; nothing is sent to it yet.
+        """Return an action that accepts goals now; nothing is sent to it yet.
 
-        Whether the robot has it is known a moment after somebody has subscribed to the
+        Whether the robot has it is known a moment after the first subscription to the
         topic of its status (`action_names.status_topic`).
 
         Args:
-            name: of the action, such as /navigate_to_pose.
-            type_name: such as nav2_msgs/action/NavigateToPose.
+            name: the name of the action, such as /navigate_to_pose.
+            type_name: its type, such as nav2_msgs/action/NavigateToPose.
 
         Raises:
-            SourceError: there is no connection, or no such action is shown: then with
-                what would show it.
+            SourceError: there is no connection, or the peer does not expose the action;
+                the message says how to expose it.
         """
         ...
 
@@ -372,7 +373,7 @@ class Playback(Source, Protocol):
         ...
 
     def of_session(self) -> Playback:
-        """Return the same recording with a time that nobody else moves."""
+        """Return the same recording with an independent time."""
         ...
 
     def add(self, subscriber: Subscriber) -> None:
@@ -380,7 +381,7 @@ class Playback(Source, Protocol):
         ...
 
     def remove(self, subscriber: Subscriber) -> None:
-        """Give one that was added no more messages."""
+        """Remove a subscriber."""
         ...
 
     def seek(self, time_ns: int) -> None:
@@ -398,8 +399,8 @@ class Playback(Source, Protocol):
         """Return the log time of the next message of a topic, or of the last [ns].
 
         Args:
-            topic: its name; None for any that somebody has subscribed to.
-            back: before the present time, not after it.
+            topic: its name; None for any subscribed topic.
+            back: whether to look before the present time, not after it.
         """
         ...
 

@@ -30,7 +30,7 @@ class Subscriber(Protocol):
         ...
 
     def take(self, message: Recorded) -> None:
-        """Take a message; one that cannot be decoded is counted, and no error."""
+        """Accept a message; one that cannot be decoded is counted, without an error."""
         ...
 
     def clear(self) -> None:

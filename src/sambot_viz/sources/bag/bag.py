@@ -43,7 +43,7 @@ class Bag(Protocol):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is lost and what to do; damage in a large file is added when met."""
+        """The damage and what to do; that of a large file is added when it is read."""
         ...
 
     @property

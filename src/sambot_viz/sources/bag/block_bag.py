@@ -1,8 +1,8 @@
 """A file of a recording that is read block by block, whatever its format.
 
-A format says where its blocks are and what is in one of them; everything that is asked
-of a recording follows from that. One block is decompressed at a time for each reader,
-and the last few are kept.
+A format locates its blocks and reads the content of one; everything else about a
+recording follows from that. Each reader decompresses one block at a time, and the last
+few are cached.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ class BlockBag(ABC):
     """One file of a recording; see `Bag`.
 
     Attributes:
-        damage: what was met.
-        left_out: what is too large.
+        damage: the damage that was found.
+        left_out: the parts that are too large.
     """
 
     def __init__(self, file: FileBytes) -> None:
@@ -66,7 +66,7 @@ class BlockBag(ABC):
         # By topic, and of those that are latched: there may be 65,535 of them.
         self._numbers_of: dict[str, set[int]] = {}
         self._latched_channels: dict[int, TopicChannel] = {}
-        # Becomes more with what is said of topics.
+        # Grows with the accounts of topics.
         self._changes = 0
         self._counts: Counter[int] = Counter()
         # What the file itself says, when that is used in place of counting.
@@ -80,13 +80,13 @@ class BlockBag(ABC):
         self._topics: tuple[object, dict[str, SourceTopic]] | None = None
         self._is_finding = True
         self._is_complete = False
-        # Held for short steps on what is above, never while a block is read.
+        # Held for short steps on the fields above, never while a block is read.
         self._lock = threading.RLock()
         # Only one thread at a time goes on with finding blocks.
         self._finding = threading.Lock()
         self._work = self._find_all()
 
-    # --- what a format says ---------------------------------------------------------
+    # --- implemented by each format -------------------------------------------------
 
     @abstractmethod
     def _find(self) -> Iterator[int]:
@@ -264,7 +264,7 @@ class BlockBag(ABC):
         """All messages are found."""
         return self._is_complete
 
-    # --- what is asked --------------------------------------------------------------
+    # --- the interface of a recording -----------------------------------------------
 
     @property
     def paths(self) -> Sequence[Path]:
@@ -325,7 +325,7 @@ class BlockBag(ABC):
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is lost and what to do."""
+        """The damage, and what to do."""
         with self._lock:
             names = {number: one.topic for number, one in self._channels.items()}
             large = self.left_out.problems(self._file.path, names)

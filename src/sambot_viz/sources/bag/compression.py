@@ -29,8 +29,8 @@ def decompress(name: str, data: bytes | memoryview, size: int) -> bytes | memory
 
     Args:
         name: "", "none", "lz4", "zstd" or "bz2".
-        data: what stands in the file.
-        size: how many bytes it has once decompressed, as the file says.
+        data: the compressed bytes.
+        size: number of bytes once decompressed, according to the file.
 
     Raises:
         TooLargeError: it is above the limit of chunks.

@@ -1,4 +1,4 @@
-"""What is wrong with a file of a recording, in one sentence each."""
+"""The sentences about damage in a file of a recording."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Recordings of rosbag2 in an sqlite3 file, of all versions.
 
-Nothing is ever written beside the file: one that has messages in a -wal file, which
-sqlite3 would merge into it, and one that is cut off are copied to a temporary folder.
-The rows are found once, without their data: 18 bytes for each are kept.
+Nothing is ever written beside the file: a file with messages in a -wal file, which
+sqlite3 would merge into it, and a truncated one are copied to a temporary folder. The
+rows are found once, without their data: 18 bytes are kept for each.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ class Db3Bag(BlockBag):
     def _find(self) -> Iterator[int]:
         # For these sqlite3 reads the head of a row and none of its data.
         size = "case typeof(data) when 'blob' then length(data) else 0 end"
-        # What is cut off has rows whose data are gone.
+        # A truncated file has rows whose data are gone.
         most, data = limits.MESSAGE.value, ""
         if self._database.lacks:
             data = f", case when {size} <= {most} then data end"
@@ -160,7 +160,7 @@ class Db3Bag(BlockBag):
         rows: list[tuple[Any, ...]] = []
         with self._reading:
             try:
-                # It keeps those before one that cannot be read.
+                # Keeps the rows before the first unreadable one.
                 for row in self._database.connection.execute(query, (last,)):
                     rows.append(row[:4])
             except sqlite3.ProgrammingError as error:

@@ -15,7 +15,7 @@ from sambot_viz.sources.bag.refusals import refused, unreadable
 MAGIC = b"SQLite format 3\0"
 
 _SPARE = 2**26
-"""So much of the disk is left free by a copy [bytes]."""
+"""Free space that a copy leaves on the disk [bytes]."""
 
 
 @dataclass(slots=True)
@@ -46,7 +46,7 @@ def open_database(file: FileBytes) -> Database:
     """Open an sqlite3 file for reading.
 
     Raises:
-        SourceError: a copy is needed and there is no room for it.
+        SourceError: the disk has no room for a copy that is needed.
         OSError: the file cannot be read.
     """
     path = file.content

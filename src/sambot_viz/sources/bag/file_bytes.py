@@ -65,7 +65,7 @@ class FileBytes:
             return self._read(at, count)
 
     def _read(self, at: int, count: int) -> bytes:
-        """Read what is in the file; with the lock."""
+        """Read from the file; the caller holds the lock."""
         self._stream.seek(at)
         data = self._stream.read(count) or b""
         while 0 < len(data) < count:
@@ -85,10 +85,10 @@ class FileBytes:
 
 
 class ReadAhead:
-    """Reads small pieces one after the other with few reads of the file.
+    """Reads small pieces in sequence with few reads of the file.
 
-    It reads ahead by 4 kB, more while the pieces follow each other: between large
-    messages there are small ones, and what is skipped is not read.
+    It reads ahead by 4 kB, and more while the pieces are adjacent, so that large
+    messages that are skipped between small ones are not read.
     """
 
     def __init__(self, file: FileBytes) -> None:

@@ -1,6 +1,6 @@
 """The files of a folder that rosbag2 wrote; its metadata.yaml is only a hint.
 
-It is missing when the recorder was killed, and wrong when somebody has renamed a file.
+It is missing when the recorder was killed, and wrong when a file was renamed.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ _NAMES = re.compile(
 
 
 def files_of(folder: Path) -> tuple[list[Path], list[Problem]]:
-    """Return the recordings in a folder, and where its metadata.yaml is wrong.
+    """Return the recordings in a folder, and the errors of its metadata.yaml.
 
     Args:
-        folder: the folder; those below it are not searched.
+        folder: the folder; its subfolders are not searched.
 
     Raises:
-        SourceError: there is no recording in it.
+        SourceError: it contains no recording.
     """
     try:
         # One more than may be: whether there are too many.

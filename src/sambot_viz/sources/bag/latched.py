@@ -1,8 +1,8 @@
 """Messages that hold at any time of a recording: those of latched topics.
 
-Latched is what was offered transient local, what ROS 1 calls latching, and what has the
-name of such a topic: many recorders write no QoS. /rosout and the events of services
-are offered transient local too and mean nothing later.
+A topic is latched if it was offered transient local, if ROS 1 calls it latching, or if
+it has the name of such a topic: many recorders write no QoS. /rosout and the events of
+services are transient local too, but mean nothing later.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ _HINT_RECORD = (
 
 @dataclass(frozen=True, slots=True)
 class _Chunk:
-    """One that cannot be used: where it begins, why, and its channels, if known."""
+    """A part that is left out: its place, the reason, and its channels, if known."""
 
     at: int
     error: BrokenPieceError
@@ -44,7 +44,7 @@ class _Chunk:
 
 
 class LeftOut:
-    """Collects what is left out of a file; read again for its sentences."""
+    """Collects the left out parts of a file, for sentences about them."""
 
     def __init__(self) -> None:
         # Channel → log time [ns] → size [bytes]: a part may be read several times.
@@ -82,11 +82,11 @@ class LeftOut:
         self._topic = self._topic or topic
 
     def of(self, channels: Set[int], count: int) -> str:
-        """Return what is left out of a topic; empty for nothing.
+        """Return the sentence about left out messages of a topic; empty for none.
 
         Args:
-            channels: of the topic.
-            count: how many of its messages can be read.
+            channels: the channels of the topic.
+            count: number of its readable messages.
         """
         sizes = [s for one in channels for s in self._messages.get(one, {}).values()]
         if sizes:
@@ -114,10 +114,10 @@ class LeftOut:
         return "copy the file again if there is another one, or record again"
 
     def problems(self, path: Path, names: Mapping[int, str]) -> Iterator[Problem]:
-        """Yield the sentences about what is too large.
+        """Yield the sentences about parts that are too large.
 
         Args:
-            path: of the file.
+            path: the file.
             names: channel → topic.
         """
         by_topic: dict[str, list[int]] = {}

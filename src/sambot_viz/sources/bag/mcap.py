@@ -74,7 +74,7 @@ class McapBag(BlockBag):
         self._latest = 0
         self._doubts = 0
         self._unsearched: list[Block] = []
-        # What is read ahead, of each thread that reads messages outside of chunks.
+        # The read-ahead of each thread that reads messages outside of chunks.
         self._ahead = threading.local()
 
     # --- finding --------------------------------------------------------------------
@@ -128,17 +128,17 @@ class McapBag(BlockBag):
             free = behind
         if chunks and not self._is_small:
             if counts is None:
-                # The message indexes behind the chunks have the numbers.
+                # The message indexes after the chunks contain the numbers.
                 return {}
             self._stated = Counter(counts)
         return {chunk.at: chunk for chunk in chunks}
 
     def _walk(self, end: int, hints: Mapping[int, ChunkIndexRecord]) -> Iterator[int]:
-        """Go from record to record and add what is found.
+        """Walk over the records, and add the chunks and messages found.
 
         Args:
-            end: where the records end [bytes].
-            hints: chunks that are known, by their places.
+            end: end of the records [bytes].
+            hints: known chunks, by their places.
         """
         window = ReadAhead(self._file)
         loose = LooseMessages()

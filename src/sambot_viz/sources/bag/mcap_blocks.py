@@ -23,7 +23,7 @@ from sambot_viz.sources.bag.mcap_records import CHUNK, HEAD, read_chunk
 _ABOUT_CHUNK = 2**16
 """What compression may add to that which cannot be compressed [bytes]."""
 CHUNK_HEAD_SIZE = 64
-"""So many bytes have all that stands before the records of a chunk."""
+"""Length of the fields before the records of a chunk [bytes]."""
 
 
 @dataclass(slots=True, eq=False)
@@ -31,10 +31,10 @@ class ChunkBlock(Block):
     """A chunk.
 
     Attributes:
-        at: where its record begins in the file [bytes].
-        length: of the whole record [bytes].
-        index_length: of the message indexes behind it [bytes].
-        is_counted: its messages were counted without reading it.
+        at: offset of its record in the file [bytes].
+        length: length of the whole record [bytes].
+        index_length: length of the message indexes after it [bytes].
+        is_counted: whether its messages were counted without reading it.
     """
 
     at: int
@@ -82,7 +82,7 @@ class LooseBlock(Block):
 
 @dataclass(slots=True)
 class MetChunk:
-    """A chunk that was met, while the message indexes behind it are read."""
+    """A chunk whose message indexes, which follow it, are being read."""
 
     at: int
     length: int

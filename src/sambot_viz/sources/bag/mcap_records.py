@@ -117,7 +117,7 @@ class ChannelRecord(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ChunkRecord:
-    """What stands before the records of a chunk.
+    """The fields before the records of a chunk.
 
     Attributes:
         start: log time of the first message [ns].
@@ -125,8 +125,8 @@ class ChunkRecord:
         raw_size: length of its records once decompressed [bytes].
         crc: checksum of them, or 0.
         compression: "", "lz4" or "zstd".
-        at: where its records begin, counted from the beginning of the content [bytes].
-        size: length of its records as they stand in the file [bytes].
+        at: offset of its records from the start of the content [bytes].
+        size: length of its records in the file, compressed [bytes].
     """
 
     start: int
@@ -145,11 +145,10 @@ class ChunkIndexRecord:
     Attributes:
         start: log time of the first message [ns].
         end: log time of the last message [ns].
-        at: where the record of the chunk begins in the file [bytes].
-        length: of the whole record, with its opcode [bytes].
-        channels: of which it says where their message indexes are; empty if there are
-            none.
-        index_length: of the message indexes behind it [bytes].
+        at: offset of the chunk's record in the file [bytes].
+        length: length of the whole record, with its opcode [bytes].
+        channels: the channels whose message indexes it locates; empty without any.
+        index_length: length of the message indexes after it [bytes].
     """
 
     start: int
@@ -176,7 +175,7 @@ def read_channel(content: bytes) -> ChannelRecord:
 
 
 def read_chunk(content: bytes) -> ChunkRecord:
-    """Read what stands before the records of a chunk."""
+    """Read the fields before the records of a chunk."""
     fields = Fields(content)
     start, end, raw, crc, _ = fields.take(_CHUNK)
     compression = Fields(content, CHUNK_FIXED - 4).text()

@@ -1,4 +1,4 @@
-"""Find the records of an MCAP file again behind bytes that make no sense."""
+"""Find the next records of an MCAP file after damaged bytes."""
 
 from __future__ import annotations
 

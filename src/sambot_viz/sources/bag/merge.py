@@ -54,15 +54,15 @@ def merged(
 ) -> Iterator[tuple[Entries, list[int]]]:
     """Yield runs of messages, each in one block, in the order of their log times.
 
-    A block is read when the time has come at which it begins: where blocks do not lie
-    over each other, one is in memory.
+    A block is read when its first log time is reached: as long as blocks do not overlap
+    in time, only one is in memory.
 
     Args:
-        blocks: in which the messages are.
-        read: returns what is in a block, or None when it is broken.
+        blocks: the blocks with the messages.
+        read: returns the content of a block, or None if it is broken.
         first: the first log time [ns].
         last: the last log time [ns].
-        channels: of which messages are wanted.
+        channels: the wanted channels.
     """
     # A block waits under the time at which it claims to begin, then under that of its
     # next message; at one time the order of the file decides.

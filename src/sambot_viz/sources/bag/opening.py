@@ -1,4 +1,4 @@
-"""Open recordings; what a file is is seen from its bytes, not from its name."""
+"""Open recordings; the format of a file is known by its bytes, not by its name."""
 
 from __future__ import annotations
 
@@ -72,10 +72,10 @@ def open_recording(
     """Open files and folders as one recording.
 
     Args:
-        paths: one, or several; a folder stands for the recordings in it.
+        paths: one or several; a folder means the recordings in it.
 
     Raises:
-        SourceError: one of them cannot be opened, or none of the files of a folder.
+        SourceError: one of them cannot be opened, or no file of a folder can.
     """
     if isinstance(paths, (str, os.PathLike)):
         paths = [paths]
@@ -97,7 +97,7 @@ def open_recording(
 
 
 def _open_folder(folder: Path) -> tuple[list[Bag], list[Problem]]:
-    """Open the recordings of a folder; one that cannot be opened costs only itself."""
+    """Open the recordings of a folder, without those that cannot be opened."""
     files, problems = files_of(folder)
     bags: list[Bag] = []
     refusal: SourceError | None = None

@@ -31,8 +31,8 @@ class Recording:
 
         Args:
             bags: the files.
-            problems: what is wrong beside that of the files themselves.
-            are_beside: they are recordings beside each other, not parts of one.
+            problems: problems in addition to those of the files.
+            are_beside: whether they are separate recordings, not parts of one.
         """
         # At one time the file that begins first is first, as at the seam of a split.
         self._bags = sorted(bags, key=lambda bag: (bag.start_ns is None, bag.start_ns))
@@ -77,10 +77,10 @@ class Recording:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is lost and what to do."""
+        """The damage, and what to do."""
         found = [problem for bag in self._bags for problem in bag.problems]
         if self.start_ns is not None:
-            # A part without messages is no reason not to show the others.
+            # A part without messages does not hide the others.
             found = [
                 replace(problem, severity="info")
                 if problem.code == "file-no-messages"

@@ -74,7 +74,7 @@ class RenamedBag:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is lost and what to do."""
+        """The damage, and what to do."""
         return self._bag.problems
 
     @property

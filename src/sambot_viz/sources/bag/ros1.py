@@ -154,7 +154,7 @@ class Ros1Bag(BlockBag):
             yield 1
 
     def _next_chunk(self, at: int) -> int | None:
-        """Search for the next chunk behind bytes that make no sense."""
+        """Search for the next chunk after damaged bytes."""
         begin, ahead = at + 1, ReadAhead(self._file)
         word = b"compression="
         while begin < self._file.size:

@@ -17,20 +17,20 @@ if TYPE_CHECKING:
     from requests import Response, Session
 
 PIECE = 2**18
-"""What is read in small steps is asked for in pieces of this size [bytes]."""
+"""Size of the pieces that small reads are fetched in [bytes]."""
 _KEPT = 32
-"""So many of the last pieces are kept."""
+"""Number of cached pieces."""
 _TIMES = (10.0, 30.0)
 """A server gets so long to take a connection, and to go on answering [s]."""
 _RANGE = re.compile(r"bytes (\d+)-(\d+)/(\d+)")
 
 
 class WebError(OSError):
-    """A server does not give what was asked for.
+    """Raised when a server does not send the requested part of a file.
 
     Args:
-        message: why.
-        address: of the file, without what is secret.
+        message: the reason.
+        address: the address of the file, without its secrets.
 
     Attributes:
         hint: what to do.
@@ -44,14 +44,14 @@ class WebError(OSError):
 class WebBytes(FileBytes):
     """A file on a web server, read as `FileBytes` is.
 
-    Only what is asked for is fetched, over one connection that stays open.
+    Only the requested parts are fetched, over one connection that stays open.
 
     Args:
-        address: of the file; redirections are followed.
+        address: the address of the file; redirections are followed.
 
     Raises:
-        SourceError: the server does not send parts of the file.
-        WebError: it does not answer, or has no such file.
+        SourceError: the server does not send parts of files.
+        WebError: the server does not answer, or has no such file.
     """
 
     def __init__(self, address: str) -> None:
@@ -127,8 +127,8 @@ class WebBytes(FileBytes):
     def _ask(self, first: int, last: int) -> bytes:
         """Return the bytes from one place to another, both included.
 
-        What a server ends meanwhile, as it does with connections at rest, is asked for
-        once more.
+        If the server has closed the connection, as it does when idle, the request is
+        sent once more.
         """
         import requests
 
@@ -205,7 +205,7 @@ class WebBytes(FileBytes):
 
 
 def _reason(error: Exception) -> str:
-    """Return what is wrong with a connection, in words."""
+    """Return a sentence about a failed connection."""
     import requests
 
     if isinstance(error, requests.Timeout):

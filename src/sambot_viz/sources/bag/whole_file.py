@@ -13,16 +13,17 @@ ZSTD = b"\x28\xb5\x2f\xfd"
 
 _PIECE = 2**20
 _SPARE = 2**28
-"""So much of the disk is left free [bytes]."""
+"""Space that is left free on the disk [bytes]."""
 
 
 def unpacked(file: FileBytes) -> tempfile.TemporaryDirectory[str]:
     """Decompress a file into a temporary folder, and close it.
 
-    What is before a cut is kept. No more is written than the disk has room for.
+    Of a truncated file the part before the cut is kept. The size is limited by the free
+    space on the disk.
 
     Raises:
-        SourceError: it cannot be decompressed, or there is no room.
+        SourceError: the file cannot be decompressed, or the disk has no room.
     """
     import zstandard
 

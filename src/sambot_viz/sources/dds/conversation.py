@@ -1,7 +1,7 @@
-"""What is said with the nodes of a robot over DDS.
+"""The protocol with the nodes of a robot over DDS.
 
-Participants tell of their readers and writers, each with its QoS and the hash of its
-type; which node has them is told on its own topic.
+Participants announce their readers and writers, each with its QoS and the hash of its
+type; a separate topic says which node they belong to.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class DdsConversation(GraphConversation):
         return self._participant.is_closed
 
     def tick(self, now: float) -> None:
-        """Take away what is gone."""
+        """Remove readers and writers that are gone."""
         for identity, handle in self._gone.items():
             self._hashes.pop(handle, None)
             if (gone := self._endpoints.pop(identity, None)) is not None:
@@ -130,7 +130,7 @@ class DdsConversation(GraphConversation):
             self._participant.say_node()
 
     def _take_nodes(self, content: bytes, handle: int, stamp: int) -> None:
-        """Take what a participant says of its nodes."""
+        """Accept a participant's message about its nodes."""
         del stamp
         is_old = self._hashes.get(handle) == NO_HASH
         size = names.OLD_ENDPOINT_ID if is_old else names.ENDPOINT_ID

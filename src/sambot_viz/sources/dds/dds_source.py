@@ -21,7 +21,8 @@ LONGEST_SEARCH = 5.0
 class DdsSource(LiveSource):
     """A live source of a domain of DDS.
 
-    There is no connection to lose: it is there as long as there is another participant.
+    DDS has no connection to lose: the source counts as connected while another
+    participant exists.
     """
 
     async def _connect(self) -> None:

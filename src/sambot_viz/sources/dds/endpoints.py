@@ -54,7 +54,7 @@ class DdsEndpoint:
 
 
 def as_peer(ours: str, sample: Any) -> DdsPeer | None:
-    """Return what is said of a participant; None for one with the name of ours."""
+    """Return an announced participant; None if it has our name."""
     from cyclonedds.qos import Policy
 
     if not sample.sample_info.valid_data:
@@ -69,7 +69,7 @@ def as_peer(ours: str, sample: Any) -> DdsPeer | None:
 
 
 def as_endpoint(own: bytes, is_writer: bool, sample: Any) -> DdsEndpoint | None:
-    """Return what is said of a reader or writer; None for one of our participant."""
+    """Return an announced reader or writer; None if it belongs to our participant."""
     from cyclonedds.qos import Policy
 
     info, identity = sample.sample_info, sample.key.bytes

@@ -19,7 +19,7 @@ _LOOK = 0.02
 SETTLED = 0.1
 """The other side finds this one as late after it was found [s]."""
 _PATIENCE = 3.0
-"""What a new writer is to send waits this long for a reader [s]."""
+"""Time that the first messages of a new writer wait for a reader [s]."""
 
 
 class DdsReader:
@@ -43,11 +43,11 @@ class DdsReader:
 class DdsPublisher:
     """A writer of a topic, until it is closed.
 
-    DDS drops what is written before both sides have found each other, so what comes
-    first waits a moment for that.
+    DDS drops messages that are written before both sides have discovered each other, so
+    the first ones wait a moment.
 
     Attributes:
-        id: identifies it to all others.
+        id: identifies the writer to all participants.
     """
 
     def __init__(self, writer: Any, on_closed: Callable[[bytes], object]) -> None:
@@ -88,12 +88,12 @@ class DdsPublisher:
 
 
 def policies(qos: Qos, depth: int, said: str = "") -> Any:
-    """Return what cyclonedds asks for, or offers.
+    """Return a QoS for cyclonedds.
 
     Args:
-        qos: as ROS has it.
-        depth: of what is kept.
-        said: beside it, to all others.
+        qos: the QoS in ROS's terms.
+        depth: depth of the history.
+        said: user data that is announced with it.
     """
     import cyclonedds.qos
 
@@ -107,7 +107,7 @@ def policies(qos: Qos, depth: int, said: str = "") -> Any:
         else policy.Reliability.BestEffort,
         policy.Durability.TransientLocal if is_kept else policy.Durability.Volatile,
         policy.History.KeepLast(depth),
-        # What is sent from here is no news.
+        # Ignore our own messages.
         policy.IgnoreLocal.Participant,
     ]
     if said:

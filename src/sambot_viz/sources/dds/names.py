@@ -27,7 +27,7 @@ _HEAD = b"\0\1\0\0"
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """What a topic of DDS is in ROS 2."""
+    """The meaning of a DDS topic in ROS 2."""
 
     kind: Kind
     name: str
@@ -124,7 +124,7 @@ class _CdrReader:
     def count(self) -> int:
         self._at += -self._at % 4
         (number,) = struct.unpack(f"{self._order}I", self.skip(4))
-        # None of what is counted has less than a byte.
+        # Each counted element has at least one byte.
         if number > len(self._body):
             raise ValueError("it has more than there can be")
         return number

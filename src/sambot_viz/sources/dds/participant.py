@@ -31,7 +31,7 @@ _TOGETHER = 0.008
 LONGEST_STOP = 5.0
 """`close` waits this long for the thread [s]."""
 _MOST_KEPT = 1000
-"""Messages of a topic that have come and were not taken; what is older gives way."""
+"""Received messages of a topic that may wait; above it the oldest are dropped."""
 _MOST_ENDPOINTS = 1000
 """Maximum number taken at once."""
 _NUMBERS = count(1000)
@@ -44,7 +44,7 @@ OnSample = Callable[[bytes, int, int], object]
 
 @dataclass(frozen=True, slots=True)
 class _ReadFrom:
-    """What is read from: takes all that has come, and who is told of it in the loop."""
+    """A reader: the function that takes its messages, and the callback for the loop."""
 
     condition: Any
     take: Callable[[], list[Any]]
@@ -146,11 +146,11 @@ class DdsParticipant:
         """Subscribe to a topic of DDS.
 
         Args:
-            topic: as DDS has it, such as rt/scan.
-            wire_type: the same of its type.
-            qos: what is asked for.
-            take: gets the messages.
-            on_large: gets the size of those that are too large [bytes].
+            topic: the name in DDS, such as rt/scan.
+            wire_type: the name of its type in DDS.
+            qos: the requested QoS.
+            take: called with the messages.
+            on_large: called with the size of a message that is too large [bytes].
         """
         from cyclonedds.sub import DataReader
         from cyclonedds.topic import Topic

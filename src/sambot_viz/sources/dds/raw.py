@@ -42,13 +42,13 @@ def wire_type(name: str) -> Any:
 
 
 def take(reader: Any, most: int) -> list[tuple[bytes, Any]]:
-    """Take messages that have come: each as CDR with its header, and what came with it.
+    """Take received messages: each as CDR with its header, and its sample info.
 
-    What fills CDR up to a multiple of four bytes is still at its end; see `unfilled`.
+    The padding of CDR to a multiple of four bytes is still at the end; see `unfilled`.
 
     Args:
-        reader: of cyclonedds.
-        most: so many at once.
+        reader: a reader of cyclonedds.
+        most: the largest number to take.
     """
     from cyclonedds.core import InstanceState, SampleState, ViewState
 

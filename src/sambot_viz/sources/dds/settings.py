@@ -1,4 +1,4 @@
-"""What cyclonedds is told of the network: XML, and no environment variable."""
+"""The network settings of cyclonedds: XML, without environment variables."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def settings(address: Address) -> str:
         "<ParticipantIndex>auto</ParticipantIndex>"
         f"<MaxAutoParticipantIndex>{_MOST_PARTICIPANTS}</MaxAutoParticipantIndex>"
         f"{peers}</Discovery>"
-        # One that lies about the length of a message gets no memory for it.
+        # A peer that announces a false length of a message gets no memory for it.
         f"<Internal><MaxSampleSize>{2 * limits.MESSAGE.value}B</MaxSampleSize>"
         "</Internal></Domain></CycloneDDS>"
     )

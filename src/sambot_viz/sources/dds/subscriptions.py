@@ -23,14 +23,14 @@ from sambot_viz.sources.ros_graph import RosGraph, mangled
 
 
 class DdsSubscriptions(GraphSubscriptions):
-    """Subscribes to what is wanted and there, and hands on what comes.
+    """Subscribes to the wanted topics that exist, and delivers their messages.
 
     Args:
-        owner: the conversation, which counts what cannot be read.
-        participant: of DDS.
-        graph: of the nodes that are there.
+        owner: the conversation, which counts unreadable messages.
+        participant: the participant of DDS.
+        graph: the graph of the present nodes.
         types: definitions of messages.
-        hashes: what identifies a writer here → the hash of its type.
+        hashes: id of a writer → the hash of its type.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Explain why no participant of DDS answers, by what is seen on this computer."""
+"""Explain from this computer's state why no participant of DDS answers."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _DISCOVERY_SERVER = 11811
 
 
 def nothing(address: Address, ports: Iterable[int] | None = None) -> str:
-    """Return why nobody is there, with what finds out and what helps.
+    """Return why no participant answers, how to find out more, and what helps.
 
     Args:
-        address: where nobody is.
-        ports: UDP ports that are listened on here; by default those that are.
+        address: the address that does not answer.
+        ports: open UDP ports of this computer; by default the real ones.
     """
     listened = set(_listened() if ports is None else ports)
     where = f"domain {address.domain}"

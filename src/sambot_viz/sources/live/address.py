@@ -14,11 +14,11 @@ from sambot_viz.errors import UsageError
 from sambot_viz.text import text
 
 PORTS = {"foxglove": 8765, "rosbridge": 9090, "zenoh": 7447}
-"""Protocol → the port on which its server listens when nothing else is said."""
+"""Protocol → the default port of its server."""
 _SECURE_PORT = 443
 _TLS = {"foxglove": "wss", "rosbridge": "wss", "zenoh": "tls"}
 _PLAIN = {"foxglove": "ws", "rosbridge": "ws", "zenoh": "tcp"}
-"""Protocol → what is written after it, with TLS and without."""
+"""Protocol → the scheme of its connection, with TLS and without."""
 _HIGHEST_DOMAIN = 232
 """Of ROS 2."""
 _DDS_EXAMPLE = "dds:?domain=0&interface=eth0&peer=HOST,HOST"
@@ -73,10 +73,10 @@ class Address:
 def without_secrets(uri: str) -> str:
     """Return the address of a source as others may see it: without user and query.
 
-    What stands behind the question mark for zenoh and DDS is no secret.
+    The query of zenoh and DDS is kept: it contains no secret.
 
     Args:
-        uri: as it was written; anything else stays as it is.
+        uri: the address as it was written; other texts are returned unchanged.
     """
     try:
         address = parse_address(uri)
@@ -142,7 +142,7 @@ def _dds(uri: str, rest: str) -> Address:
 
 
 def _said(uri: str, query: str, example: str, *known: str) -> dict[str, str]:
-    """Return what stands behind the question mark."""
+    """Return the parameters of the query."""
     said = dict(parse_qsl(query, keep_blank_values=True))
     for name in said:
         if name not in known:

@@ -32,7 +32,7 @@ class _Asset:
 
 
 class AssetStore:
-    """Keeps what was fetched, and what is still to be asked for."""
+    """Keeps fetched files, and the queue of requests."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -41,9 +41,9 @@ class AssetStore:
         self._last_id = 0
 
     def fetch(self, uri: str) -> Future[bytes]:
-        """Return what is known of a file, or will be; each caller gets its own."""
+        """Return a future of a file; each caller gets its own."""
         future: Future[bytes] = Future()
-        # Nobody can cancel it: the answer is on its way.
+        # It cannot be cancelled: the answer is on its way.
         future.set_running_or_notify_cancel()
         if len(uri) > limits.ASSET_NAME.value:
             size = limits.ASSET_NAME.said(len(uri))
@@ -64,7 +64,7 @@ class AssetStore:
         return future
 
     def to_ask(self) -> list[tuple[int, str]]:
-        """Return request id and URI of what is to be asked for now, each once."""
+        """Return id and URI of each new request, once."""
         with self._lock:
             open_ones = [one for one in self._assets.values() if one.content is None]
             sent = sum(one.request_id is not None for one in open_ones)
@@ -78,13 +78,13 @@ class AssetStore:
     def answer(
         self, request_id: int, content: bytes, refused: str | None, hint: str
     ) -> None:
-        """Take the answer to a request; one that nobody waits for is ignored.
+        """Accept the answer to a request; ignore it if nothing waits for it.
 
         Args:
-            request_id: of `to_ask`.
+            request_id: the id from `to_ask`.
             content: the file.
-            refused: what the server says instead, None if it has sent the file.
-            hint: what may be done about the refusal.
+            refused: the server's reason for a refusal; None if it has sent the file.
+            hint: what to do about the refusal.
         """
         with self._lock:
             open_ones = (one for one in self._assets.values() if one.content is None)

@@ -1,9 +1,9 @@
 """The time at the peer, and how far what comes from it lags behind.
 
 Ages and time-outs of displays run on the robot's clock, which may be simulated, or
-wrong by minutes. A peer that does not tell the time still says when it logged each
-message: the message that came fastest shows how the two clocks differ, and later ones
-how much longer they took.
+wrong by minutes. A peer that does not publish its time still gives the log time of each
+message: the fastest message shows the difference of the two clocks, and later ones how
+much longer they took.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ _SAME_TIME = 3_600_000_000_000
 _WINDOW = 10_000_000_000
 """The fastest message counts for so long [ns]: clocks drift, and are set."""
 _SET_BACK = 1_000_000_000
-"""A log time that is so much before the last one is of a clock that was set back [ns]:
-messages that are only late have later ones."""
+"""A log time this much before the last one means that the clock was set back [ns]: late
+messages differ by less."""
 _QUIET = 3_000_000_000
 """What came before this time says nothing about the lag now [ns]."""
 
@@ -47,12 +47,12 @@ class _Fastest:
 
 
 class SourceClock:
-    """Tells the time at the peer from what it sends.
+    """Computes the time at the peer from its messages.
 
-    One thread notes, all may ask.
+    One thread writes, any thread may read.
 
     Args:
-        wall_ns: the time here [ns].
+        wall_ns: returns the time of this computer [ns].
     """
 
     def __init__(self, wall_ns: Callable[[], int] = time.time_ns) -> None:
@@ -63,7 +63,7 @@ class SourceClock:
         """Forget what was noted: another server, or another connection."""
         self._server_ns: int | None = None
         self._fastest = _Fastest()
-        # What a lag is compared with: it begins again when the peer's clock is set.
+        # The reference of lags: it starts again when the peer's clock is set.
         self._undelayed = _Fastest()
         self._newest: tuple[int, int] | None = None
         self._last_ns = 0
@@ -71,7 +71,7 @@ class SourceClock:
 
     @property
     def is_told(self) -> bool:
-        """Whether the peer tells its time."""
+        """Whether the peer publishes its time."""
         return self._server_ns is not None
 
     def now_ns(self) -> int:

@@ -1,7 +1,7 @@
-"""The topic /clock, by which a simulation tells its time.
+"""The topic /clock, on which a simulation publishes its time.
 
 It is read here and not in `messages/`, since it is the source's own clock: eight bytes
-at a known place.
+at a fixed place.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def is_clock(topic: SourceTopic | None) -> bool:
 
 
 def told_time(message: Recorded) -> int | None:
-    """Return the time that a message of /clock tells [ns], if it makes sense."""
+    """Return the time of a message of /clock [ns]; None if it is malformed."""
     channel, payload = message.channel, message.payload
     if channel.schema.name not in _TYPES:
         return None

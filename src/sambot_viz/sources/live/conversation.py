@@ -1,7 +1,7 @@
-"""What is said over one connection, without the socket.
+"""The protocol over one connection, without the socket.
 
-A conversation takes the frames of its peer and gives those that are to be sent. A new
-connection begins a new conversation, so that no id of the old one can be used again.
+A conversation takes the frames of its peer and queues its own. A new connection begins
+a new conversation, so that no id of the old one can be used again.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from sambot_viz.sources.source import Capability, OutgoingAction, Source
 from sambot_viz.text import text
 
 _LATE = 1.0
-"""A lag is said from so much on [s]."""
+"""The smallest lag that is reported [s]."""
 
 
 _MOST_LARGE = 100
@@ -39,16 +39,16 @@ class LargeMessages:
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """What a conversation is connected to; it outlives the connection.
+    """The objects that a conversation uses; they outlive the connection.
 
     Attributes:
-        address: of the peer.
+        address: the address of the peer.
         send: queues a frame for the peer.
-        put: hands a message to the subscribers.
-        clock: notes the peer's time.
+        put: delivers a message to the subscribers.
+        clock: computes the peer's time.
         assets: files of the peer.
-        post: has something done in the thread of the connection.
-        session_id: of the last conversation, None if there was none.
+        post: schedules a call in the thread of the connection.
+        session_id: the id of the last conversation; None before the first.
     """
 
     address: Address
@@ -108,12 +108,12 @@ class Conversation(TopicSender):
         """Return the topic of a message by its first bytes; "" when they do not say."""
 
     def leave_out(self, head: bytes, size: int, is_new: bool) -> None:
-        """Take note of a message that was too large to be read.
+        """Record a message that was too large to be read.
 
         Args:
             head: its first bytes.
-            size: of what is known of it [bytes].
-            is_new: whether it was not noted before.
+            size: its size as far as known [bytes].
+            is_new: whether it was not recorded before.
         """
         topic = self.topic_of(head)
         known = self.large.get(topic)
@@ -161,11 +161,11 @@ class Conversation(TopicSender):
 
     @abstractmethod
     def update(self, wanted: frozenset[str]) -> None:
-        """Ask for what is wanted now, and no longer for what is not."""
+        """Subscribe to the wanted topics, and unsubscribe from others."""
 
     @abstractmethod
     def tick(self, now: float) -> None:
-        """Do what is due; called about twice a second, with monotonic time [s]."""
+        """Do periodic work; called about twice a second, with monotonic time [s]."""
 
     @abstractmethod
     def silence(self) -> str:

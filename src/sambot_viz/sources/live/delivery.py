@@ -25,10 +25,10 @@ _log = logger(__name__)
 
 @dataclass(slots=True)
 class _Waiting:
-    """Messages of one topic that no callback has got yet.
+    """Messages of one topic that wait for delivery.
 
-    `tickets` counts their places in the queue of all topics. One that is dropped leaves
-    its place to the next message of the topic, so that dropping costs no search.
+    `tickets` counts their places in the queue of all topics. A dropped message leaves
+    its place to the next one of the topic, so that dropping costs no search.
     """
 
     messages: deque[Recorded] = field(default_factory=deque[Recorded])
@@ -37,7 +37,7 @@ class _Waiting:
 
 @dataclass(slots=True)
 class _Kept:
-    """What a late subscriber of a topic gets; of one connection only."""
+    """The messages of a topic for late subscribers; of one connection only."""
 
     connection: int
     messages: deque[Recorded]
@@ -47,11 +47,11 @@ class Delivery:
     """Calls the callbacks of topics, in the order in which messages came.
 
     Args:
-        name: of the thread.
+        name: the name of the thread.
 
     Attributes:
-        received: messages that came and somebody wanted.
-        dropped: those of them that were dropped since callbacks were too slow.
+        received: number of received messages of subscribed topics.
+        dropped: number of those that were dropped because callbacks were too slow.
     """
 
     def __init__(self, name: str) -> None:
@@ -86,14 +86,14 @@ class Delivery:
             self._thread.join(LONGEST_STOP)
 
     def wanted(self) -> frozenset[str]:
-        """Return the topics that somebody has subscribed to."""
+        """Return the subscribed topics."""
         with self._changed:
             return frozenset(self._wanted)
 
     def subscribe(
         self, topic: str, callback: OnMessage, on_kept: OnMessage | None = None
     ) -> None:
-        """Add a callback, once; what is kept of the topic comes first."""
+        """Add a callback, once; it gets the kept messages of the topic first."""
         with self._changed:
             present = self._wanted.get(topic, ())
             if callback not in present:
@@ -115,7 +115,7 @@ class Delivery:
                     waiting.messages.clear()
 
     def forget(self) -> None:
-        """Begin a new connection: what is kept gives way to what comes now."""
+        """Begin a new connection: its messages replace the kept ones."""
         with self._changed:
             self._connection += 1
 

@@ -1,6 +1,6 @@
-"""What is said with the nodes of a robot where each of them tells what it has.
+"""The protocol with nodes that each announce their own topics.
 
-Zenoh and DDS differ in how that is told and how messages are carried, and in no more.
+Zenoh and DDS differ only in the form of the announcements and in the transport.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class GraphConversation(Conversation):
         raise NotImplementedError
 
     def topic_of(self, head: bytes) -> str:
-        """Return the topic of a message that was too large: what is given of it."""
+        """Return the topic of a message that was too large: `head` is its name."""
         return head.decode()
 
     @property
@@ -155,7 +155,7 @@ class GraphConversation(Conversation):
         return ""
 
     def notes(self) -> list[str]:
-        """Return why nothing is there, what is left out, and whose clock is wrong."""
+        """Return notes on missing nodes, left out topics, and wrong clocks."""
         notes: list[str] = []
         if self._graph.is_full:
             notes.append(
@@ -208,7 +208,7 @@ class GraphConversation(Conversation):
         if endpoint.kind is Kind.SERVICE:
             self._subscriptions.follow(endpoint)
         else:
-            # `update` follows when somebody has been told of them.
+            # `update` follows when listeners know of them.
             self.topics_changed = True
 
     def _begin(self, outgoing: OutgoingTopic) -> None:

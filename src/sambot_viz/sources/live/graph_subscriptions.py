@@ -50,11 +50,11 @@ class GraphSubscription:
 
 
 class GraphSubscriptions(ABC):
-    """Subscribes to what is wanted and there, and hands on what comes.
+    """Subscribes to the wanted topics that exist, and delivers their messages.
 
     Args:
-        owner: the conversation, which counts what cannot be read.
-        graph: of the nodes that are there.
+        owner: the conversation, which counts unreadable messages.
+        graph: the graph of the present nodes.
         types: definitions of messages.
     """
 

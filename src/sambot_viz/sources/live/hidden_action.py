@@ -94,7 +94,7 @@ class _HiddenGoal:
         Raises:
             SourceError: the connection has ended.
         """
-        # The id has 16 bytes: what comes behind it is aligned as without it.
+        # The id has 16 bytes, so the fields after it are aligned as without it.
         request = goal[:_HEAD] + self._id + goal[_HEAD:]
         for topic in self._topics:
             self._source.subscribe(topic, self._take)

@@ -42,7 +42,7 @@ from sambot_viz.sources.source import (
 FIRST_PAUSE, LONGEST_PAUSE, GROWTH = 0.5, 15.0, 1.7
 """Before the second attempt and at most [s], and how much each pause is longer."""
 TICK = 0.5
-"""Between two looks at what is due [s]."""
+"""Period of the periodic work [s]."""
 STEADY = 10.0
 """A connection that lasted so long [s] was a good one: pauses begin again."""
 LONGEST_STOP = 5.0
@@ -203,7 +203,7 @@ class LiveSource(ABC):
         return self._ready().action(name, type_name, self)
 
     def _ready(self) -> Conversation:
-        """Return what is said over the present connection."""
+        """Return the conversation of the present connection."""
         conversation = self._conversation
         if conversation is None or not conversation.is_ready:
             raise SourceError(f"nothing can be sent: {self._status.sentence}")
@@ -263,7 +263,7 @@ class LiveSource(ABC):
         begin: Callable[[Ends], Conversation],
         send: Callable[[str | bytes], None] = lambda frame: None,
     ) -> Conversation:
-        """Begin what is said over a new connection.
+        """Begin the conversation of a new connection.
 
         Args:
             begin: makes the conversation.
@@ -347,10 +347,10 @@ class LiveSource(ABC):
         )
 
     def _update(self) -> None:
-        """Ask for what is wanted, unless somebody is still to be told of new topics.
+        """Subscribe to the wanted topics, unless listeners do not know new ones yet.
 
-        A recorder subscribes when it is told. A message that a display has asked for
-        before that would not be in its file.
+        A recorder subscribes when it learns of a topic. A message that a display
+        received before that would be missing in its file.
         """
         if self._conversation is not None and self._is_told:
             self._conversation.update(self._wanted())
@@ -361,7 +361,7 @@ class LiveSource(ABC):
         self._delivery.put(message)
 
     def _wanted(self) -> frozenset[str]:
-        """Return the topics that somebody wants, and with them the simulated time."""
+        """Return the wanted topics, and with them that of the simulated time."""
         wanted = self._delivery.wanted()
         has_time = "time" in self._capabilities or not is_clock(self._topics.get(CLOCK))
         return wanted if has_time or not wanted else wanted | {CLOCK}

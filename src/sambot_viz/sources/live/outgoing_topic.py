@@ -12,11 +12,11 @@ from sambot_viz.text import text
 
 
 class TopicSender(ABC):
-    """What tells a peer of topics, in the thread of the connection.
+    """Announces topics to a peer, in the thread of the connection.
 
     Attributes:
-        publishes: how messages to the peer are written.
-        is_over: the connection has ended.
+        publishes: the encoding of messages to the peer.
+        is_over: whether the connection has ended.
     """
 
     publishes: Encoding
@@ -28,7 +28,7 @@ class TopicSender(ABC):
 
     @abstractmethod
     def publish(self, outgoing: OutgoingTopic, message: bytes) -> None:
-        """Send a message of such a topic."""
+        """Send a message of an announced topic."""
 
     @abstractmethod
     def unadvertise(self, outgoing: OutgoingTopic) -> None:

@@ -1,7 +1,7 @@
-"""Takes messages that are too large out of a stream of websocket frames.
+"""Remove messages that are too large from a stream of websocket frames.
 
-websockets ends the connection at such a message. Here it is thrown away as it comes, in
-one frame or in several, and the connection goes on: only the message is lost.
+The package websockets would end the connection. Here the message is discarded as it
+comes, in one frame or in several, and the connection goes on.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 HEAD = 1024
-"""What is kept of a message that is too large: it says what it is of [bytes]."""
+"""Kept bytes of a message that is too large: enough to see its topic [bytes]."""
 _ACCEPTED = b"HTTP/1.1 101"
 _LAST, _CONTROL, _MASKED = 0x80, 0x08, 0x80
 _NEXT, _TEXT, _BINARY = range(3)
@@ -18,7 +18,7 @@ _NO_SIZE = 2**63
 """No frame is so long; websockets says so [bytes]."""
 
 OnLarge = Callable[[bytes, int, bool], object]
-"""Called with the first bytes of what is too large, its size and whether it is new."""
+"""Called with the first bytes of a large message, its size and whether it is new."""
 
 
 @dataclass(slots=True)
@@ -27,12 +27,12 @@ class _HeldMessage:
 
     Attributes:
         kind: text or binary.
-        most: more than this is too much [bytes].
-        held: its bytes; the first ones when it is too large.
-        size: of its frames up to now [bytes].
-        left: what is still to come of the frame [bytes].
-        is_last: no other frame of it follows.
-        said: its size when it was said to be too large; 0 before [bytes].
+        most: the limit [bytes].
+        held: its bytes; only the first ones when it is too large.
+        size: size of its frames up to now [bytes].
+        left: bytes of the frame that are still to come.
+        is_last: whether no other frame of it follows.
+        said: its size at the last report that it is too large; 0 before [bytes].
     """
 
     kind: int
@@ -66,7 +66,7 @@ class _HeldMessage:
         return at + step
 
     def as_frame(self, last: int) -> Iterator[bytes]:
-        """Yield what is held as one frame: the last of the message, or the first."""
+        """Yield the held bytes as one frame: the last of the message, or the first."""
         size = len(self.held)
         wide = 0 if size < 126 else 2 if size < 2**16 else 8
         yield bytes([last | self.kind, {0: size, 2: 126, 8: 127}[wide]])
@@ -75,22 +75,22 @@ class _HeldMessage:
 
 
 class LargeFrames:
-    """A filter of what a server sends, without masks and without compression.
+    """A filter for the frames of a server, without masks and without compression.
 
     A message in several frames goes through as one frame.
 
     Args:
         most: the largest message that goes through [bytes].
-        found: called with the first bytes and the size of each other one, as soon as
-            these are there, and whether it is called for it the first time: the size of
-            what comes in several frames is known at its end.
+        found: called as soon as possible with the first bytes and the size of each
+            larger one, and whether this is the first call for it: the size of a message
+            in several frames is known at its end.
     """
 
     def __init__(self, most: int, found: OnLarge) -> None:
         self._most = most
         self._found = found
         self._has_begun = False
-        # The beginning of what is not long enough to say what it is.
+        # The start of a frame whose header is not complete yet.
         self._held = b""
         # How much of a frame that goes through is still to come.
         self._through = 0

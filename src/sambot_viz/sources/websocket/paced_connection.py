@@ -12,18 +12,18 @@ from sambot_viz import limits
 from sambot_viz.sources.websocket.large_frames import LargeFrames, OnLarge
 
 PACE = 0.010
-"""After a read that emptied the socket the next one comes so much later [s]."""
+"""Pause after a read that emptied the socket [s]."""
 _MUCH = 65_536
 """Size of a read that may not have emptied the socket [bytes]."""
 _ACKNOWLEDGE = getattr(socket, "TCP_QUICKACK", None)
 
 
 class PacedConnection(ClientConnection):
-    """Reads many small messages at once: one wake-up for each costs more than they do.
+    """Reads many small messages at once, because a wake-up for each costs more.
 
-    It acknowledges what came at each read. A peer that collects small messages until
-    the last ones were acknowledged (Nagle's algorithm) would have to wait for 40 ms, as
-    Linux does, and the picture would show what was true before the last one.
+    It acknowledges the data at each read. Otherwise a peer that collects small messages
+    until the last ones are acknowledged (Nagle's algorithm) would wait for the 40 ms of
+    Linux, and the picture would lag behind by a message.
 
     A message that is too large is not read, and the connection goes on.
 

@@ -1,4 +1,4 @@
-"""Explain why there is no connection: one sentence, with the remedy that works."""
+"""Explain why there is no connection, in one sentence with the remedy."""
 
 from __future__ import annotations
 

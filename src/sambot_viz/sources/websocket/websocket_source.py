@@ -21,10 +21,10 @@ class WebsocketSource(LiveSource):
     """A live source of a protocol, whose conversation it is given.
 
     Args:
-        uri: as the user wrote it.
-        address: where it is.
-        conversation: begins what is said over a new connection.
-        subprotocols: what is offered, the best first.
+        uri: the address, as the user wrote it.
+        address: the parsed address.
+        conversation: makes the conversation of a new connection.
+        subprotocols: the offered ones, the best first.
     """
 
     def __init__(

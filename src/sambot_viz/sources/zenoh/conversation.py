@@ -1,6 +1,6 @@
-"""What is said with the nodes of a robot over one session of zenoh.
+"""The protocol with the nodes of a robot over one session of zenoh.
 
-Tokens say what there is, and which definition of a type each node has.
+Tokens announce nodes and their topics, and which definition of a type each node has.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class ZenohConversation(GraphConversation):
         return self._session.is_closed
 
     def tick(self, now: float) -> None:
-        """Take away what is gone, and ask older publishers for what they keep."""
+        """Remove what is gone, and request the kept messages of older publishers."""
         for key in self._gone:
             self._remove(key)
         self._gone.clear()

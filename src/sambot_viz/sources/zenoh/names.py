@@ -28,12 +28,12 @@ _STAMP = b"source_timestamp"
 
 @dataclass(frozen=True, slots=True)
 class LivenessToken:
-    """What a liveliness token says.
+    """The content of a liveliness token.
 
     Attributes:
         domain: the domain id.
-        session: of zenoh, whose node it is.
-        endpoint: that is there; None where a node is.
+        session: the zenoh session of the node.
+        endpoint: the announced endpoint; None for a node.
         node: the full name of the node.
     """
 

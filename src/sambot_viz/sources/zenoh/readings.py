@@ -25,12 +25,12 @@ _MOST_WAITING = 4000
 counts those that it drops. The oldest give way."""
 
 OnSample = Callable[[str, bytes, bytes], object]
-"""Called with the key, the payload and what is attached."""
+"""Called with the key, the payload and the attachment."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ZenohReading:
-    """What is read from: a subscriber of zenoh, and who gets its messages."""
+    """A subscriber of zenoh, and the receiver of its messages."""
 
     subscriber: Any
     take: OnSample
@@ -71,7 +71,7 @@ class ZenohReadings:
         return reading
 
     def clear(self) -> None:
-        """Read nothing any more."""
+        """Stop reading for good."""
         self._readings.clear()
 
     def _discard(self, reading: ZenohReading) -> None:
@@ -121,7 +121,7 @@ def waiting_room() -> Any:
 
 
 def content_of(sample: Any) -> tuple[str, bytes, bytes]:
-    """Return the key of a message, its payload and what is attached."""
+    """Return the key of a message, its payload and its attachment."""
     attached = sample.attachment
     return (
         str(sample.key_expr),

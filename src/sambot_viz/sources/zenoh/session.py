@@ -1,7 +1,7 @@
 """A session of zenoh: the one place that knows its Python package.
 
-zenoh calls back in threads of its own, and all is handed to the loop; messages wait
-until that takes them.
+zenoh calls back in its own threads, and everything is passed to the loop; messages wait
+until the loop takes them.
 """
 
 from __future__ import annotations

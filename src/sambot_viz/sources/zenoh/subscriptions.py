@@ -21,16 +21,16 @@ from sambot_viz.sources.zenoh import names
 from sambot_viz.sources.zenoh.session import ZenohSession
 
 _TICKS_FOR_CACHES = 2
-"""What is kept has come by then, or its publisher has a cache of the older kind."""
+"""Kept messages have come by then, or their publisher has a cache of the older kind."""
 
 
 class ZenohSubscriptions(GraphSubscriptions):
-    """Subscribes to what is wanted and there, and hands on what comes.
+    """Subscribes to the wanted topics that exist, and delivers their messages.
 
     Args:
-        owner: the conversation, which counts what cannot be read.
-        session: of zenoh.
-        graph: of the nodes that are there.
+        owner: the conversation, which counts unreadable messages.
+        session: the session of zenoh.
+        graph: the graph of the present nodes.
         types: definitions of messages.
     """
 
@@ -44,7 +44,7 @@ class ZenohSubscriptions(GraphSubscriptions):
         super().__init__(owner, graph, types)
         self._session = session
         self._domain = owner.ends.address.domain
-        # How long nothing has come of what is kept, in ticks.
+        # Ticks since the last kept message.
         self._silent: dict[GraphSubscription, int] = {}
 
     def tick(self) -> None:
@@ -83,7 +83,7 @@ class ZenohSubscriptions(GraphSubscriptions):
             publisher.type_hash,
             offered,
         )
-        # Some programs publish only when somebody has subscribed.
+        # Some programs publish only when there is a subscription.
         token = self._session.declare(self._domain, endpoint)
 
         def close() -> None:
