@@ -1,4 +1,4 @@
-"""A copy of what a session shows, for a private copy or for a file."""
+"""A copy of a session's state, for a private copy or for a file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from sambot_viz.topics.source_robot import Lease, SourceRobot
 
 @dataclass(frozen=True, slots=True)
 class SessionCopy:
-    """What a session shows at one moment; meshes and the robot are not copied.
+    """The state of a session at one moment; meshes and the robot are not copied.
 
     Attributes:
         config: the .rviz document, with the edits that are not saved.
@@ -37,12 +37,12 @@ class SessionCopy:
         models: reads further models.
         meshes: mesh files that are read already.
         moved_by: the recording or the live robot that moves it; None without one.
-        lease: keeps that open.
-        time_ns: the log time that is shown of it [ns].
+        lease: keeps the source open.
+        time_ns: the shown log time of the recording [ns].
         follows: whether its messages move the joints.
-        texts: texts of the model's files that are not saved; see `Checks`.
-        comparison: what the robot is compared with.
-        moved: numbers of the model that are not written there.
+        texts: unsaved texts of the model's files; see `Checks`.
+        comparison: the choice of what the robot is compared with.
+        moved: numbers of the model that were changed but not written.
     """
 
     config: RvizConfig

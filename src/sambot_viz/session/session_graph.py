@@ -31,20 +31,20 @@ if TYPE_CHECKING:
 SMALL = 40
 """With more nodes and topics, details are left out at first."""
 PAUSE = 3.0
-"""A robot is looked at so often while somebody sees the graph [s]."""
+"""Period of questions to a robot while the graph is on a screen [s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class _GraphInputs:
-    """What a graph is made of.
+    """The inputs of a graph.
 
     Attributes:
-        package: whose launch files are read; None for none.
-        model: number of the robot, which is another one when a file was saved.
-        problems: what check says.
-        launch: name of the launch file; "" for the one that starts most.
-        running: what a robot says.
-        details: whether they are drawn; None draws them in small graphs.
+        package: the package with the launch files; None without one.
+        model: number of the robot, which changes when a file is saved.
+        problems: the findings of check.
+        launch: name of the launch file; "" for the one that starts the most nodes.
+        running: the nodes and topics that a robot reports.
+        details: whether details are drawn; None draws them in small graphs.
     """
 
     package: Path | None
@@ -56,23 +56,23 @@ class _GraphInputs:
 
 
 class SessionGraph:
-    """Makes the graph while somebody looks at it, and again when it has changed.
+    """Makes the graph while a page shows it, and again when its inputs change.
 
-    It is made in its own thread, one after the other: the files of a package may
+    Graphs are made one by one in a separate thread: reading the files of a package may
     take seconds, and the session must not wait for them.
 
     Args:
-        robot: has the model, whose package is read.
-        problems: are drawn where they are.
-        sources: a live one says what runs.
-        change: tells changes.
-        worker: takes what was made.
-        options: arguments of the launch files, and where packages are.
+        robot: the robot, whose package is read.
+        problems: drawn at their places.
+        sources: a live one reports the running nodes.
+        change: sends the changes.
+        worker: takes the finished graphs.
+        options: arguments of the launch files, and the folders of packages.
 
     Attributes:
-        changed: told when there is another graph.
-        facts: told when there may be something to draw, or nothing any longer.
-        launch: name of the launch file to draw; "" for the one that starts most.
+        changed: emitted when there is another graph.
+        facts: emitted when it changes whether there may be something to draw.
+        launch: name of the launch file to draw; "" for the one that starts the most.
         has_details: whether types, packages and topics of one node are drawn.
     """
 
@@ -111,7 +111,7 @@ class SessionGraph:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether there is a robot that is not connected: nobody knows what runs."""
+        """Whether a robot is not connected, so that its nodes are unknown."""
         return self._live is not None and not self._live.status.is_connected
 
     @property
@@ -121,7 +121,7 @@ class SessionGraph:
 
     @property
     def placed(self) -> PlacedGraph | None:
-        """The picture; None until somebody has looked at it."""
+        """The picture; None until a page has shown it."""
         return self._placed
 
     def follow(self, viewer: object, on: bool) -> None:
@@ -149,7 +149,7 @@ class SessionGraph:
         robot = self._robot.model
         if robot is None:
             folder = self._given_package()
-        # What a page or a robot has sent is read, never what lies around it.
+        # The model from a page or a robot is read, never files around it.
         elif not robot.files or robot.file_roots is not None:
             return None
         else:
@@ -214,7 +214,7 @@ class SessionGraph:
             self.changed.touch()
 
     def _look_later(self) -> None:
-        """Look again after a while, as long as somebody sees what a robot says."""
+        """Ask the robot again after a while, as long as a page shows the graph."""
         if not self._is_looking and self._viewers and self._live is not None:
             self._is_looking = True
             self._worker.post_later(PAUSE, self._look_again)

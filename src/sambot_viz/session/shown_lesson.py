@@ -57,8 +57,8 @@ class ShownLesson:
         also: steps that have come to hold while this one was read.
         checking: whether a try is being counted.
         other_model: the name of its model file, where the view shows another one.
-        trouble: why the progress cannot be kept; "" when it is.
-        teacher: what the teacher says.
+        trouble: why the progress cannot be saved; "" when it is.
+        teacher: the message of the teacher.
     """
 
     def __init__(

@@ -29,18 +29,20 @@ from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.unsaved import unsaved
 
 Reloaded = Literal["model", "config", "watch", "fault", "description", "reference"]
-"""What a save failed to change (model, config, reference), or why saves fail at all."""
+"""What a save concerned (model, config, reference), or a cause that all share."""
 _OTHERS: Sequence[Reloaded] = ("fault", "watch", "reference")
 
 
 @dataclass(frozen=True, slots=True)
 class ShownProblems:
-    """What a page shows of problems.
+    """The problems as a page shows them.
 
     Attributes:
-        listed: each once, errors first, then in the order of the files.
-        note: what the page shows instead of files with a mistake; or nothing.
-        checking: the rules have not run yet for this model, and may find more.
+        listed: the problems without repetitions, errors first, then in the order of the
+            files.
+        note: names what the page shows while the files have a mistake; "" if they have
+            none.
+        checking: whether the rules still have to run for this model.
     """
 
     listed: tuple[Problem, ...] = ()
@@ -52,22 +54,22 @@ class Problems:
     """Collects the problems of one session.
 
     Args:
-        document: has problems of its own.
-        scene: displays report problems of what they draw from.
-        robot: what is shown while a save has a mistake.
-        sources: what is wrong with them, and with the messages that were played.
-        notes: stay beside what is wrong with the model.
-        fixes: whether problems have their edits; a lesson may keep them from students.
+        document: the config, which has problems too.
+        scene: its displays report problems of their files.
+        robot: the robot that stays on show while a save has a mistake.
+        sources: their problems, and those of the played messages.
+        notes: findings that are always listed.
+        fixes: whether problems keep their edits; a lesson may hide them from students.
 
     Attributes:
-        shown: what a page shows of them.
-        of_model: what is wrong with the model that is shown.
-        of_frames: what is wrong with its frames and wheels; `set_model` adds them.
-        of_saves: why the last save is not what is shown.
-        of_text: why the text of the model in the editor is not what is shown; None
-            while it is that of the files.
-        saves: tells changes of that.
-        tell_client: called with a client, and with what only this one is told.
+        shown: the list for pages.
+        of_model: the problems of the shown model.
+        of_frames: the problems of its frames and wheels; `set_model` adds them.
+        of_saves: the problems because of which the last save is not shown.
+        of_text: the problems because of which the text in the editor is not shown; None
+            while it equals the files.
+        saves: emitted when these two change.
+        tell_client: called with a client and a notice for it alone.
     """
 
     def __init__(
@@ -103,11 +105,11 @@ class Problems:
         connect([*facts, self.saves, self._model], self._show)
 
     def set_model(self, problems: Sequence[Problem], *, checking: bool = False) -> None:
-        """Show what is wrong with the model.
+        """Show the problems of the model.
 
         Args:
-            problems: all that is known.
-            checking: the rules will run, and may find more.
+            problems: all that are known.
+            checking: whether the rules will run, and may find more.
         """
         with self._change.lock:
             self._checking, self._applied = checking, frozenset[Edit]()
@@ -121,17 +123,17 @@ class Problems:
             self._applied = self._applied.union(edits)
 
     def set_saves(self, of: Reloaded, problems: Sequence[Problem]) -> None:
-        """Show why the last save is not what is shown; an empty list when it is."""
+        """Set the problems that keep the last save from being shown; [] if it is."""
         if self.of_saves.get(of, ()) != tuple(problems):
             with self._change(self.saves):
                 self.of_saves[of] = tuple(problems)
 
     def set_text(self, problems: Sequence[Problem] | None) -> None:
-        """Show why the text of the model in the editor is not what is shown.
+        """Set the problems that keep the text in the editor from being shown.
 
         Args:
-            problems: what is wrong with it; empty when it is shown, None when it is
-                that of the files.
+            problems: its problems; empty when it is shown, None when it equals the
+                files.
         """
         found = None if problems is None else tuple(problems)
         if self.of_text != found:
@@ -148,8 +150,8 @@ class Problems:
         """Show an exception that was not handled, and log it once.
 
         Args:
-            error: what was raised.
-            client: who has caused it, and alone is told; None shows it to all.
+            error: the exception.
+            client: the client that caused it, the only one to get it; None for all.
         """
         if isinstance(error, SambotVizError):
             problem = Problem("error", "refused", str(error))
@@ -176,9 +178,9 @@ class Problems:
     def _listed(self) -> list[Problem]:
         """List the problems to show.
 
-        While a saved file has a mistake, the problems of what is shown stay listed,
-        but those whose edit was made.
-        What both have is listed once, where it is in the saved file.
+        While a saved file has a mistake, the problems of the shown version stay listed,
+        except those whose edits were applied. A problem of both versions is listed
+        once, at its place in the saved file.
         """
         saved = self.of_saves
         shapes = (p for d in robot_displays(self._scene.displays) for p in d.problems)
@@ -210,7 +212,7 @@ class Problems:
         return " ".join(notes)
 
     def _what_is_wrong(self) -> str:
-        """Say what became of the model's file, or what a live robot sent."""
+        """Return a sentence about the model's file, or about a live robot's model."""
         for fault in self.of_newest:
             if fault.code == "model-not-found" and fault.file is not None:
                 return f"{Path(fault.file).name} is gone"
@@ -284,7 +286,7 @@ class Checks:
         connect([*facts, scene.frames, scene.statuses], self._follow)
 
     def run(self) -> None:
-        """Check what is shown; the robot only when there is more to know of it."""
+        """Check the shown model and config; the robot only if it may have changed."""
         with self._change.lock:
             robot, joints = self._robot.model, self._robot.joints
             if robot is None or joints is None:
@@ -298,7 +300,7 @@ class Checks:
             of_robot = self._of_rules(robot, state) if before != state else None
         with self._change.lock:
             if self._checked != state:
-                # Meanwhile another thread has begun to check what is newer.
+                # Another thread has begun to check a newer state meanwhile.
                 return
             if of_robot is not None:
                 self._of_robot = of_robot
@@ -371,6 +373,6 @@ class Checks:
 
 
 def _also(saved: Sequence[Problem], shown: Iterable[Problem]) -> list[Problem]:
-    """Return problems of a save, and those of what is shown that say something else."""
+    """Return the problems of a save, and the others of the shown version."""
     said = {(problem.code, problem.message) for problem in saved}
     return [*saved, *(p for p in shown if (p.code, p.message) not in said)]

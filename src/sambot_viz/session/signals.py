@@ -1,7 +1,7 @@
-"""Values with listeners, and changes that are sent before anybody is told of them.
+"""Values with listeners, and changes that are sent before their listeners are called.
 
-A part of a session tells what it changes through signals. Whoever shows a fact listens
-to its signal alone, so what a step costs can be read from the listeners.
+A part of a session reports its changes through signals. A panel listens only to the
+signals of the facts that it shows, so the listeners tell the cost of a step.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Audience(Protocol):
 
 
 class Change:
-    """Changes what an audience sees: under one lock, sent together, then told.
+    """Changes the state of a session: under one lock, sent together, then emitted.
 
     ::
 
@@ -42,11 +42,11 @@ class Change:
 
     Args:
         worker: its lock is held meanwhile; it reports errors of listeners.
-        audience: who sees what is changed.
+        audience: the viser clients that get the changes.
 
     Attributes:
         lock: the worker's; held while the state changes.
-        finish: called before a change is sent, to draw what it made outdated.
+        finish: called before a change is sent, to redraw outdated parts.
     """
 
     def __init__(self, worker: Worker, audience: Audience) -> None:
@@ -55,15 +55,15 @@ class Change:
         self._worker = worker
         self._audience = audience
         self._depth = 0
-        # In the order in which they were marked; each is told once.
+        # In the order in which they were marked; each is emitted once.
         self._marked: dict[Signal[Any], None] = {}
 
     @contextmanager
     def __call__(self, *signals: Signal[Any]) -> Generator[None]:
-        """Change state inside; a change in a change is sent with the outer one.
+        """Change state in the block; a nested change is sent with the outer one.
 
         Args:
-            signals: what is changed, unless the change fails.
+            signals: emitted at the end, unless the change fails.
         """
         with self.lock:
             self._depth += 1
@@ -95,7 +95,7 @@ class Change:
             try:
                 listener()
             except Exception as error:
-                # One that fails does not stop the others.
+                # A failing listener does not stop the others.
                 self._worker.report(error)
 
 
@@ -125,7 +125,7 @@ class Signal(Generic[T]):
         return self._value
 
     def set(self, value: T) -> None:
-        """Take another value; the same one is told to nobody."""
+        """Set the value; setting the same one calls no listener."""
         if value != self._value:
             self._value = value
             self._change.mark(self)
@@ -160,7 +160,7 @@ def connect(
 
 
 class Listening:
-    """Listens to the signals of what is shown at present, and to no others.
+    """Listens to the signals of a set that changes, and to no others.
 
     Args:
         listener: called after a change of any of them.

@@ -16,11 +16,13 @@ class UndoableEdit:
     """A change that can be undone.
 
     Attributes:
-        label: what was done, in a few words.
-        undo: undoes it, or raises SambotVizError when that is not possible any more.
-        redo: does it again, or raises SambotVizError.
-        touched: what was added, removed, moved or named; None for other changes.
-        page: what has changed it for the page, such as its view, and ends with it.
+        label: a few words for the change.
+        undo: undoes it, or raises SambotVizError if that is no longer possible.
+        redo: redoes it, or raises SambotVizError.
+        touched: the thing that was added, removed, moved or named; None for other
+            changes.
+        page: the object of the page that was changed, such as its view; it is dropped
+            with the page.
     """
 
     label: str
@@ -76,12 +78,12 @@ class ClientSteps:
     """The steps of one client.
 
     Args:
-        change: tells what can be undone.
+        change: sends the state to the client.
 
     Attributes:
-        done: what can be undone, the last step at the end.
-        undone: what can be done again, the next step at the end.
-        state: the same for the client.
+        done: the steps to undo, the last step at the end.
+        undone: the steps to redo, the next step at the end.
+        state: both, as the client shows them.
         key: a secret of the client.
     """
 
@@ -153,7 +155,7 @@ class LeftSteps:
         self._steps: dict[str, ClientSteps] = {}
 
     def keep(self, steps: ClientSteps) -> None:
-        """Keep what a client has done; that of the one that left first goes."""
+        """Keep the steps of a client that left; above a limit drop the oldest ones."""
         if steps.done or steps.undone:
             self._steps[steps.key] = steps
         if len(self._steps) > limits.UNDO_PAGES.value:
