@@ -1,4 +1,4 @@
-"""CameraInfo: what a camera sees, as a pyramid from its eye."""
+"""CameraInfo: the field of view of a camera, as a pyramid from its eye."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a display keeps of messages: those that wait for a place, and those it shows."""
+"""The messages that a display keeps: those waiting for a place, and the shown ones."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Taken(Generic[T]):
-    """What was read of a message that has a place.
+    """The content of a message that has a place.
 
     Attributes:
-        read: what is drawn of it.
-        T_fixed_frame: (4, 4), where its frame was at its stamp.
+        read: its content, as the display draws it.
+        T_fixed_frame: pose of its frame at its stamp, (4, 4).
     """
 
     read: T
@@ -63,11 +63,11 @@ class HeldMessages:
     """The messages of a display, as they came.
 
     Args:
-        most_drawn: so many of those that are drawn are kept, to place them again.
+        most_drawn: number of drawn messages that are kept, to place them again.
 
     Attributes:
-        waiting: those without a place, the oldest first.
-        drawn: those that had one.
+        waiting: messages without a place, the oldest first.
+        drawn: messages that had one.
     """
 
     def __init__(self, most_drawn: int) -> None:
@@ -80,11 +80,11 @@ class HeldMessages:
         self.drawn.clear()
 
     def leave(self, most: int, *, last_only: bool) -> Sequence[Held]:
-        """Keep what waits, and return what has no room.
+        """Limit the waiting messages, and return the dropped ones.
 
         Args:
-            most: number of waiting messages.
-            last_only: whether what is older than the newest that is drawn does not.
+            most: the limit.
+            last_only: whether to drop messages older than the newest drawn one.
         """
         kept: list[Held] = []
         for one in reversed(self.waiting):

@@ -90,7 +90,7 @@ class MapDisplay(TopicDisplay):
 
     @property
     def update_topic(self) -> str:
-        """The topic of updates: the one that is set, or RViz's own choice."""
+        """The topic of updates: the property's, or RViz's own choice."""
         return str(self.config.get(UPDATE_TOPIC)) or updates_of(self.topic)
 
     def other_topics(self) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ from sambot_viz.topics.decoding import frame_and_stamp
 TRANSFORM = "Transform"
 """Key of a status."""
 LONGEST_WAIT_NS = 1_000_000_000
-"""What has waited so long while nothing is shown is said to wait [ns]."""
+"""Waiting time after which the status reports it, while nothing is shown [ns]."""
 KEPT_DEPTH_S = 60.0
 """After a jump in a recording, older messages are not looked for where several are
 shown [s]."""
@@ -37,17 +37,17 @@ def is_final(refused: LookupRefused) -> bool:
 class MessageFilterDisplay(TopicDisplay, Generic[T]):
     """Draws each message in the place where its frame was at its stamp.
 
-    A message is held until that is known; of more than "Filter size" the oldest is
-    dropped, and the status says why it had no place. What was drawn stays where it is,
-    whatever its frame does later, until the fixed frame is another one.
+    A message waits until that place is known; above "Filter size" the oldest is
+    dropped, and the status says why it had no place. Drawn messages stay in their
+    places, whatever their frames do later, until the fixed frame changes.
 
-    A display reads what it draws in `read`, and draws what is kept of that in
-    `draw_kept`; one that keeps messages in another way has its own `process`,
+    A display extracts the content of a message in `read`, and draws the kept content in
+    `draw_kept`; one that keeps messages in another way overrides `process`,
     `show_taken` and `drop`.
 
     Attributes:
         held: the messages, as they came.
-        kept: what was read of those that are shown, the newest last.
+        kept: the content of the shown messages, the newest last.
     """
 
     tells_time = True
@@ -64,7 +64,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
     # For the displays that derive from it
 
     def read(self, message: Any) -> T:
-        """Return what is drawn of a message.
+        """Return the content of a message, as it is drawn.
 
         Raises:
             MessageRefused: it cannot be drawn.
@@ -109,20 +109,20 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
         return came
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Keep what is drawn of a message; `show_taken` draws what several brought.
+        """Keep the content of a message; `show_taken` draws several together.
 
         Args:
-            message: with its fields.
-            T_fixed_frame: where the frame of its header was at its stamp.
-            came: the message as it came; its `log_ns` is when.
+            message: the decoded message.
+            T_fixed_frame: pose of the frame of its header at its stamp.
+            came: the message as it came, at the time `log_ns`.
 
         Raises:
-            MessageRefused: it cannot be drawn, and why.
+            MessageRefused: it cannot be drawn; with the reason.
         """
         self.kept.append(Taken(self.read(message), T_fixed_frame.matrix))
 
     def show_taken(self) -> None:
-        """Draw what was taken as it looks now; what is the same is not sent again."""
+        """Draw the kept content with the present settings; unchanged nodes are kept."""
         del self.kept[: -self.most]
         if self.kept:
             self.draw_kept(self.kept)
@@ -145,7 +145,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
     # As a display of a topic
 
     def forget(self) -> None:
-        """Drop what is drawn and what waits."""
+        """Drop the drawn and the waiting messages."""
         self.held.clear()
         self._drawn_in = self.context.fixed_frame
         self.refusal, self.nothing = "", None
@@ -154,7 +154,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
             self.status.remove(key)
 
     def redraw(self) -> None:
-        """Draw again; in another fixed frame what is drawn gets other places."""
+        """Draw again; after a change of the fixed frame compute all places again."""
         if self.context.fixed_frame != self._drawn_in:
             again = [*self.held.drawn, *self.held.waiting]
             self.forget()
@@ -188,7 +188,7 @@ class MessageFilterDisplay(TopicDisplay, Generic[T]):
                 is_done = self._is_done(one)
             except MessageRefused as refused:
                 self._refuse(refused)
-                # Of what is newer than all that is drawn the statuses go on to say so.
+                # Messages newer than all drawn ones keep that status.
                 is_fine = not last_only
                 continue
             if is_done:

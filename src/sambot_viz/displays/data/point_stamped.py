@@ -1,4 +1,4 @@
-"""PointStamped: single points, such as one that was clicked."""
+"""PointStamped: single points, such as clicked ones."""
 
 from __future__ import annotations
 

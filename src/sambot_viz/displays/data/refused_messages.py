@@ -36,17 +36,17 @@ class MessageRefused(Exception):
 def refusing(
     key: str = MESSAGE, verb: str = "drawn", *others: type[Exception]
 ) -> Generator[None]:
-    """Refuse a message whatever is wrong with it.
+    """Turn any error of the block into a refusal of the message.
 
-    Numpy does not warn of its numbers: whoever draws them looks at them.
+    Numpy's warnings about its numbers are off: the drawing code checks them.
 
     Args:
-        key: of the status.
-        verb: what is done with the message inside.
-        others: errors that say that it is broken, beside those of any message.
+        key: key of the status.
+        verb: verb for the work in the block.
+        others: errors that mean a broken message, in addition to the usual ones.
 
     Raises:
-        MessageRefused: it cannot be decoded, or what was done with it has failed.
+        MessageRefused: the message cannot be decoded, or the work has failed.
     """
     try:
         with np.errstate(all="ignore"):

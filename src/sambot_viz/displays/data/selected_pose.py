@@ -12,7 +12,7 @@ from sambot_viz.geometry import Vector3, Wxyz
 
 
 def position_text(position: Sequence[float]) -> str:
-    """Return a position [m], without what is less than a micrometre."""
+    """Return a position [m], rounded to micrometres."""
     return f"{numbers([round(value, 6) for value in position])} m"
 
 

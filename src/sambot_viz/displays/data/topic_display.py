@@ -1,4 +1,4 @@
-"""Base of the displays that draw what a topic brings."""
+"""Base of the displays that draw the messages of a topic."""
 
 from __future__ import annotations
 
@@ -53,17 +53,17 @@ def topic_property(
 
 
 class TopicDisplay(Display):
-    """Draws the messages of a topic while it is shown; else they are not asked for.
+    """Draws the messages of a topic while it is shown; otherwise it is not subscribed.
 
-    A display says what it draws in `meanings`, takes messages in `messages_came`, and
-    drops what it shows in `forget`.
+    A display declares what it draws in `meanings`, accepts messages in `messages_came`,
+    and drops its drawing in `forget`.
 
     Attributes:
-        nodes: those that its class declares (`DisplayNode`).
+        nodes: the nodes that its class declares (`DisplayNode`).
         subscription: its messages; None while it has none.
-        refusal: what is wrong with the newest message, said in place of how many have
-            come; empty for nothing.
-        nothing: that nothing is in that message; None where something is.
+        refusal: the fault of the newest message, shown in place of the number of
+            messages; empty without one.
+        nothing: a sentence if that message is empty; None if it is not.
     """
 
     is_data = True
@@ -110,7 +110,7 @@ class TopicDisplay(Display):
 
     @property
     def item(self) -> Selectable | None:
-        """What a click on it selects; None for nothing, as in RViz for most of them."""
+        """The target of a click on it; None for nothing, as in most RViz displays."""
         return None
 
     def placed(self) -> Iterator[Placed]:
@@ -145,7 +145,7 @@ class TopicDisplay(Display):
 
     @property
     def rests(self) -> Rests:
-        """Whether its messages may wait until somebody looks."""
+        """Whether its messages may wait until a page is open."""
         is_large = any(meaning.is_large for meaning in self.meanings)
         return "always" if is_large else "where recorded"
 
@@ -170,7 +170,7 @@ class TopicDisplay(Display):
 
     @property
     def is_awake(self) -> bool:
-        """Whether it looks at messages; else nobody looks at it."""
+        """Whether it reads messages now; otherwise no page shows it."""
         return self.subscription is None or not self.subscription.is_asleep
 
     def unseen(self) -> TopicReason | None:
@@ -270,7 +270,7 @@ class TopicDisplay(Display):
             self.context.messages.unsubscribe(self.subscription)
         self.subscription = None
 
-    # What is said
+    # Statuses
 
     def report_topic(self) -> None:
         """Set the status of the topic."""

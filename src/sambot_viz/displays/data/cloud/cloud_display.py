@@ -159,7 +159,7 @@ class CloudDisplay(MessageFilterDisplay[None]):
         self.config.assume(TRANSFORMER, chosen)
 
     def show_taken(self) -> None:
-        """Draw those points that look otherwise now, without what is too old."""
+        """Draw the points whose look has changed, and drop points that are too old."""
         if not self._clouds:
             return
         self._let_decay()

@@ -171,7 +171,7 @@ CLOUD_PROPERTIES: tuple[Property, ...] = (
 
 
 def color_options(config: ConfigItem) -> ColorOptions:
-    """Return what is set about colours in a display of points."""
+    """Return the colour settings of a display of points."""
     get = config.get
     bounds = (float(get("Min Intensity")), float(get("Max Intensity")))
     values = (

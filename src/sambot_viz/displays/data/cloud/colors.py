@@ -26,15 +26,15 @@ _AXES = "XYZ"
 
 @dataclass(frozen=True, slots=True)
 class ColorOptions:
-    """What a user has set about the colours of points.
+    """The user's settings for the colours of points.
 
     Attributes:
         transformer: "Intensity", "AxisColor", "FlatColor", "RGB8" or "RGBF32"; another
             text chooses as RViz does.
         color: of FlatColor, 0 to 255.
         channel: the field of Intensity.
-        is_rainbow: a rainbow, and not between two colours.
-        is_inverted: the rainbow runs the other way.
+        is_rainbow: whether to use a rainbow instead of two colours.
+        is_inverted: whether the rainbow is reversed.
         least_color: of the least intensity, 0 to 255.
         most_color: of the greatest intensity, 0 to 255.
         intensities: the bounds; None takes those of the message.
@@ -92,7 +92,7 @@ def rainbow(values: Floats) -> Colors:
     """Return RViz's rainbow: 0 is magenta, 0.2 blue, …, 0.8 yellow, 1 red.
 
     Args:
-        values: (N,); what is outside of 0 to 1 is taken to its end.
+        values: (N,); values outside of 0 to 1 are clamped.
 
     Returns:
         (N, 3) uint8.

@@ -1,4 +1,4 @@
-"""LaserScan: what a laser scanner measures, each reading where it was measured."""
+"""LaserScan: the readings of a laser scanner, each at the place of its measurement."""
 
 from __future__ import annotations
 

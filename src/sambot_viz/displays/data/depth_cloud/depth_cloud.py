@@ -55,7 +55,7 @@ from sambot_viz.sources.message import Recorded
 COLOR_IMAGE = "Color Image"
 """Key of a status."""
 _NAMES = {DEPTH_TOPIC: ("depth",), COLOR_TOPIC: ("color", "rgb", "bgr", "gray", "mono")}
-"""What a name in the list of topics has in it, where the list is filtered."""
+"""Words that a topic's name contains to be in a filtered list."""
 _WHITE: Bytes = np.full(3, 255, np.uint8)
 _NS = 1_000_000_000
 

@@ -75,16 +75,16 @@ class Occluded:
     def behind(
         self, depths: Depths, colors: Bytes, now_ns: int, longest_ns: int
     ) -> tuple[Depths, Bytes]:
-        """Take an image, and return what it covers.
+        """Add an image, and return the earlier points that it occludes.
 
         Args:
             depths: (H, W) [m].
             colors: (H, W, 3) RGB, or (3,) for all.
             now_ns: the time of the image [ns].
-            longest_ns: what is covered for longer is forgotten [ns].
+            longest_ns: points that are occluded for longer are dropped [ns].
 
         Returns:
-            Depths, NaN where nothing is covered, and their colours.
+            Depths of occluded points, NaN elsewhere, and their colours.
         """
         rgb = np.broadcast_to(colors, (*depths.shape, 3))
         if self._depths is None or self._depths.shape != depths.shape:

@@ -25,13 +25,13 @@ class DepthMessage(Recorded):
 
 
 class DepthSync:
-    """Keeps the last messages of each topic until they have what belongs to them.
+    """Keeps the last messages of each topic until their partners have come.
 
-    A depth image waits for a colour image of its own time or a later one, and has the
-    one that is nearest by the stamps.
+    A depth image waits for a colour image of the same time or a later one, and gets the
+    one with the nearest stamp.
 
     Args:
-        size: so many images of a topic are kept.
+        size: number of images kept for each topic.
         has_color: whether there is a topic of colour images.
     """
 

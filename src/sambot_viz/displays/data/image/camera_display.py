@@ -108,7 +108,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is decoded before somebody looks."""
+        """Make the display; nothing is decoded before a page shows it."""
         super().__init__(context, config, key)
         self._visibility = Visibility(self)
         self._ranges = Ranges()
@@ -154,7 +154,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
         return [one for one in came if one.topic == self.topic]
 
     def messages_came(self) -> None:
-        """Show the newest picture that has a place, if somebody looks."""
+        """Show the newest picture that has a place, if a page shows the panel."""
         before = self._info
         super().messages_came()
         if self._info is not before:
@@ -190,7 +190,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
     # What is shown
 
     def show_taken(self) -> None:
-        """Show the picture as it looks now; what is the same is not sent again."""
+        """Show the picture with the present settings, and send it only if changed."""
         if not self.kept:
             if self.context.messages is not None and self.topic:
                 self.status.set(IMAGE, "Warn", NONE_YET, "no-message")
@@ -218,7 +218,7 @@ class CameraDisplay(MessageFilterDisplay[Any]):
         return made[0]
 
     def _is_refused(self, look: Callable[[], object]) -> bool:
-        """Look at a picture, and say in the status what is wrong with it."""
+        """Inspect a picture, and report its faults in the status."""
         try:
             # Files of pictures break in more ways than those of a message.
             with refusing(IMAGE, "shown", OSError, SyntaxError):

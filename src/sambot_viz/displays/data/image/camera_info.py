@@ -1,4 +1,4 @@
-"""The numbers of sensor_msgs/CameraInfo, and what is said without them."""
+"""The numbers of sensor_msgs/CameraInfo, and the status if they are missing."""
 
 from __future__ import annotations
 
@@ -78,10 +78,10 @@ def numbers_of(message: Any) -> CameraNumbers:
 
 
 def size_doubt(camera: CameraNumbers, size: tuple[int, int]) -> str | None:
-    """Return what is wrong with the size of an image; None where nothing is.
+    """Return a sentence about a wrong size of an image; None if it is right.
 
     Args:
-        camera: its numbers.
+        camera: the numbers of its camera.
         size: width and height of the image [pixels].
     """
     x, y = camera.binning
@@ -95,11 +95,11 @@ def size_doubt(camera: CameraNumbers, size: tuple[int, int]) -> str | None:
 
 
 def no_info(topic: str, messages: TopicMessages | None) -> str:
-    """Say that no camera info has come, and why.
+    """Return why no camera info has come.
 
     Args:
-        topic: where it is expected.
-        messages: what is known of topics.
+        topic: the expected topic.
+        messages: the facts about topics.
     """
     text = f"No CameraInfo received on [{topic}]"
     doubt = messages.doubt(topic, _MEANINGS, _QOS) if messages is not None else None

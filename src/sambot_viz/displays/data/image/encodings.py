@@ -117,13 +117,13 @@ def _rows(message: Any, pixel: int) -> Bytes:
 
 
 def _block(message: Any, first: int, shape: tuple[int, int], step: int) -> Bytes:
-    """Return rows of bytes of a message, which has as many.
+    """Return rows of bytes of a message that is long enough.
 
     Args:
-        message: with its fields.
-        first: where they begin [bytes].
-        shape: so many rows, of so many bytes.
-        step: from one to the next [bytes].
+        message: the decoded message.
+        first: offset of the first row [bytes].
+        shape: number of rows, and bytes of each.
+        step: distance from one row to the next [bytes].
     """
     data = np.ascontiguousarray(message.data, np.uint8)
     return np.lib.stride_tricks.as_strided(data[first:], shape, (step, 1))

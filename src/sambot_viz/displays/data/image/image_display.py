@@ -82,7 +82,7 @@ class ImageDisplay(TopicDisplay):
     )
 
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
-        """Make the display; nothing is decoded before somebody looks."""
+        """Make the display; nothing is decoded before a page shows it."""
         super().__init__(context, config, key)
         self._newest: Recorded | None = None
         self._ranges = Ranges()
@@ -111,7 +111,7 @@ class ImageDisplay(TopicDisplay):
         self.context.pictures.end(self.key)
 
     def messages_came(self) -> None:
-        """Show the newest picture, if somebody looks."""
+        """Show the newest picture, if a page shows the panel."""
         if self.subscription is None:
             return
         if came := self.subscription.drain():
@@ -156,10 +156,10 @@ class ImageDisplay(TopicDisplay):
             self.status.remove(IMAGE)
 
     def _judge(self, newest: Recorded) -> None:
-        """Say of a picture that nobody looks at whether it could be shown.
+        """Report of a picture that no page shows whether it could be shown.
 
-        The first one answers for those that follow; after one that cannot be shown each
-        is looked at. No pixel is unpacked.
+        The first picture answers for the following ones; after one that cannot be shown
+        each is inspected. No pixel is unpacked.
         """
         status = self.status.rows.get(IMAGE)
         is_bad = status is not None and status.level == "Error"

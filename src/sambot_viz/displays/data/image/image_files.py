@@ -137,7 +137,7 @@ def _open(content: bytes, of: str) -> Any:
 
 
 def _depths(content: bytes, of: str) -> Values:
-    """Return the depths of a picture behind a short head of their own, (H, W)."""
+    """Return the depths of a picture that follows a short header, (H, W)."""
     image = _open(content[DEPTH_HEADER:], of)
     stored = np.asarray(image, np.uint16)
     if not of.startswith("32FC1"):

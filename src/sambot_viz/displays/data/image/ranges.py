@@ -20,7 +20,7 @@ class Ranges:
         )
 
     def add(self, values: Values) -> None:
-        """Take a picture; what is not finite has no part in it."""
+        """Add a picture; values that are not finite are ignored."""
         finite = values[np.isfinite(values)]
         least = min(65535.0, float(finite.min())) if finite.size else 65535.0
         most = max(0.0, float(finite.max())) if finite.size else 0.0

@@ -6,7 +6,7 @@ from sambot_viz.rviz import EditableEnumProperty
 
 RAW, COMPRESSED, COMPRESSED_DEPTH = "raw", "compressed", "compressedDepth"
 TRANSPORTS = (COMPRESSED, COMPRESSED_DEPTH, "theora")
-"""What a topic of images may end with, beside those of plain images."""
+"""Suffixes of image topics that are not plain images."""
 ROS1_TOPIC, ROS1_HINT = "Image Topic", "Transport Hint"
 """What files of ROS 1 have in place of a topic with its kind."""
 
@@ -26,8 +26,8 @@ def sent_topic(topic: str, transport: object) -> str:
     """Return the topic that images are sent on.
 
     Args:
-        topic: of the plain images, or that itself.
-        transport: how they are sent; what is not known is plain.
+        topic: the topic of the plain images, or the wanted one.
+        transport: the transport; unknown ones are read as plain.
     """
     is_plain = transport not in TRANSPORTS or topic.rpartition("/")[2] in TRANSPORTS
     return topic if is_plain or not topic else f"{topic}/{transport}"

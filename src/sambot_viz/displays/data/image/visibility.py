@@ -89,7 +89,7 @@ class Visibility:
 
 
 def names_of(config: DisplayConfig) -> Names:
-    """Return the name of a display behind those of its groups."""
+    """Return the name of a display with the names of its groups before it."""
     above = () if config.parent is None else names_of(config.parent)
     return (*above, config.name)
 

@@ -49,21 +49,21 @@ _POSE, _SIZE, _WHITE = Pose(), Xyz(1.0, 1.0, 1.0), Color()
 
 @dataclass(frozen=True, slots=True)
 class ControlMarker:
-    """What is drawn of a visualization_msgs/Marker in a control.
+    """The drawn fields of a visualization_msgs/Marker in a control.
 
     Attributes:
         type: as in the message; so are the other fields of the same name.
-        pose: in the interactive marker, or in the frame.
-        scale: [m].
-        color: of all of it.
-        points: [m].
-        colors: of the points.
-        text: of a text.
-        mesh_resource: of a mesh.
-        mesh_use_embedded_materials: a mesh has the colours of its file.
-        texture_resource: of triangles; so are the two others.
-        frame: that it is placed in once; empty for the interactive marker.
-        stamp_ns: when that frame is looked up [ns]; None for the latest time.
+        pose: pose in the interactive marker, or in the frame.
+        scale: size [m].
+        color: colour of the whole marker.
+        points: positions [m].
+        colors: colours of the points.
+        text: the text of a text marker.
+        mesh_resource: the file of a mesh.
+        mesh_use_embedded_materials: whether a mesh has the colours of its file.
+        texture_resource: the texture of triangles, as the two others.
+        frame: the frame that it is placed in once; empty for the interactive marker.
+        stamp_ns: the time of the look-up of that frame [ns]; None for the latest.
     """
 
     type: int
@@ -83,7 +83,7 @@ class ControlMarker:
 
 
 def control_marker(marker: Any) -> ControlMarker:
-    """Return what is drawn of a message; a scale of 0 is 1."""
+    """Return the drawn fields of a message; a scale of 0 counts as 1."""
     scale = marker.scale
     _, stamp_ns = frame_and_stamp(marker)
     return ControlMarker(

@@ -134,11 +134,11 @@ class InteractiveMarkerNodes:
 
 
 class ControlNodes(MarkerNodes):
-    """The markers of controls; the `frame` of each is the node that it hangs below.
+    """Draws the markers of controls; the `frame` of each is its parent node.
 
     Attributes:
-        poses: those nodes in the fixed frame, T_fixed_group, by their names, as far as
-            rays may meet what is below them.
+        poses: name of a parent node → its pose in the fixed frame, T_fixed_group, for
+            nodes whose markers rays may hit.
     """
 
     poses: Mapping[str, Matrix] = MappingProxyType({})

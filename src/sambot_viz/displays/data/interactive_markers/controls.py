@@ -62,12 +62,12 @@ class Control:
     """One control.
 
     Attributes:
-        name: that no other control of the marker has.
-        group: how it is turned and hidden.
+        name: the name, unique in the marker.
+        group: the controls that are turned and hidden together.
         wxyz: its rotation; x is the axis along or about which it moves.
-        markers: what is drawn of it.
-        mode: of interaction.
-        turning: as its message has it: the frame in which it moves.
+        markers: its drawn markers.
+        mode: the interaction mode.
+        turning: the orientation mode of its message: the frame in which it moves.
     """
 
     name: str

@@ -99,7 +99,7 @@ class Drag:
         if spread < _LEAST * square:
             return None
         step = (float(away @ ray) * across - float(away @ way) * square) / spread
-        # Behind the point where the axis vanishes nothing is seen of it.
+        # Beyond its vanishing point the axis is not visible.
         return self._moved(step * way) if depth + step * ahead > 0.0 else None
 
     def _in_plane(self, aim: Aim, shift: bool, ctrl: bool) -> Matrix | None:

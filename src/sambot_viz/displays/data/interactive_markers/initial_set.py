@@ -1,7 +1,7 @@
-"""The markers that were there before anybody listened, as their program's service says.
+"""The markers from before the subscription, from the service of their program.
 
-The answer of get_interactive_markers has the fields of a message of full sets, but for
-the name of the server; it is handed on as such a message.
+The answer of get_interactive_markers has the fields of a message of full sets, except
+the name of the server; it is delivered as such a message.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def as_full_set(reply: Reply) -> bytes:
     """Return the answer of the service as a message of full sets, in its encoding.
 
     Raises:
-        DecodeError: it is no such answer.
+        DecodeError: the bytes are no such answer.
     """
     if reply.is_json:
         try:
@@ -35,6 +35,6 @@ def as_full_set(reply: Reply) -> bytes:
     head, fields = reply.content[:_HEAD], reply.content[_HEAD:]
     if len(head) < _HEAD:
         raise DecodeError("it is empty")
-    # An empty name: its length with the zero behind it, up to where a number may begin.
+    # An empty name: length, final zero, and padding to the next number.
     order = "<" if head[1] & 1 else ">"
     return head + struct.pack(f"{order}Ixxxx", 1) + fields

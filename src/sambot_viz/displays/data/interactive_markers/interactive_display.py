@@ -43,7 +43,7 @@ UPDATE, FULL = "/update", "/update_full"
 """What the names of the topics end with."""
 KEEP_ALIVE = 0
 FEEDBACK = "/feedback"
-"""What the name of the topic ends with where the program hears of what is done."""
+"""Suffix of the topic on which the program receives the feedback."""
 _PATIENCE = 5
 """Pause before a missing service is called again [s]."""
 WHOLE_S = 1e8
@@ -244,7 +244,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
 
     @property
     def has_handles(self) -> bool:
-        """Whether a program hears of what is done with its markers."""
+        """Whether a program receives feedback about its markers."""
         messages = self.context.messages
         if messages is None or not self._markers.known:
             return False
@@ -293,7 +293,7 @@ class InteractiveMarkersDisplay(TopicDisplay):
         if self.subscription is not None:
             self.subscription.waits = self._markers.waits
 
-    # What is said
+    # Statuses
 
     def report_topic(self) -> None:
         """Set the statuses of the namespace and of its updates."""

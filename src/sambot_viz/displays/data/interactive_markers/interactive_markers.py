@@ -39,17 +39,17 @@ EMPTY = "Marker empty."
 
 
 class InteractiveMarkers:
-    """What is shown of the interactive markers that have come.
+    """Shows the received interactive markers.
 
     Args:
-        context: what to draw with.
-        rows: take what is said of markers.
-        key: what the names of nodes begin with.
+        context: the objects to draw with.
+        rows: show the statuses of markers.
+        key: prefix of the names of nodes.
         files_found: called when mesh files are known.
 
     Attributes:
-        known: by their names.
-        unknown: names of those of which only a pose has come.
+        known: name → marker.
+        unknown: names of markers of which only a pose has come.
     """
 
     def __init__(
@@ -180,14 +180,14 @@ class InteractiveMarkers:
         name = f"{self._key}i{short_id(self._made)}"
         return InteractiveMarkerNodes(self._context.scene, name)
 
-    # What is drawn
+    # Drawing
 
     def placed(self, facing: Matrix | None = None) -> Iterator[Placed]:
-        """Yield what is visible, for rays.
+        """Yield the visible markers, for rays.
 
         Args:
-            facing: rotation of what faces the view, (4, 4); None for what is visible
-                with every tool.
+            facing: rotation of markers that face the view, (4, 4); None for the markers
+                that are visible with every tool.
         """
         known = (one for one in self.known.values() if one.drawn is not None)
         poses = (one.group_poses(self._context, facing) for one in known)
@@ -195,7 +195,7 @@ class InteractiveMarkers:
         yield from self._nodes.placed(self._shown, self.item_of)
 
     def control_of(self, item: Selectable) -> tuple[str, KnownMarker, Control] | None:
-        """Return what a marker of a control belongs to; None for anything else."""
+        """Return the owner of a marker of a control; None for other markers."""
         name, _, number = item.name.rpartition("/")
         known = self.known.get(name)
         if known is None or item.kind != "marker" or item.of != self._key:
@@ -274,7 +274,7 @@ class InteractiveMarkers:
         self._rows.say(name, "Error" if wrong else "Ok", wrong or fine)
 
     def _show(self, name: str, known: KnownMarker, parts: Sequence[ControlPart]) -> str:
-        """Show the markers of controls; return what is wrong with one of them."""
+        """Show the markers of controls; return the fault of one of them."""
         wrong, before = "", dict.fromkeys(known.shown)
         known.shown = []
         for number, part in enumerate(parts):

@@ -45,10 +45,10 @@ class ControlPart:
     """A marker of a control, with its place.
 
     Attributes:
-        control: whose marker it is; "" for the description.
+        control: its control; "" for the description.
         group: the controls that it is turned and hidden with.
-        marker: what is drawn.
-        place: of the frame of its pose, in its group.
+        marker: the drawn fields.
+        place: pose of its own frame in its group.
     """
 
     control: str
@@ -69,16 +69,16 @@ class KnownMarker:
 
     Attributes:
         nodes: as given.
-        scale: [m].
-        frame: that its pose is in.
-        shown: the numbers of its parts that are shown.
-        drawn: the parts that are drawn, and with what options.
-        wrong: what is wrong with one of them; empty when nothing is.
-        refused: why the last message was not taken; empty when it was.
-        controls: what is drawn of its controls, by their names.
+        scale: size [m].
+        frame: the frame of its pose.
+        shown: the numbers of its shown parts.
+        drawn: the drawn parts, and their options.
+        wrong: the fault of one of them; empty without any.
+        refused: why the last message was rejected; empty if it was accepted.
+        controls: name → drawn control.
         menu: its menu.
-        is_held: whether a hand moves it.
-        later: what messages ask for meanwhile, to be done when it is left.
+        is_held: whether a user is dragging it.
+        later: updates from messages during a drag, applied after it.
     """
 
     def __init__(self, message: Any, nodes: InteractiveMarkerNodes) -> None:
@@ -213,16 +213,16 @@ class KnownMarker:
     def parts(
         self, context: DisplayContext, *, transparency: bool
     ) -> Sequence[ControlPart]:
-        """Return what is drawn of its controls; the description is the last one.
+        """Return the drawn parts of its controls; the description is the last one.
 
-        What has its own frame is placed there once, when this is called first.
+        A part with its own frame is placed there once, in the first call.
 
         Args:
-            context: has the frames.
+            context: the context, with the frames.
             transparency: whether handles keep their alpha.
 
         Raises:
-            LookupRefused: such a frame has no place.
+            LookupRefused: a part's own frame has no place.
         """
         if self._parts is None:
             controls = controls_of(self._message, is_transparent=transparency)

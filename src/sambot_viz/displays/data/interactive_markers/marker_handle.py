@@ -52,11 +52,11 @@ class MarkerHandle:
     """Implements `displays.picking.handle.Handle`.
 
     Args:
-        context: has the frames.
-        markers: of the display.
+        context: the context, with the frames.
+        markers: the markers of the display.
         found: name of the marker, the marker, and its control.
-        topic: where its program hears of what is done.
-        draw: draws what has changed.
+        topic: the topic for feedback to its program.
+        draw: draws the changes.
     """
 
     def __init__(
@@ -96,7 +96,7 @@ class MarkerHandle:
 
     @property
     def is_there(self) -> bool:
-        """Whether the marker still is the one that was met."""
+        """Whether the marker still is the one that the ray has hit."""
         return self._markers.known.get(self.marker) is self._known
 
     def grab(self, point: Array, aim: Aim) -> bool:

@@ -44,13 +44,13 @@ _UNNORMALIZED = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """What is said of a marker.
+    """The status of a marker.
 
     Attributes:
-        level: the worst of it.
-        text: all sentences; empty when nothing is said.
+        level: the worst level of its sentences.
+        text: all sentences; empty without any.
         is_drawn: whether there is something to draw.
-        is_ignored: the message is as if it had not come.
+        is_ignored: whether the message is ignored.
     """
 
     level: Level = "Ok"
@@ -93,7 +93,7 @@ def looks_the_same(marker: Any, before: Any) -> bool:
         # A comparison with NaN is never true.
         if not (abs(norm - 1.0) <= _UNNORMALIZED and math.isfinite(p.x + p.y + p.z)):
             return False
-    # Of what was decoded together, behind the pose, this is the first.
+    # The first of the fields after the pose, which are decoded together.
     if marker.scale is not before.scale or marker.type != before.type:
         return False
     return not marker.frame_locked or (marker.header.frame_id == before.header.frame_id)
@@ -173,7 +173,7 @@ def _about_scale(kind: int, scale: Any, points: int) -> Iterator[str]:
 
 
 def _errors(marker: Any, kind: int) -> tuple[Sequence[str], bool]:
-    """Return what is wrong, and whether nothing is drawn because of that."""
+    """Return the fault, and whether nothing is drawn because of it."""
     count, found, hidden = len(marker.points), list[str](), False
     if kind == ARROW and count not in (0, 2):
         found.append("Number of points for an ARROW marker should be either 0 or 2.")

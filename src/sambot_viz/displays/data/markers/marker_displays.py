@@ -29,8 +29,8 @@ from sambot_viz.topics.decoding import frame_and_stamp
 
 DUPLICATES, MESSAGES = "Duplicate Marker Check", "Messages"
 FEWEST = 5
-"""So many messages between two pictures are read whatever their size, as many as RViz
-keeps: a computer that is slow goes on to show the newest."""
+"""Messages that are read between two pictures whatever their size; RViz keeps as many.
+With the limit a slow computer still shows the newest ones."""
 ROS1_TOPIC = "Marker Topic"
 """What files of ROS 1 call the topic."""
 _NAMESPACES = GroupProperty(
@@ -58,7 +58,7 @@ class MarkerDisplay(MessageFilterDisplay[None]):
     def __init__(self, context: DisplayContext, config: DisplayConfig, key: str):
         """Make the display; nothing is drawn before `draw`."""
         super().__init__(context, config, key)
-        # What is drawn is kept by its markers.
+        # The markers keep their own state.
         self.held = HeldMessages(most_drawn=1)
         self._is_after_jump = True
         self._has_left_out = False
@@ -128,7 +128,7 @@ class MarkerDisplay(MessageFilterDisplay[None]):
         self.status.remove(TRANSFORM)
 
     def process(self, message: Any, T_fixed_frame: Transform, came: Recorded) -> None:
-        """Do what a message asks for."""
+        """Add, change or delete markers, as a message requests."""
         markers = getattr(message, "markers", None)
         if markers is not None:
             self._look_for_duplicates(markers)

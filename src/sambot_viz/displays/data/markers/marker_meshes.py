@@ -34,18 +34,19 @@ class MeshFinder:
     """Finds one mesh file.
 
     The name is looked up as that of a robot with a single shape would be, so markers
-    open what a robot of a topic may open, and no more; a live robot hands it out.
+    can open the same files as a robot from a topic, and no others; a live robot serves
+    them.
 
     Args:
         context: reads models.
-        resource: as the marker names it.
+        resource: the name in the marker.
         found: called when the file is known, or known to be missing.
 
     Attributes:
-        resource: as the marker names it.
+        resource: the name in the marker.
         asset: the file; None while it is not found.
-        is_done: nothing more is looked for.
-        reason: why it was not found, where it was looked for, and what to do.
+        is_done: whether the search has ended.
+        reason: why it was not found, the searched places, and what to do.
     """
 
     def __init__(
@@ -83,11 +84,11 @@ class MeshFinder:
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """How a mesh is coloured.
+    """The colouring of a mesh.
 
     Attributes:
-        color: of all of it, or what is blended over its own colours.
-        tint: how much of that; None for all of it.
+        color: the colour of the whole mesh, or blended over its own colours.
+        tint: weight of the blending; None for the colour alone.
         alpha: 0 to 1.
     """
 
@@ -96,12 +97,12 @@ class _Look:
     alpha: float
 
     def of(self, part: MeshPart) -> tuple[Rgba, bool, Rgba | None]:
-        """Return the colour of a part, if it has its texture, and what is over it."""
+        """Return the colour of a part, whether its texture stays, and the overlay."""
         red, green, blue = (c / 255 for c in self.color)
         if self.tint is None:
             return (red, green, blue, self.alpha), False, None
         if part.rgba is None and part.texture is None:
-            # RViz sees the colour as what is drawn over the mesh, and draws it alone.
+            # RViz takes the colour for the overlay, and draws it alone.
             alpha = self.alpha if self.alpha >= OPAQUE_FROM else self.tint
             return (red, green, blue, alpha), False, None
         own, textured = (part.rgba or WHITE)[:3], part.texture is not None

@@ -82,11 +82,11 @@ class MarkerNodes:
                 yield key, nodes.fault
 
     def update(self, shown: Mapping[Key, Shown], changed: Iterable[Key]) -> None:
-        """Draw what has changed, and remove what is shown no longer.
+        """Draw changed markers, and remove those that are no longer shown.
 
         Args:
-            shown: all that is to be shown.
-            changed: what is other than at the last call.
+            shown: all markers to show.
+            changed: those that differ from the last call.
         """
         dirty: dict[Hashable, None] = {}
         touched: dict[Hashable, None] = {}
@@ -105,7 +105,7 @@ class MarkerNodes:
                 if key in self._single and self._single[key][0] != kind:
                     self._drop_single(key)
                 todo.append((key, one, above))
-        # What is the same is drawn again where it went with a node above it.
+        # An unchanged marker is drawn again if its parent node was removed.
         again = (group for group in touched if self._batches[group].node.is_gone)
         for group in dirty | dict.fromkeys(again):
             self._draw_batch(group)

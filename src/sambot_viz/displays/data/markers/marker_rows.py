@@ -1,4 +1,4 @@
-"""What is said of markers: a status for each, up to a number."""
+"""The statuses of markers: one for each, up to a limit."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class MarkerRows:
         self._status.set(MARKERS, level, text)
 
     def __contains__(self, name: str) -> bool:
-        """Return whether something is said of a marker."""
+        """Return whether a marker has a status."""
         return name in self._rows
 
     def unsay(self, name: str) -> None:

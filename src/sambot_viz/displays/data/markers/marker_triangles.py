@@ -150,7 +150,7 @@ class TrianglesNode:
             blended = marker.color.a < OPAQUE_FROM
             rgba = np.repeat(rgba, 3, axis=0)
         rgba = rgba[np.repeat(good, 3)]
-        # What is not blended is opaque, whatever its alpha.
+        # Triangles that are not blended are opaque, whatever their alpha.
         alpha = rgba[:, 3] * alpha_of(marker.color) if blended else 255
         rgba = np.column_stack([rgba[:, :3], np.full(len(rgba), alpha)])
         colors = np.round(rgba).astype(np.uint8)

@@ -28,13 +28,13 @@ SHORTEST_LIFE_NS = 100_000
 
 
 class Markers:
-    """What is shown of the markers that have come.
+    """Shows the received markers.
 
     Args:
-        context: what to draw with.
-        status: takes what is said of markers.
-        namespaces: which are shown.
-        key: what the names of nodes begin with.
+        context: the objects to draw with.
+        status: shows the statuses of markers.
+        namespaces: know which markers are shown.
+        key: prefix of the names of nodes.
         files_found: called when mesh files are known.
     """
 
@@ -63,11 +63,11 @@ class Markers:
     # What messages ask for
 
     def apply(self, marker: Any, arrived_ns: int) -> None:
-        """Do what a marker asks for; `draw` shows it.
+        """Add, change or delete a marker; `draw` shows it.
 
         Args:
             marker: the message.
-            arrived_ns: when it came [ns].
+            arrived_ns: time of arrival [ns].
         """
         action = int(marker.action)
         key = (str(marker.ns), int(marker.id))
@@ -249,7 +249,7 @@ class Markers:
                     check = check_of(one.marker)
                     self._say(key, check.level, check.text)
 
-    # What is drawn
+    # Drawing
 
     def draw(self) -> None:
         """Draw what has changed."""
@@ -275,7 +275,7 @@ class Markers:
         self._nodes.remove()
 
     def placed(self) -> Iterator[Placed]:
-        """Yield what is drawn, for rays."""
+        """Yield the drawn markers, for rays."""
         yield from self._nodes.placed(self.shown, self.item_of)
 
     def item_of(self, key: Key) -> Selectable:
@@ -302,7 +302,7 @@ class Markers:
             text = f"Mesh resource marker [{key[0]}/{key[1]}] {fault}"
             self._say(key, "Error", text)
 
-    # What is said
+    # Statuses
 
     def _say(self, key: Key, level: Level, text: str) -> None:
         row = f"{key[0]}/{key[1]}"

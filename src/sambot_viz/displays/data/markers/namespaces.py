@@ -57,8 +57,8 @@ class Namespaces:
         """Return the rows.
 
         Args:
-            changed: called with the name of one whose box was ticked or unticked.
-            facts: name → what else is said of it.
+            changed: called with the name of a namespace whose box has changed.
+            facts: name → further facts about it.
         """
 
         def set_box(name: str, path: str, value: Any) -> Any:

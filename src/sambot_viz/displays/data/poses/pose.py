@@ -100,7 +100,7 @@ class PoseDisplay(MessageFilterDisplay[PoseRead]):
         return SelectedPose(title, frame, turn, at, here, more)
 
     def other_facts(self, covariance: Floats) -> Sequence[Fact]:
-        """Return what else is said of a selected pose."""
+        """Return further details of a selected pose."""
         del covariance
         return ()
 
