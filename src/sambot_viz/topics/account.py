@@ -1,8 +1,8 @@
-"""What became of a topic: received, read, placed, drawn; or why not.
+"""The account of a topic: received, decoded, placed, drawn; or why not.
 
-Each step is written by who does it: the source, the decoder, who looks for the place of
-a frame, and the displays. Who tells it reads it here: the list of topics in the page
-and on the command line, statuses, problems, programs.
+Each step is written by the code that does it: the source, the decoder, the placement of
+frames, and the displays. Everything that reports it reads it here: the lists of topics
+in the page and on the command line, statuses, problems and programs.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from sambot_viz.topics.reasons import TopicReason
 
 @dataclass(frozen=True, slots=True)
 class Account:
-    """What is to be said of a topic.
+    """The account of a topic.
 
     Attributes:
-        name: of the topic.
-        type_name: of its messages; empty when that is not said.
-        count: of its messages; None while that is not known.
-        rate: of its messages [Hz]; None when there are less than two.
-        readable: messages of this type and encoding can be decoded.
-        reason: why nothing of it is seen, or what to know of it; None for nothing.
+        name: the topic.
+        type_name: the type of its messages; empty if unknown.
+        count: number of its messages; None while unknown.
+        rate: rate of its messages [Hz]; None for fewer than two.
+        readable: whether messages of this type and encoding can be decoded.
+        reason: why it shows nothing, or a note about it; None without one.
     """
 
     name: str
@@ -58,14 +58,14 @@ DrawingOf = Callable[[str, str], Drawing]
 
 
 class Evidence(Protocol):
-    """What is known of the topics of a source: recorded ones, or those of a robot."""
+    """The facts about the topics of a source, from a recording or a robot."""
 
     def topic(self, name: str) -> SourceTopic:
         """Return what the source says of a topic."""
         ...
 
     def decoder(self, name: str) -> Decoder:
-        """Return what decodes its messages, or says why nobody does."""
+        """Return the decoder of its messages, or the reason why there is none."""
         ...
 
     def looked(self, name: str) -> Looked:
@@ -77,7 +77,7 @@ class Evidence(Protocol):
         ...
 
     def of_robot(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms or its robot, or what hides them."""
+        """Return the fault of its transforms or its robot, or what hides them."""
         ...
 
     def to_come(self, name: str) -> TopicReason | None:
@@ -103,11 +103,11 @@ def account_of(
     """Return the account of a topic.
 
     Args:
-        evidence: what is known of it.
-        name: of the topic.
-        count: of its messages; None while that is not known.
-        rate: of its messages [Hz]; None when there are less than two.
-        drawing: what displays do with it; None where there are none.
+        evidence: the facts about it.
+        name: the topic.
+        count: number of its messages; None while unknown.
+        rate: rate of its messages [Hz]; None for fewer than two.
+        drawing: what displays do with it; None without displays.
     """
     decoder, topic = evidence.decoder(name), evidence.topic(name)
     found = _reasons(evidence, name, decoder, drawing)
@@ -122,9 +122,9 @@ def account_of(
 
 
 def unheard(evidence: Evidence, name: str) -> TopicReason | None:
-    """Return why a topic gives a display nothing, or not all that it should.
+    """Return why a topic gives a display nothing, or less than it should.
 
-    It is the part of the account that does not depend on what is drawn.
+    This is the part of the account that does not depend on displays.
     """
     found = (
         evidence.unreceived(name),
@@ -136,7 +136,7 @@ def unheard(evidence: Evidence, name: str) -> TopicReason | None:
 
 
 def unread(decoder: Decoder) -> TopicReason | None:
-    """Return why nobody decodes the messages of a topic."""
+    """Return why the messages of a topic cannot be decoded."""
     reason = decoder.reason
     return None if reason is None else TopicReason(reason.code, reason.text)
 
@@ -154,12 +154,12 @@ def _reasons(
     if not drawing.has_looked and reasons.drawn_by(name, decoder.type_name) is None:
         drawing = Drawing(reasons.no_display(decoder.type_name, looked.fields))
     if (to_come := evidence.to_come(name)) is not None:
-        # What is not drawn at all is not worth waiting for.
+        # A topic that no display draws is not worth waiting for.
         yield None if drawing.has_looked else drawing.reason
         yield to_come
     if not drawing.has_looked:
         nothing = looked.nothing
-        # What is not drawn in any frame needs no transform.
+        # A topic that is not drawn in a frame needs no transform.
         yield nothing if nothing is not None and nothing.code == "not-drawn" else None
         yield evidence.unplaced(name)
         yield nothing

@@ -52,15 +52,16 @@ class Decoding:
     def decode(self, message: Recorded, kept: KeptElements | None = None) -> Any:
         """Return a message in the look of its meaning (see `Meaning`).
 
-        The frames of its headers have the names that they have in the tree. One whose
-        schema means nothing here is a dict of its fields, or has them.
+        The frames of its headers get their names in the tree. A message of an unknown
+        schema is a dict of its fields, or an object with them.
 
         Args:
-            message: its bytes.
-            kept: of the message before; equal elements of arrays are the same objects.
+            message: the bytes of the message.
+            kept: state of the message before; equal elements of arrays are the same
+                objects.
 
         Raises:
-            DecodeError: its bytes are not what its type says, or nobody reads them.
+            DecodeError: the bytes do not fit the type, or the type is not read.
         """
         read = self._read(message, kept)
         if self.spaces:
@@ -137,7 +138,7 @@ class Decoding:
 
 
 def prefixed(frame: str, prefix: str) -> str:
-    """Return the name of a frame with a prefix; one that has it already keeps it."""
+    """Return the name of a frame with a prefix; add it only if it is missing."""
     frame = plain_name(frame)
     has_it = not frame or frame.startswith(f"{prefix}/")
     return frame if has_it else f"{prefix}/{frame}"
@@ -147,8 +148,8 @@ def put_prefix(value: Any, prefix: str) -> None:
     """Put a prefix before the frames of a message, and of the elements of its arrays.
 
     Args:
-        value: has its fields; what is shared with other messages is changed once.
-        prefix: without a slash at its end.
+        value: the decoded message; parts shared with other messages are changed once.
+        prefix: the prefix, without a slash at its end.
     """
     for name in _FRAMES:
         frame = getattr(value, name, None)

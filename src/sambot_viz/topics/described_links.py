@@ -1,6 +1,6 @@
-"""The links that a description tells of, by the frames that its joints hold.
+"""Find the links of a robot description, by the frames of its joints.
 
-The text is looked through, and no model is made of it: that costs a hundredth.
+The text is searched without making a model of it, which costs a hundredth.
 """
 
 from __future__ import annotations

@@ -21,13 +21,13 @@ _WIDEST = 80
 
 @dataclass(frozen=True, slots=True)
 class TopicEnd:
-    """One that publishes a topic, or subscribes to it.
+    """A publisher or a subscriber of a topic.
 
     Attributes:
-        node: its full name, or what stands for it.
-        publishes: else it subscribes.
-        qos: what it offers or asks for, in RViz's words; "" where that is not known.
-        trouble: why it gets nothing from a publisher, with the remedy; "" when it does.
+        node: the full name of its node, or a placeholder.
+        publishes: whether it is a publisher.
+        qos: the QoS that it offers or requests, in RViz's words; "" if unknown.
+        trouble: why it gets nothing from a publisher, with the remedy; "" if it does.
     """
 
     node: str
@@ -42,7 +42,7 @@ class TopicEnd:
 
 
 def ends_of(topic: SourceTopic) -> Iterator[TopicEnd]:
-    """Yield who publishes a topic, then who subscribes, as far as that is said."""
+    """Yield the publishers of a topic, then its subscribers, as far as known."""
     ends = topic.endpoints
     if ends is None:
         publishers = topic.publishers if isinstance(topic.publishers, tuple) else ()

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 
 class FirstMessages:
-    """Reads the first message of a topic, once somebody asks for it.
+    """Reads the first message of a topic, on demand and once.
 
     Args:
-        recording: the messages; None where nothing is recorded.
-        decode: a message as an object with its fields; raises DecodeError.
+        recording: the messages; None without a recording.
+        decode: returns a message as an object with its fields; raises DecodeError.
     """
 
     def __init__(

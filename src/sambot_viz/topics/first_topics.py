@@ -29,12 +29,12 @@ _NEEDED = (
     "rviz_default_plugins/PointStamped",
     IMAGE,
 )
-"""The order of need: what is large and below comes first."""
+"""The order of drawing: large displays that lie below others come first."""
 _RANK = {kind: rank for rank, kind in enumerate(_NEEDED)}
 
 
 def shown_at_first(types: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Return what is shown of some topics at first: topic and class of display.
+    """Choose the first displays for some topics: topic and class of display.
 
     Args:
         types: topic → type of its messages.

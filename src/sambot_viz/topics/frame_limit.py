@@ -17,12 +17,12 @@ Transforms = Sequence[tuple[int, tuple[FramePair, ...], Poses]]
 
 @dataclass(frozen=True, slots=True)
 class _Passed:
-    """What is let through of some frames.
+    """The accepted part of some frames.
 
     Attributes:
-        all_edges: those frames.
-        rows: those of them that are let through.
-        edges: the frames of these.
+        all_edges: all the frames.
+        rows: indices of the accepted ones.
+        edges: the accepted frames.
     """
 
     all_edges: tuple[FramePair, ...]

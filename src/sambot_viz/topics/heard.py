@@ -1,7 +1,7 @@
-"""What has come of a topic since somebody listens to it, and how often.
+"""Messages of a topic since the subscription: their number, rate and content.
 
-No clock is asked here. Times are those of the source, which may be of a simulation, be
-paused, and go back.
+No clock is read here. Times are those of the source, which may be simulated, may pause,
+and may go back.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Heard:
     """Counts the messages of a topic, and keeps the last one.
 
     Args:
-        since: when somebody began to listen, by the clock of the session [s].
+        since: time of the subscription, by the clock of the session [s].
 
     Attributes:
         since: as given.
@@ -45,7 +45,7 @@ class Heard:
         self._lock = threading.Lock()
 
     def take(self, message: Recorded) -> None:
-        """Take a message that has come; one that is older begins a new run."""
+        """Count a received message; an older one begins a new run."""
         with self._lock:
             if self._times and message.log_ns < self._times[-1]:
                 self._times.clear()
@@ -58,7 +58,7 @@ class Heard:
         self.last = message
 
     def look(self, decode: Callable[[Recorded], Any]) -> Looked:
-        """Return what is seen of the last message."""
+        """Return the content of the last message."""
         message = self.last
         if message is not None and message is not self._looked_at:
             self._looked_at, self._looked = message, Looked()
@@ -81,7 +81,7 @@ class Heard:
         """
         if self.last is None:
             return None
-        # Clocks that are told from time to time are a little behind their messages.
+        # A clock that is published now and then is a little later than its messages.
         return max(0, now_ns - self.last.log_ns) / 1e9
 
     def rate(self, now_ns: int) -> float | None:

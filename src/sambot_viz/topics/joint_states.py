@@ -90,7 +90,7 @@ class JointStateTopics:
             self.clear()
 
     def take(self, message: Recorded) -> None:
-        """Take the positions of a message; no number is no news."""
+        """Take the positions of a message, if all are finite."""
         for template in self._templates.get(message.channel, ()):
             positions = template.read(message.payload)
             if positions is None:

@@ -1,4 +1,4 @@
-"""What is known of the topics of a robot on the network."""
+"""The facts about the topics of a robot on the network."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ from sambot_viz.topics.reasons import TopicReason
 from sambot_viz.topics.source_robot import SourceRobot
 
 SILENT_AFTER = 5.0
-"""A topic of which nothing has come for so long is said to be silent [s]."""
+"""Time without a message after which a topic is reported as silent [s]."""
 FaultOf = Callable[[str], LookupRefused | None]
 _LARGE = re.compile(r"(Image|PointCloud2?|Video|Packet\w*)$")
 """Types of messages that would fill a wireless network."""
 
 
 def is_large(topic: SourceTopic) -> bool:
-    """Return whether messages are listened to only where somebody asks for them."""
+    """Return whether a topic of this type is only subscribed to on demand."""
     return _LARGE.search(topic.schema.name) is not None
 
 
 class LiveEvidence:
-    """Knows what has been heard of each topic (see `Evidence`).
+    """Collects the received messages of each topic (see `Evidence`).
 
     Args:
         moved_by: the robot.
-        placement: says why a frame has no place.
-        fault_of: says why a frame has no place in the picture; None when it has one.
-        heard_of: returns what a display has heard of a topic; None where none listens.
+        placement: explains why a frame has no place.
+        fault_of: returns why a frame has no place in the picture; None if it has one.
+        heard_of: returns the messages that a display received; None without a display.
         now: returns the time of the session [s].
 
     Attributes:
-        own: what the list of topics has heard, by name.
+        own: topic → the messages that the list of topics received.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class LiveEvidence:
         self._now = now
 
     def heard(self, name: str) -> Heard | None:
-        """Return what has come of a topic, whoever has listened; None for nobody."""
+        """Return the received messages of a topic; None without a subscription."""
         return self.own.get(name) or self._heard_of(name)
 
     # The evidence
@@ -67,7 +67,7 @@ class LiveEvidence:
         return self._moved_by.source.topics()[name]
 
     def decoder(self, name: str) -> Decoder:
-        """Return what decodes its messages, or says why nobody does."""
+        """Return the decoder of its messages, or the reason why there is none."""
         return self._moved_by.decoder(self.topic(name))
 
     def looked(self, name: str) -> Looked:
@@ -93,11 +93,11 @@ class LiveEvidence:
         return found
 
     def of_robot(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms or its robot, or what hides them."""
+        """Return the fault of its transforms or its robot, or what hides them."""
         return self._placement.of_robot(name)
 
     def to_come(self, name: str) -> TopicReason | None:
-        """Return None: nobody knows what a robot will say."""
+        """Return None: the future messages of a robot are unknown."""
 
     def unplaced(self, name: str) -> TopicReason | None:
         """Return why the frame of its newest message has no place."""

@@ -17,10 +17,10 @@ _FILE = re.compile(r"""filename\s*=\s*["'](package://([^"'/]+)/([^"']+))["']""")
 
 
 def fetch_files(source: Source, text: str, folder: Path) -> tuple[Problem, ...]:
-    """Write the files of a description, and say which the source does not hand out.
+    """Write the files of a description, and report those that the source refuses.
 
     Args:
-        source: is asked once for each file; one that hands out none is not.
+        source: gets one request for each file, if it serves files at all.
         text: the description, as XML.
         folder: becomes a folder of packages.
     """

@@ -16,19 +16,19 @@ from sambot_viz.topics.reasons import TopicReason
 
 @dataclass(slots=True)
 class Looked:
-    """What was seen of a topic.
+    """The result of reading some messages of a topic.
 
     Attributes:
-        seen: number of messages met.
-        first_ns: log time of the first one [ns]; None when none was met.
-        last_ns: log time of the last one that was met [ns].
-        decoded: it was tried with so many.
-        undecoded: number of those that cannot be decoded.
+        seen: number of messages that were read.
+        first_ns: log time of the first one [ns]; None without any.
+        last_ns: log time of the last one that was read [ns].
+        decoded: number of attempts to decode one.
+        undecoded: number of messages that cannot be decoded.
         cause: why the first of them cannot.
-        frame: of the headers; empty when they have none.
-        stamps: the least and the greatest of the headers [ns]; None without.
+        frame: the frame of the headers; empty without one.
+        stamps: the lowest and the highest stamp of headers [ns]; None without any.
         fields: the names in a message.
-        nothing: why nothing of the messages is seen; None when something of one is.
+        nothing: why all messages are empty; None if one is not.
     """
 
     seen: int = 0

@@ -1,9 +1,9 @@
-"""Robots with name spaces: the frames of each are kept apart, in one tree.
+"""Robots with name spaces: keep their frames apart in one tree.
 
-Robots of one kind call their frames alike, and each tells of them on topics of its name
-space: /a/tf and /b/tf. tf2 listens to one of them. Here the frames of a name space get
-its name, such as a/base_link, but for those that stand above the robots: a map is the
-same for all.
+Robots of one kind use the same names of frames, and each publishes them on topics of
+its name space: /a/tf and /b/tf. tf2 listens to one of them. Here the frames of a name
+space get its name, such as a/base_link, except the frames above the robots: a map is
+the same for all.
 """
 
 from __future__ import annotations
@@ -96,9 +96,9 @@ class NameSpaces:
                 self._begin_again()
 
     def prefix_of(self, topic: str) -> str:
-        """Return what is put before the frames of a topic, such as "a/", or "".
+        """Return the prefix of the frames of a topic, such as "a/", or "".
 
-        Of name spaces within each other the nearest one counts.
+        Of nested name spaces the innermost one counts.
         """
         space = space_of(topic) if self._spaces else ""
         while space and space not in self._spaces:
@@ -116,9 +116,9 @@ class NameSpaces:
         ]
 
     def frame_of(self, topic: str, frame: str) -> str:
-        """Return the name of the frame that a message of a topic means.
+        """Return the frame in the tree for a name in a message of a topic.
 
-        It is one of the topic's name space, or else one that others have under that
+        A frame of the topic's name space comes first, then one of others with that
         name.
         """
         prefix = self.prefix_of(topic)
@@ -146,14 +146,14 @@ class NameSpaces:
         return put if known is None else known.given.get(prefix, put)
 
     def meant(self, frame: str, preferred: Iterable[str] = ()) -> tuple[str, ...]:
-        """Return the frames that are meant by a name that knows no name space.
+        """Return the frames for a name without a name space.
 
         Args:
-            frame: the name, as a config has it.
-            preferred: topics of the robots that are meant before others.
+            frame: the name in a config.
+            preferred: topics of the robots that come before others.
 
         Returns:
-            The frame itself where it is one, or nobody calls one so.
+            The name itself if it is a frame, or if no name space has such a frame.
         """
         frame = plain_name(frame)
         with self._lock:
@@ -170,7 +170,7 @@ class NameSpaces:
         return tuple(found) if len(found) == 1 else tuple(sorted(given.values()))
 
     def _of_its_space(self, frame: str) -> dict[str, str]:
-        """Return what a frame is called whose name has a name space before it."""
+        """Return the frame for a name that begins with a name space, by its prefix."""
         prefix = self.prefix_of(f"/{frame}")
         known = self._known.get(frame.removeprefix(prefix)) if prefix else None
         return {p: n for p, n in known.given.items() if p == prefix} if known else {}

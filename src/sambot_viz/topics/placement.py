@@ -22,9 +22,9 @@ from sambot_viz.topics.source_robot import SourceRobot
 from sambot_viz.topics.transforms import TransformTopics, problems_of_parents
 
 SOON = 1_000_000_000
-"""A transform that is so much older than a message is still to come [ns]."""
+"""A last transform older than a message by up to this may have a successor [ns]."""
 AT_END = 200_000_000
-"""So much newer than the last transform is the last message of many recordings [ns]."""
+"""Many recordings end with messages this much newer than the last transform [ns]."""
 _HOUR = 3_600_000_000_000
 """Stamps that are farther from all of /tf are of another clock [ns]."""
 _DAY = 24 * _HOUR
@@ -79,7 +79,7 @@ class Placement:
         )
 
     def of_robot(self, name: str) -> TopicReason | None:
-        """Return what is wrong with transforms or a robot, or what hides them."""
+        """Return the fault of transforms or a robot, or what hides them."""
         topics = self._robot.topics
         if name in topics.descriptions:
             return self._hidden_robot(name)
@@ -102,7 +102,7 @@ class Placement:
         )
 
     def _unfit(self, name: str) -> TopicReason | None:
-        """Return that tf2's listeners get nothing of a topic; what is recorded came."""
+        """Return the reason if tf2's listeners get nothing of a live topic."""
         known = self._robot.source.topics().get(name)
         if known is None or self._robot.has_recorded(name):
             return None

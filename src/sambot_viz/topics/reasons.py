@@ -1,7 +1,7 @@
-"""Why nothing of a topic is seen: one short sentence, with the remedy.
+"""The reasons why a topic shows nothing: one short sentence each, with the remedy.
 
-Each function says one reason, or None where it does not hold; the same for recordings
-and live robots. Which one is said when several hold is the order in `account.py`.
+Each function returns one reason, or None if it does not hold, for recordings and live
+robots alike. If several hold, the order in `account.py` decides.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def off(display: str) -> TopicReason:
     return TopicReason("off", f"the display {display} is off: tick its box")
 
 
-# What is asked for
+# Subscriptions
 
 
 def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:
@@ -142,9 +142,9 @@ def no_such_topic(name: str, known: Iterable[str]) -> TopicReason:
 
 
 def meant_topic(name: str, known: Sequence[str]) -> str:
-    """Return the topic that was meant by a name that is none; empty for no idea.
+    """Return the topic that a wrong name probably means; empty if there is no guess.
 
-    One that is not like it is meant all the same where there is no other.
+    If there is only one candidate, it is returned even if the name is not similar.
     """
     return nearest(name, known) or (known[0] if len(known) == 1 else "")
 
@@ -156,15 +156,15 @@ def wrong_type(wanted: str, type_name: str) -> TopicReason:
 
 
 def weaker_policy(offered: Qos, wanted: Qos) -> tuple[str, str, str] | None:
-    """Return the policy of which publishers offer less than is wanted.
+    """Return the QoS policy for which publishers offer less than requested.
 
     Args:
-        offered: by all publishers together.
-        wanted: what is empty takes all.
+        offered: the QoS of all publishers together.
+        wanted: the requested QoS; an empty policy accepts everything.
 
     Returns:
-        Its name, what is offered, and what is wanted, in RViz's words; None where all
-        of them suit.
+        Its name, the offered and the requested value, in RViz's words; None if all
+        policies are compatible.
     """
     pairs = (
         ("Reliability", "best_effort", "reliable"),
@@ -178,11 +178,11 @@ def weaker_policy(offered: Qos, wanted: Qos) -> tuple[str, str, str] | None:
 
 
 def qos_mismatch(offered: Qos | None, wanted: Qos) -> TopicReason | None:
-    """Say that publishers offer less than a display wants, so that nothing comes.
+    """Return a reason if publishers offer less than a display requests.
 
     Args:
-        offered: by all publishers together, None when it is not known.
-        wanted: by the display; what is empty adapts, as System Default does.
+        offered: the QoS of all publishers together; None if unknown.
+        wanted: the QoS of the display; an empty policy adapts, as System Default does.
     """
     found = None if offered is None else weaker_policy(offered, wanted)
     if found is None:
@@ -308,12 +308,12 @@ def stale(age: float, period: float | None) -> TopicReason | None:
 
 
 def over(last: float, coming: float | None, has_ended: bool) -> TopicReason:
-    """Say why a topic of a recording is silent at a time, and where it is not.
+    """Return why a topic of a recording is silent at a time, and when it is not.
 
     Args:
-        last: when its last message came [s from the first message].
-        coming: when the next one comes; None for never.
-        has_ended: its recording ended, beside one that goes on.
+        last: time of its last message [s from the first message].
+        coming: time of the next one; None for never.
+        has_ended: whether its recording has ended while another one goes on.
     """
     back = f"go back there with the time bar or --at {last:.1f}"
     if has_ended:
@@ -326,11 +326,11 @@ def over(last: float, coming: float | None, has_ended: bool) -> TopicReason:
 
 
 def lagging(dropped: int, where: str) -> TopicReason | None:
-    """Say that messages were dropped because they came too fast.
+    """Return a reason if messages were dropped because they came too fast.
 
     Args:
-        dropped: so many.
-        where: what could not keep up: "the network", "this program".
+        dropped: number of dropped messages.
+        where: the slow part: "the network", "this program".
     """
     if dropped <= 0:
         return None
@@ -342,7 +342,7 @@ def lagging(dropped: int, where: str) -> TopicReason | None:
     )
 
 
-# What is in them
+# Contents
 
 
 def not_decodable(bad: int, looked: int, cause: str, is_all: bool) -> TopicReason:

@@ -1,4 +1,4 @@
-"""What is known of the topics of a recording: by its index, and by a look at some."""
+"""The facts about the topics of a recording, from its index and some messages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SOON_NS = 1_000_000_000
 """What begins so soon after a recording was there when it began [ns]."""
 
 AT_ONCE_NS = 1_000_000
-"""Messages between which there is no more time come at once [ns]."""
+"""Messages that are no further apart than this count as simultaneous [ns]."""
 
 
 class TopicReport:
@@ -59,15 +59,15 @@ class TopicReport:
         self._topics = self._recording.topics
 
     def accounts(self) -> Iterator[Account]:
-        """Yield what is to be said of each topic, in the order of the recording."""
+        """Yield the account of each topic, in the order of the recording."""
         return (self.account(name) for name in self._topics)
 
     def account(self, name: str, drawing_of: DrawingOf | None = None) -> Account:
-        """Return what is to be said of a topic.
+        """Return the account of a topic.
 
         Args:
-            name: of the topic.
-            drawing_of: says what displays do with it; None where there are none.
+            name: the topic.
+            drawing_of: returns what displays do with it; None without displays.
         """
         type_name = self.decoder(name).type_name
         drawing = None if drawing_of is None else drawing_of(name, type_name)
@@ -87,11 +87,11 @@ class TopicReport:
         return None if last is None else last.log_ns
 
     def rate(self, name: str) -> float | None:
-        """Return how often messages of a topic come, between its first and last [Hz].
+        """Return the rate of a topic between its first and its last message [Hz].
 
-        Latched messages come when somebody asks for them: they have none. As long as
-        its last message was not met, the end of the recording counts. What has come at
-        once was kept by its publisher.
+        Latched messages come with a subscription: they have no rate. While the last
+        message is unknown, the end of the recording counts. Simultaneous messages were
+        kept by their publisher.
         """
         count, looked = self._topics[name].count, self.survey.of(name)
         first, last = looked.first_ns, looked.last_ns
@@ -110,7 +110,7 @@ class TopicReport:
         return self._topics[name]
 
     def decoder(self, name: str) -> Decoder:
-        """Return what decodes its messages, or says why nobody does."""
+        """Return the decoder of its messages, or the reason why there is none."""
         return self._recorded.decoder(self._topics[name])
 
     def looked(self, name: str) -> Looked:
@@ -122,7 +122,7 @@ class TopicReport:
         return reasons.unreceived(self._topics[name])
 
     def of_robot(self, name: str) -> TopicReason | None:
-        """Return what is wrong with its transforms or its robot, or what hides them."""
+        """Return the fault of its transforms or its robot, or what hides them."""
         return self._placement.of_robot(name)
 
     def to_come(self, name: str) -> TopicReason | None:
@@ -179,7 +179,7 @@ class TopicReport:
     def _unplaced_at(self, name: str, at_ns: int) -> TopicReason | None:
         """Return why the last message up to a time has no place then."""
         message, fixed = self._recording.last(name, at_ns), self._fixed_frame()
-        # Without any transform nothing has a place, which is no matter of a topic.
+        # Without any transform nothing has a place: no fault of a single topic.
         if message is None or not fixed or not self.survey.fixed_frame:
             return None
         try:

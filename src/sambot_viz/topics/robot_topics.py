@@ -12,7 +12,7 @@ from sambot_viz.topics.name_spaces import separate_spaces, space_of
 STAND_IN_LINK = "base_link"
 """The link of a stand-in of which no frame is known."""
 STAND_IN_NAME = "no robot"
-"""What a stand-in is called."""
+"""The name of a placeholder robot."""
 _BASES = ("base_link", "base_footprint")
 """What the frame of a mobile robot is called (REP 105)."""
 
@@ -55,15 +55,15 @@ class RobotTopics:
 def robot_topics(types: Mapping[str, str], named: Sequence[str] = ()) -> RobotTopics:
     """Choose the topics of a robot.
 
-    Without a namespace where there is such a robot, else those of the first namespace
-    that has a description; one that transforms place comes before those that none
-    does. Transforms without a namespace belong to every robot. Where robots have
-    namespaces, all transforms are taken (see `NameSpaces`).
+    A robot without a namespace comes first, then that of the first namespace with a
+    description; robots that transforms place come before others. Transforms without a
+    namespace belong to every robot. Where robots have namespaces, all transforms are
+    used (see `NameSpaces`).
 
     Args:
         types: topic → the name of its type, as ``std_msgs/msg/String``.
-        named: descriptions that a config asks for; the first that is there comes
-            before all others.
+        named: descriptions that a config names; the first existing one comes before all
+            others.
     """
     found = [
         name

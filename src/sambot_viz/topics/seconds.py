@@ -23,16 +23,16 @@ Seen = TypeVar("Seen")
 
 
 class Seconds(Generic[Seen]):
-    """Keeps what was seen of each second. Not thread-safe.
+    """Caches the facts of each second of a recording. Not thread-safe.
 
     Args:
-        recording: its messages.
-        look: returns what there is between two log times [ns], and how many messages
-            were looked at.
-        nearest: so many seconds are always looked at.
+        recording: the messages.
+        look: returns the facts between two log times [ns], and the number of messages
+            that it read.
+        nearest: number of seconds that are always read.
 
     Attributes:
-        gave_up: the last look back ended before the start: enough was looked at.
+        gave_up: whether the last look back ended before the start, at the limit.
     """
 
     def __init__(

@@ -15,15 +15,15 @@ _NO_FIELDS: Mapping[Encoding, bytes] = {"cdr": b"\0\1\0\0\0", "json": b"{}"}
 
 @dataclass(frozen=True, slots=True)
 class ServiceMessage:
-    """A service without a request, whose answer is taken as a message of a topic.
+    """A service without a request, whose answer counts as a message of a topic.
 
     Attributes:
         service: its name.
-        topic: whose message the answer is.
-        type_name: of the message.
-        content: returns the message in the encoding of an answer; a DecodeError where
-            it is none.
-        refused: called in the session with why there is no answer.
+        topic: the topic that the answer is delivered on.
+        type_name: the type of the message.
+        content: returns the message in the encoding of an answer; raises DecodeError if
+            it is malformed.
+        refused: called in the session with the reason if there is no answer.
     """
 
     service: str
@@ -42,11 +42,11 @@ class ServiceMessage:
 
         Args:
             reply: the answer.
-            log_ns: when it came [ns].
-            frame_prefix: what the names of its frames get.
+            log_ns: time of arrival [ns].
+            frame_prefix: prefix for the names of its frames.
 
         Raises:
-            DecodeError: it is no such answer.
+            DecodeError: the answer is malformed.
         """
         channel = TopicChannel(
             self.topic,

@@ -63,42 +63,42 @@ _NAMED = 5
 
 
 class Lease:
-    """Keeps a source open while somebody has it."""
+    """Keeps a source open while it is in use."""
 
 
 class SourceRobot:
-    """What a source says of a robot; many sessions show it.
+    """The robot of a source, for all sessions that show it.
 
     Its listeners are called in the thread of a live source, and must only post.
 
     Args:
-        source: its messages.
+        source: the messages.
         types: decodes them.
-        name: what it is called; by default as the source.
-        at: where to begin [s from the first message of a recording]; None plays from
-            there.
-        recordings: the folder of recordings of a live robot that users of the page
-            start; None: they may not.
-        published: the topics of a live robot, where the source is what it said within
-            some seconds; None for other sources.
+        name: its name; by default that of the source.
+        at: the time to begin with [s from the first message of a recording]; None plays
+            from the start.
+        recordings: the folder for recordings of a live robot that users of the page
+            start; None if they may not.
+        published: the topics of a live robot, if the source holds its messages of some
+            seconds; None for other sources.
 
     Attributes:
         source: as given.
         name: as given.
         published: as given.
-        given: what a user has named it by.
-        spaces: name the frames of robots with name spaces.
+        given: the words by which the user named it.
+        spaces: names the frames of robots with name spaces.
         decoding: decodes its messages.
         at_ns: the log time to begin with [ns]; None as `at`.
-        named: descriptions that a config asks for.
-        topics: those that are the robot's, as far as they are known.
-        description: the URDF, the last one that was sent; None when there is none.
-        refusal: why that cannot be shown; empty when it can.
-        first_messages: of a recording.
-        recorder: records what a live source gives; None of a recording.
+        named: descriptions that a config names.
+        topics: the topics of the robot, as far as known.
+        description: the last URDF that was sent; None without one.
+        refusal: why that cannot be shown; empty if it can.
+        first_messages: the first messages of a recording.
+        recorder: records a live source; None for a recording.
         on_description: called with the text of a robot, again when it changes.
-        on_topics: called when the source has other topics.
-        on_status: called when the source is doing otherwise.
+        on_topics: called when the list of topics changes.
+        on_status: called when the status of the source changes.
     """
 
     def __init__(
@@ -141,7 +141,7 @@ class SourceRobot:
         if source.live is not None:
             from sambot_viz.sources.recorder import SourceRecorder
 
-            # It is told of topics first, and passes that on.
+            # The recorder learns of topics first, and calls the other listener.
             self.recorder = SourceRecorder(source.live, recordings, self.tell_status)
         if source.playback is not None:
             start = source.playback.recording.start_ns
@@ -196,7 +196,7 @@ class SourceRobot:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What is wrong with the recording, and what it says of no robot."""
+        """The problems of the recording, and a note if it describes no robot."""
         recording = self.recording
         if recording is None:
             return ()
@@ -319,11 +319,11 @@ class SourceRobot:
         return root, top_frame(root, pairs)
 
     def prefix_of(self, robot: Robot, pairs: Iterable[tuple[str, str]]) -> str:
-        """Return what stands before the links of the robot, such as "a/".
+        """Return the prefix of the links of the robot, such as "a/".
 
         Args:
-            robot: the opened one.
-            pairs: (parent, child) of all transforms that are known.
+            robot: the opened robot.
+            pairs: (parent, child) of all known transforms.
         """
         links = DescribedLinks(plain_name(robot.root), tuple(joints_of(robot)))
         return self._prefix(self.topics.description or "", links, [*pairs])
@@ -349,8 +349,8 @@ class SourceRobot:
         """Return the links of the robot of a topic by the names of their frames.
 
         Args:
-            topic: a description; of one that has not come there are none.
-            pairs: (parent, child) of all transforms that are known.
+            topic: the topic of a description; none are returned before it has come.
+            pairs: (parent, child) of all known transforms.
         """
         text = self.text_of(topic) or ""
         if self._links.get(topic, ("", None))[0] != text:
@@ -395,12 +395,12 @@ class SourceRobot:
         return tree
 
     def transforms(self, history: FrameHistory) -> TransformTopics:
-        """Return what takes the transforms into a history.
+        """Return the object that puts the transforms into a history.
 
-        Those of a recording expect the frames that its beginning tells of.
+        For a recording it expects the frames that occur at the beginning.
 
         Args:
-            history: an empty one.
+            history: an empty history.
         """
         made = self._make_transforms(history)
         if self.recording is not None:
@@ -461,9 +461,10 @@ class SourceRobot:
         return self.new_decoding().transforms
 
     def text_of(self, topic: str) -> str | None:
-        """Return the last text that a topic has sent, if it has.
+        """Return the last text of a topic, if any.
 
-        That of a robot on the network is asked for, and `on_status` tells that it came.
+        For a robot on the network this subscribes to it, and `on_status` is called when
+        the text has come.
         """
         recording = self.recording
         if recording is None or topic not in recording.topics:
@@ -473,7 +474,7 @@ class SourceRobot:
             return self._texts.get(topic)
         if topic not in self._texts:
             latched = [m for m in recording.latched() if m.topic == topic]
-            # Not every topic of strings is latched, or has the name of one that is.
+            # Not every topic of strings is latched, or has the name of a latched one.
             last = recording.last(topic, recording.end_ns or 0) if not latched else None
             texts = map(self.decoding.text, latched if last is None else [last])
             self._texts[topic] = next((t for t in reversed([*texts]) if t), "")
@@ -481,7 +482,7 @@ class SourceRobot:
 
     @property
     def types(self) -> Mapping[str, str]:
-        """Published topic → the type of its messages; "" where nobody reads them."""
+        """Published topic → the type of its messages; "" if it cannot be read."""
         return {
             name: self.decoder(topic).type_name
             for name, topic in self.source.topics().items()
@@ -508,7 +509,7 @@ class SourceRobot:
         for listener in list(self.on_status):
             listener()
 
-    # What the source tells
+    # Callbacks of the source
 
     def _look(self) -> None:
         """Find the topics of the robot; in the thread of a live source."""
@@ -527,7 +528,7 @@ class SourceRobot:
     def _chosen(self, known: Mapping[str, str]) -> RobotTopics:
         """Return the topics of the robot, and the transforms of all sources.
 
-        Each source has its frames, which a prefix tells from those of the others.
+        A prefix distinguishes the frames of each source.
         """
         topics = self.source.topics()
         prefixes = dict.fromkeys(topics[name].frame_prefix for name in known)
@@ -545,13 +546,13 @@ class SourceRobot:
         return replace(found, moving=tuple(moving), static=tuple(static))
 
     def _read(self, recording: Bag) -> None:
-        """Take what a recording says of the robot, at whatever time."""
+        """Take the descriptions of a recording, whatever their time."""
         main, decode = self.topics.description or "", self.transform_decoder()
         if self.has_recorded(main):
             self.description = self.text_of(main)
         moving = [name for name in self.topics.moving if self.has_recorded(name)]
         self._index = TransformIndex(recording, moving, decode)
-        # What the beginning tells of frames; every session starts from it.
+        # The frames at the beginning; every session starts from them.
         self._told = self._make_transforms(FrameHistory())
         if self.spaces:
             # Which frames all robots share is known once all have told of theirs.

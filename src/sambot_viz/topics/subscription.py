@@ -19,36 +19,36 @@ _NS = 1_000_000_000
 
 
 class Subscription:
-    """Keeps messages until they are drawn; the newest, where more come than can wait.
+    """Keeps messages until they are drawn; above a limit only the newest.
 
-    Messages come in the thread of the source or in the worker; they are taken from here
-    in the worker. Nothing is decoded before it is drawn.
+    Messages come in the thread of the source or in the worker, and are taken in the
+    worker. Nothing is decoded before it is drawn.
 
     Args:
-        topics: their names.
+        topics: the names of the topics.
         decode: returns a message as an object with its fields, or raises DecodeError.
-        came: called in the worker when messages wait, and when a jump has made those
-            that were drawn outdated.
+        came: called in the worker when messages wait, and when a jump has made the
+            drawn ones outdated.
         depth_s: how far back messages count after a jump [s].
         size: maximum number of waiting messages.
-        base: the topic whose last message changes are made to: after a jump all that
-            has come since counts; "" for none.
+        base: the topic of full messages, to which others are updates: after a jump all
+            messages since the last one count; "" without one.
         minds_older: whether to find out if there are older messages than those that
             count after a jump.
-        holding: finds those that count after a jump, by the log time [ns]; None for
-            those of the depth.
+        holding: finds the messages that count after a jump, by the log time [ns]; None
+            for those of the depth.
 
     Attributes:
         topics: as given.
         decode: as given.
         came: as given.
         base: as given.
-        waits: some that were taken wait for a transform; set by the display.
-        is_outdated: the time has jumped: what was drawn is of another time.
-        heard: what has come, by topic.
-        has_older: there are older messages than those that counted after the jump.
-        is_asleep: nobody looks, and nothing comes.
-        given_way: so many messages waited no longer, as newer ones came.
+        waits: whether taken messages wait for a transform; set by the display.
+        is_outdated: whether the drawn messages are of another time, after a jump.
+        heard: topic → its received messages.
+        has_older: whether there are older messages than those that count after a jump.
+        is_asleep: whether no page is open, so that no messages come.
+        given_way: number of messages that were replaced by newer ones while waiting.
     """
 
     always: Collection[str] = ()
@@ -89,7 +89,7 @@ class Subscription:
         return self.waits or self.is_outdated or bool(self._waiting)
 
     def take(self, message: Recorded) -> None:
-        """Keep a message; the oldest one that waits goes when there are too many."""
+        """Keep a message; above the limit drop the oldest one that waits."""
         with self._lock:
             heard = self.heard[message.topic]
             last = heard.last

@@ -1,7 +1,7 @@
-"""A look at the first messages of all topics: enough to say what is wrong with them.
+"""Read the first messages of all topics: enough to find their faults.
 
-A recording of any length costs the same: so many messages are looked at, and of each
-topic so many are decoded.
+A recording of any length costs the same: the number of messages that are read, and that
+of decoded ones of each topic, are limited.
 """
 
 from __future__ import annotations

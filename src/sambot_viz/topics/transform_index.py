@@ -1,9 +1,9 @@
-"""Which messages of a recording say where its frames are at a time.
+"""Find the messages of a recording that place its frames at a time.
 
-tf2 keeps of each frame what is not more than ten seconds older than its newest
-transform. Which messages that are follows from all messages before: a frame may have
-been told of once, an hour ago. So a recording is looked through once (see `Seconds`),
-and what was seen is kept as a few numbers of each second.
+tf2 keeps the transforms of a frame that are at most ten seconds older than its newest
+one. Which messages these are depends on all messages before: a frame may have been
+published once, an hour ago. So a recording is read once (see `Seconds`), and a few
+numbers are kept for each second.
 """
 
 from __future__ import annotations

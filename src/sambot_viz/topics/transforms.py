@@ -148,7 +148,7 @@ class TransformTopics:
         is_renamed = self._named != self._spaces.version
         left = set(before).difference(self.topics)
         if is_renamed or any(topic in published for topic in left):
-            # A robot that stands still may say nothing again.
+            # A robot at rest may publish nothing new.
             self._take_again(self.take if are_taken else self._expect)
 
     def take(self, message: Recorded) -> None:
@@ -385,13 +385,13 @@ def problems_of_transforms(
     is_live: bool = False,
     turned_back_by: int = 0,
 ) -> tuple[Problem, ...]:
-    """Say what is wrong with the transforms of a recording.
+    """Return the problems of the transforms of a source.
 
     Args:
-        transforms: what they have told up to now.
-        name: of the recording, or of the live robot.
-        is_live: whether it is one.
-        turned_back_by: by how much stamps go back that were not taken yet [ns].
+        transforms: the transforms up to now.
+        name: the name of the recording or the live robot.
+        is_live: whether it is a live robot.
+        turned_back_by: how much the stamps of waiting messages go back [ns].
     """
     found = [problem for problem, _ in problems_of_parents(transforms)]
     if transforms.limit.left_out:
@@ -418,12 +418,12 @@ def problems_of_transforms(
 def not_looked_further(
     kind: str, unfound: Collection[str], name: str
 ) -> Iterator[Problem]:
-    """Say of what a jump has not looked through all messages.
+    """Return a note on frames or joints for which a jump did not read all messages.
 
     Args:
         kind: "frame" or "joint".
-        unfound: the names.
-        name: of the recording.
+        unfound: their names.
+        name: the name of the recording.
     """
     if unfound:
         rest = f" and {len(unfound) - 1:,} more" if len(unfound) > 1 else ""
@@ -439,7 +439,7 @@ def not_looked_further(
 def problems_of_parents(
     transforms: TransformTopics,
 ) -> Iterator[tuple[Problem, Collection[str]]]:
-    """Yield what is wrong with who has which parent, and the topics that say so."""
+    """Yield the faults of parents of frames, with the topics that publish them."""
     for child, parents in transforms.parents.items():
         if len(parents) > 1:
             problem = _two_parents(child, parents, transforms.always)

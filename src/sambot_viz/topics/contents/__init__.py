@@ -41,7 +41,7 @@ _AMOUNTS: Mapping[str, _Look] = {
     "visualization_msgs/msg/Marker": amounts.marker_points,
     "visualization_msgs/msg/MarkerArray": amounts.none_of("markers"),
 }
-"""Type → what a message has nothing of, such as "0 points"; empty when it has some."""
+"""Type → a function that returns "0 points" or the like for an empty message, or ""."""
 
 
 def content_reason(message: Any) -> TopicReason | None:

@@ -33,7 +33,7 @@ def map_fault(message: Any) -> str:
     if cells > limits.MAP_CELLS.value:
         return f"It has {cells:,} cells: at most {limits.MAP_CELLS.value:,} are drawn"
     resolution = float(message.info.resolution)
-    # Another sentence is about what is not a number.
+    # Numbers that are not finite have another sentence.
     if math.isfinite(resolution) and resolution <= 0.0:
         return f"Its cells are {resolution:g} m wide: set info.resolution"
     return ""
