@@ -1,1 +1,1 @@
-"""The way out to a robot: what is sent, how it is written, and what became of it."""
+"""The way out to a robot: messages, their encoding, and their outcome."""

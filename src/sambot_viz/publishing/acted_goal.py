@@ -24,7 +24,7 @@ MSG: nav2_msgs/NavigateToPose_Feedback
 builtin_interfaces/Duration estimated_time_remaining
 float32 distance_remaining
 """
-"""What is read of a feedback in JSON; in CDR a server gives the whole definition."""
+"""The fields read from a feedback in JSON; for CDR a server sends the definition."""
 
 
 def goal_content(
@@ -57,11 +57,11 @@ def goal_content(
 
 
 class ActedGoal:
-    """Says what becomes of one goal of an action.
+    """Reports the progress of one goal of an action.
 
     Args:
-        decoding: of the messages of its robot.
-        with_distance: whether it is said again and again how far it is.
+        decoding: decodes the messages of its robot.
+        with_distance: whether to report the remaining distance repeatedly.
     """
 
     def __init__(self, decoding: Decoding, *, with_distance: bool) -> None:
@@ -69,7 +69,7 @@ class ActedGoal:
         self._with_distance = with_distance
 
     def take(self, report: GoalReport) -> Outcome | None:
-        """Take a report; return what is new of the goal."""
+        """Accept a report; return the news about the goal."""
         if report.refusal:
             return Outcome(report.refusal, True, False)
         new = self._follower.take_status(report.status)

@@ -48,13 +48,14 @@ class DeadMansSwitch:
 
     Args:
         send: sends a linear [m/s] and an angular velocity [rad/s]; called in the thread
-            of the switch. It raises PublishError for a velocity that is not to be sent,
-            and SourceError where nothing can be.
+            of the switch. It raises PublishError for a velocity that must not be sent,
+            and SourceError if none can be sent.
         most: the highest linear [m/s] and angular speed [rad/s].
-        changed: called when a hand begins or ends, with the hand (None for nobody) and
-            why the last one was stopped ("" where it let go); it must only post.
-        lost: called with why where the zero velocities that end a motion cannot be
-            sent; the same.
+        changed: called when a hand begins or ends, with the hand or None, and the
+            reason for which the last one was stopped ("" if it let go); it must only
+            post.
+        lost: called with the reason if the zero velocities that end a motion cannot be
+            sent; it must only post.
     """
 
     def __init__(
@@ -84,14 +85,14 @@ class DeadMansSwitch:
         return self._hand
 
     def hold(self, hand: Hand, forwards: float, left: float) -> bool:
-        """Drive on; said again and again while a key or the stick is held.
+        """Drive on; called repeatedly while a key or the stick is held.
 
         Another hand stops the robot, and has to press again.
 
         Args:
-            hand: who says so.
-            forwards: part of the highest speed, -1 to 1; what is beyond is cut.
-            left: the same of the angular speed.
+            hand: the driving hand.
+            forwards: part of the highest speed, -1 to 1; other values are clamped.
+            left: the same for the angular speed.
 
         Returns:
             Whether the press counts: one that has ended does not begin again.
@@ -116,7 +117,7 @@ class DeadMansSwitch:
             return True
 
     def release(self, client: int, press: int) -> None:
-        """Let go of a press, which never counts again, even if it is said later."""
+        """Let go of a press, which never counts again, even if it is repeated later."""
         with self._wake:
             self._ended[client] = max(press, self._ended.get(client, -1))
             if self._hand is not None and self._hand.client == client:
@@ -133,8 +134,8 @@ class DeadMansSwitch:
         """End what any hand does.
 
         Args:
-            why: what is said to everyone.
-            at_rest: send zero velocities even when nobody drives.
+            why: the reason, for everyone.
+            at_rest: whether to send zero velocities even when no hand drives.
         """
         with self._wake:
             if self._hand is not None:

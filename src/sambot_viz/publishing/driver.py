@@ -23,13 +23,13 @@ NOT_REACHED = (
 
 @dataclass(frozen=True, slots=True)
 class Driving:
-    """Who drives, and why the last one was stopped.
+    """The driving hand, and why the last one was stopped.
 
     Attributes:
-        hand: None when nobody drives.
-        why: "" where the last hand has let go.
-        stops: how often it was said why.
-        failure: why no zero velocity went out, as a sentence; "" where it did.
+        hand: the hand; None when no one drives.
+        why: the reason of the last stop; "" if the hand let go.
+        stops: number of stops with a reason.
+        failure: a sentence if no zero velocity was sent; "" if it was.
     """
 
     hand: Hand | None = None
@@ -42,14 +42,14 @@ class Driver:
     """Sends velocities to one robot; all but `choose` may be called in any thread.
 
     Args:
-        robot: a live one.
+        robot: a live robot.
         now_ns: returns its time [ns]; takes no lock.
-        topic: where velocities go.
+        topic: the topic of velocities.
         most: the highest linear [m/s] and angular speed [rad/s].
-        told: called when somebody begins or ends to drive, and when there is something
-            new about it; in any thread, must only post.
-        sent: called with each new velocity that was sent, and the page or the name of
-            who has stopped the robot; the same.
+        told: called when a user begins or ends to drive, and when the state changes; in
+            any thread, must only post.
+        sent: called with each new velocity that was sent, and the page, or the name of
+            the one who stopped the robot; in any thread, must only post.
     """
 
     def __init__(
@@ -100,16 +100,16 @@ class Driver:
         return self._protection.words(receivers)
 
     def hold(self, hand: Hand, forwards: float, left: float) -> None:
-        """Drive on; said again and again while a key or the stick is held.
+        """Drive on; called repeatedly while a key or the stick is held.
 
         Args:
-            hand: who says so.
+            hand: the driving hand.
             forwards: part of the highest speed, -1 to 1.
-            left: the same of the angular speed.
+            left: the same for the angular speed.
 
         Raises:
-            PublishError: nobody would take it, or its type is not known.
-            SourceError: the robot takes nothing, or has left.
+            PublishError: no node reads velocities, or their type is unknown.
+            SourceError: the robot accepts no messages, or has left.
         """
         if self._switch.hand != hand:
             self._prepare()
@@ -125,15 +125,16 @@ class Driver:
         self._switch.leave(client)
 
     def stop(self, why: str, *, who: str = "", at_rest: bool = False) -> str:
-        """Stop the robot, whoever drives.
+        """Stop the robot, whichever hand drives.
 
         Args:
-            why: what is said to everyone.
-            who: stops it, for the log; "" for who drives.
-            at_rest: also when nobody drives from here, if its velocities are known.
+            why: the reason, for everyone.
+            who: the one who stops it, for the log; "" for the driver.
+            at_rest: whether to stop it also when no page drives, if the type of its
+                velocities is known.
 
         Returns:
-            Why no velocity goes out, as a sentence; "" where it does.
+            A sentence if no velocity is sent; "" if it is.
         """
         failure, self._stopper = "", who
         if at_rest:
@@ -161,7 +162,7 @@ class Driver:
                 self._outgoing = None
 
     def _prepare(self, *, is_stop: bool = False) -> None:
-        """See to it that there is a topic, and that somebody takes it or is to stop."""
+        """Announce the topic, and require a reader unless the robot is to stop."""
         type_name = self.type_name
         if not type_name:
             raise PublishError(

@@ -52,10 +52,10 @@ class GoalSender:
         robot.on_status.append(self._changed.set)
 
     def connect(self, seconds: float) -> None:
-        """Connect, and listen to the robot's frames and to what becomes of goals.
+        """Connect, and subscribe to the robot's frames and the progress of goals.
 
         Raises:
-            SourceError: there is no robot within so many seconds [s].
+            SourceError: there is no robot within the time limit [s].
         """
         self._source.open()
         self._goals.follow(self._topic)

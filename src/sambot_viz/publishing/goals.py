@@ -35,12 +35,12 @@ class Goals:
     """Follows the goals of a robot, topic by topic, before there is one.
 
     Args:
-        robot: a live one.
-        told: called when there is something new; in any thread, must only post.
-        with_distance: whether it is said again and again how far they are.
+        robot: a live robot.
+        told: called with news; in any thread, must only post.
+        with_distance: whether to report the remaining distance repeatedly.
 
     Attributes:
-        last: what became of the last goal; None without one.
+        last: the progress of the last goal; None without one.
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class Goals:
             look = follower.take_feedback if is_feedback else follower.take
             outcome = look(message, decode)
             if outcome is not None and outcome.words == GIVEN_UP:
-                # What is said of it is why.
+                # The report about it contains the reason.
                 types, goal = self._robot.decoding.types, follower.goal
                 ask_why(self._robot.source, topic, goal, types, self._give_up)
             elif outcome is not None:
@@ -109,13 +109,13 @@ class Goals:
         outgoing: Outgoing,
         tell: Callable[[Outcome], object],
     ) -> None:
-        """The next new goal of a topic is the one that is sent now.
+        """Follow the next new goal of a topic, which is about to be sent.
 
         Args:
-            goal: with the frame as it is called here.
-            topic: where.
-            outgoing: the same, as the robot has it.
-            tell: called with what becomes of it, in any thread.
+            goal: the goal, with the name of its frame here.
+            topic: the topic.
+            outgoing: the same topic at the robot.
+            tell: called with its progress, in any thread.
         """
         self.follow(topic)
         self._leave_goals()
@@ -166,10 +166,10 @@ class Goals:
     def cancel(self) -> Sequence[str]:
         """Cancel all goals of the robot; takes no lock of the session.
 
-        What becomes of it is said with the goal.
+        The outcome is reported with the goal.
 
         Returns:
-            The services that are asked to.
+            The called services.
         """
         if self.is_on_the_way:
             self._note(Outcome("asked to cancel", False, True))
@@ -183,7 +183,7 @@ class Goals:
         return [cancel_of(topic) for topic in topics]
 
     def close(self) -> None:
-        """Follow nothing any more."""
+        """Stop following goals."""
         self._robot.on_status.remove(self._look)
         for topic in tuple(self._followed):
             self._follow_no_more(topic)
@@ -217,7 +217,7 @@ class Goals:
             self._robot.source.unsubscribe(one, take)
 
     def _topics_of(self, topic: str) -> Sequence[str]:
-        """Return where it is said what becomes of the goals of a topic."""
+        """Return the topics that report the progress of the goals of a topic."""
         far = (feedback_of(topic),) if self._with_distance else ()
         return (status_of(topic), *far)
 

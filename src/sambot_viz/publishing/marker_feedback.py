@@ -1,4 +1,4 @@
-"""What a hand does with an interactive marker, as RViz tells it to its program."""
+"""The feedback about an interactive marker to its program, as RViz sends it."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class MarkerFeedback(Outbound):
         return Outbound.fields(self, {"sec": sec, "nanosec": nanosec})
 
     def content(self) -> dict[str, Any]:
-        """Return the fields behind the header."""
+        """Return the fields after the header."""
         place = dict(zip("xyz", self.position, strict=True))
         turn = dict(zip("xyzw", self.xyzw, strict=True))
         point = dict(zip("xyz", self.mouse_point or ORIGIN, strict=True))
@@ -91,7 +91,7 @@ class MarkerFeedback(Outbound):
 
     @property
     def words(self) -> str:
-        """What is logged of it; empty for what comes many times a second."""
+        """The text for the log; empty for events that come many times a second."""
         done = {
             "MENU_SELECT": f"entry {self.menu_entry} of its menu",
             "BUTTON_CLICK": f"a click on {self.control}",

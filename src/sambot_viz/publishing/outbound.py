@@ -1,4 +1,4 @@
-"""What is sent to a robot, as RViz's tools send it."""
+"""The messages to a robot, as RViz's tools send them."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Outbound:
 
     @property
     def told(self) -> Sequence[float] | dict[str, Any]:
-        """What a list of what was sent says of it."""
+        """The text for the list of sent messages."""
         return self.numbers
 
     def without(self, prefix: str) -> Self:
@@ -84,7 +84,7 @@ class Outbound:
         return {"header": {"stamp": stamp, "frame_id": self.frame}, **self.content()}
 
     def content(self) -> dict[str, Any]:
-        """Return the fields behind the header."""
+        """Return the fields after the header."""
         raise NotImplementedError
 
     @property
@@ -148,7 +148,7 @@ class Goal(GroundPose):
     noun = "goal"
 
     def content(self) -> dict[str, Any]:
-        """Return the fields behind the header."""
+        """Return the fields after the header."""
         return {"pose": self.pose()}
 
 
@@ -178,7 +178,7 @@ class PoseEstimate(GroundPose):
         return float(self.x), float(self.y), float(self.yaw), *self.covariance
 
     def content(self) -> dict[str, Any]:
-        """Return the fields behind the header."""
+        """Return the fields after the header."""
         matrix = [0.0] * 36
         matrix[0], matrix[7], matrix[35] = self.covariance
         return {"pose": {"pose": self.pose(), "covariance": matrix}}
@@ -207,13 +207,13 @@ class ClickedPoint(Outbound):
         return float(self.x), float(self.y), float(self.z)
 
     def content(self) -> dict[str, Any]:
-        """Return the fields behind the header."""
+        """Return the fields after the header."""
         x, y, z = self.numbers
         return {"point": {"x": x, "y": y, "z": z}}
 
     @property
     def words(self) -> str:
-        """What is logged when it is sent."""
+        """The text for the log."""
         x, y, z = self.numbers
         return f"Publishing point: Frame:{self.frame}, Position({x:g}, {y:g}, {z:g})"
 

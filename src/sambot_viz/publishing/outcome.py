@@ -39,9 +39,9 @@ class Outcome:
 
 
 class GoalFollower:
-    """Follows the first goal that a robot tells of after `begin`.
+    """Follows the first goal that a robot reports after `begin`.
 
-    A goal that is sent as a message has no name by which it could be known again.
+    A goal that is sent as a message has no id by which it could be recognised.
     """
 
     def __init__(self) -> None:
@@ -69,11 +69,11 @@ class GoalFollower:
     def take(
         self, message: Recorded, decode: Callable[[Recorded], Any]
     ) -> Outcome | None:
-        """Take a GoalStatusArray; return what is new of the goal.
+        """Accept a GoalStatusArray; return the news about the goal.
 
         Args:
-            message: its bytes; what is no such array says nothing.
-            decode: reads them; raises DecodeError.
+            message: its bytes; malformed ones are ignored.
+            decode: decodes them; raises DecodeError.
         """
         try:
             statuses = decode(message).status_list
@@ -81,7 +81,7 @@ class GoalFollower:
             return None
         told = {_id_of(one): int(one.status) for one in statuses}
         if self._known is None:
-            # What is latched may come after `begin`: what has ended in it is older.
+            # A latched message may come after `begin`: the ended goals in it are older.
             self._known = frozenset(goal for goal in told if told[goal] in _ENDS)
         known = self._known
         new = next((goal for goal in told if goal not in known), None)
@@ -91,7 +91,7 @@ class GoalFollower:
         return self.take_status(told.get(self._goal or b"", self._last))
 
     def take_status(self, status: int) -> Outcome | None:
-        """Take a number of GoalStatus; return what is new of the goal."""
+        """Accept a number of GoalStatus; return the news about the goal."""
         if status == self._last:
             return None
         self._last = status
@@ -100,9 +100,9 @@ class GoalFollower:
     def take_feedback(
         self, message: Recorded, decode: Callable[[Recorded], Any]
     ) -> Outcome | None:
-        """Take a NavigateToPose_FeedbackMessage; return what is new of the goal.
+        """Accept a NavigateToPose_FeedbackMessage; return the news about the goal.
 
-        Nav2 sends a hundred in a second; two are looked at.
+        Nav2 sends a hundred in a second; two are read.
         """
         if not self.wants_distance():
             return None
@@ -123,7 +123,7 @@ class GoalFollower:
         return True
 
     def take_distance(self, message: Any) -> Outcome | None:
-        """Take a feedback message of the goal; return what is new of it."""
+        """Accept a feedback message of the goal; return the news about it."""
         try:
             metres = float(message.feedback.distance_remaining)
             left = message.feedback.estimated_time_remaining

@@ -14,8 +14,8 @@ _TIMEOUTS = {
     "velocity_smoother": "velocity_timeout",
     "collision_monitor": "source_timeout",
 }
-"""Node of Nav2 that stops a robot that is not told its velocity any more → the
-parameter that says after how long [s]."""
+"""Node of Nav2 that stops a robot when no velocities come → the parameter with its
+timeout [s]."""
 _NAMED = 2
 
 
@@ -33,10 +33,10 @@ class Protection:
         self._after: dict[str, float | None] = {}
 
     def words(self, receivers: Receivers | None) -> str:
-        """Return what stops the robot.
+        """Return the node that stops the robot by itself.
 
         Args:
-            receivers: of its velocities; None where nobody has asked.
+            receivers: the receivers of its velocities; None if unknown.
         """
         topics = self._robot.source.topics().values()
         named = [one.publishers for one in topics]

@@ -1,4 +1,4 @@
-"""The one way out of a session to its robot: what is allowed, to whom, and a log."""
+"""The one way out of a session to its robot: permissions, receivers, and a log."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ class Publisher:
         self._drive.told()
 
     def close(self) -> None:
-        """Stop the robot, and publish no topic any more; a second call does nothing."""
+        """Stop the robot, and end all topics; a second call does nothing."""
         if self.driver is not None:
             self.driver.close()
             self.driver = None
@@ -231,13 +231,13 @@ class Publisher:
             self._topic(robot, topic, type_name)
 
     def wait(self, topic: str, type_name: str) -> None:
-        """Wait until somebody is known to take a topic, or might be by now.
+        """Wait until a topic has a receiver, or until it would be known.
 
-        The session's lock is not held: it is held while `prepare` is called.
+        The session's lock is not held during the wait, only while `prepare` is called.
 
         Args:
-            topic: where.
-            type_name: of the messages.
+            topic: the topic.
+            type_name: the type of its messages.
         """
         outgoing = self._outgoing.get((topic, type_name))
         until = time.monotonic() + FOUND_WITHIN
@@ -255,19 +255,19 @@ class Publisher:
         *,
         follows: bool = False,
     ) -> str:
-        """Send a message once, and return who takes it, in words.
+        """Send a message once, and return its receivers, in words.
 
         Args:
-            message: what is sent.
-            topic: where.
-            who: sends it, for the log.
-            tell: called with what becomes of a goal, in any thread.
-            follows: it belongs to the last one, and may come at once after it.
+            message: the message.
+            topic: the topic.
+            who: the sender, for the log.
+            tell: called with the progress of a goal, in any thread.
+            follows: whether it belongs to the last one, and may follow it at once.
 
         Raises:
-            PublishError: it is not allowed, or nobody would take it; a
-                PublishFrameError where another frame would be taken.
-            SourceError: the robot takes nothing, or has left.
+            PublishError: it is not allowed, or has no receiver; a PublishFrameError if
+                it would be accepted in another frame.
+            SourceError: the robot accepts no messages, or has left.
         """
         robot = self._allowed_robot(message.kind)
         if why := frame_fault(self._frames, message.frame, message.kind):
@@ -318,11 +318,11 @@ class Publisher:
         return told
 
     def send_any(self, message: AnyMessage, topic: str, who: str) -> str:
-        """Send a message of a program once, and return who takes it, in words.
+        """Send a message of a program once, and return its receivers, in words.
 
         Raises:
-            PublishError: it is not allowed, or nobody would take it.
-            SourceError: the robot takes nothing, or has left.
+            PublishError: it is not allowed, or has no receiver.
+            SourceError: the robot accepts no messages, or has left.
         """
         if not self.sends_anything:
             raise PublishError(self.refusal("goal"))
@@ -339,18 +339,18 @@ class Publisher:
         return told
 
     def send_joints(self, positions: Mapping[str, float]) -> str:
-        """Send where joints are, and return who takes it, in words.
+        """Send joint positions, and return their receivers, in words.
 
-        Their time is that of the robot's clock: robot_state_publisher passes over what
-        is not newer than the last. In the log is what has changed.
+        Their time is that of the robot's clock: robot_state_publisher ignores messages
+        that are not newer than the last. The log lists the changes.
 
         Args:
             positions: joint → position [rad or m].
 
         Raises:
-            PublishError: it is not allowed, nobody would take it, or somebody else
-                publishes the topic.
-            SourceError: the robot takes nothing, or has left.
+            PublishError: it is not allowed, has no receiver, or another node publishes
+                the topic.
+            SourceError: the robot accepts no messages, or has left.
         """
         robot = self._allowed_robot("joints")
         if others := other_publishers(robot.source, JOINTS_TOPIC):

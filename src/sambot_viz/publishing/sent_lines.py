@@ -18,15 +18,15 @@ _STREAMS = ("/Twist", "/TwistStamped", "/JointState", "/InteractiveMarkerFeedbac
 
 @dataclass(frozen=True, slots=True)
 class SentLine:
-    """What somebody has sent on a topic, or the steps of one motion.
+    """A line of the list of sent messages: one message, or the steps of one motion.
 
     Attributes:
-        time: of the last one, since 1970 [s].
-        who: the user, or what else has sent it.
-        topic: where.
-        type_name: of the messages.
-        values: of the last one, in words.
-        count: how many they were.
+        time: time of the last message, since 1970 [s].
+        who: the sender: a user or a part of the program.
+        topic: the topic.
+        type_name: the type of the messages.
+        values: the content of the last one, in words.
+        count: number of the messages.
     """
 
     time: float
@@ -62,7 +62,7 @@ class SentLines:
 
 
 def _is_meant(sent: SentMessage) -> bool:
-    """Whether a message was meant by itself, and is no step of a motion."""
+    """Return whether a message is a single one, not a step of a motion."""
     values = sent.values
     event = values.get("event") if isinstance(values, Mapping) else None
     return event in ("MENU_SELECT", "BUTTON_CLICK")

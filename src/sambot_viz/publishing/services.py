@@ -19,10 +19,10 @@ class ServiceType:
     """A type of services.
 
     Attributes:
-        name: without what is behind it for the request and the response.
-        request: its fields, as a .srv file has them.
-        response: the same.
-        older: the response of an older version; "" where there is none.
+        name: the name, without the suffix of the request and the response.
+        request: the fields of the request, as in a .srv file.
+        response: the fields of the response.
+        older: the response of an older version; "" without one.
     """
 
     name: str
@@ -65,10 +65,10 @@ GET_RESULT = ServiceType(
 
 @dataclass(frozen=True, slots=True)
 class ServiceAnswer:
-    """What a service has answered.
+    """The answer of a service.
 
     Attributes:
-        content: the response, an object with its fields; None where there is none.
+        content: the response, an object with its fields; None without one.
         refusal: why there is none.
     """
 

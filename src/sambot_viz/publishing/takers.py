@@ -1,4 +1,4 @@
-"""Who takes what is sent on a topic, and why nobody does."""
+"""Find the receivers of messages on a topic, or why there are none."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class KnownFrames(Protocol):
 
 
 FOUND_WITHIN = 2.0
-"""What a robot says unasked, and who takes a topic, is known by then [s]."""
+"""Time until a robot's announcements and the readers of a topic are known [s]."""
 _NAMES = 3
 _BRIDGES = ("foxglove_bridge", "rosbridge")
-"""What is in the names of the nodes through which we publish."""
+"""Part of the names of the nodes through which we publish."""
 _TAKERS = {
     "goal": "start Nav2 (its bt_navigator takes goals)",
     "pose": "start AMCL or slam_toolbox (they take poses)",
@@ -44,7 +44,7 @@ _TAKERS = {
     "markers": "start the program that has these markers",
     "description": "start robot_state_publisher",
 }
-"""What is sent → who would take it."""
+"""Kind of message → its usual receiver."""
 
 _IN_TOOL = "name another topic, in a page in Tool Properties"
 _ELSEWHERE: dict[Kind, str] = {
@@ -54,20 +54,20 @@ _ELSEWHERE: dict[Kind, str] = {
     "drive": "name another topic with --cmd-vel TOPIC",
     "joints": "name another topic with --remap /joint_states:=TOPIC",
 }
-"""What is sent → where another topic is named for it."""
+"""Kind of message → the advice on how to set another topic."""
 _ANOTHER = "name another topic"
 
 
 def who_takes(outgoing: Outgoing, kind: Kind | None = None, elsewhere: str = "") -> str:
-    """Return who gets a topic, in words.
+    """Return the receivers of a topic, in words.
 
     Args:
         outgoing: the topic.
-        kind: what is sent on it; None for anything else than the tools send.
-        elsewhere: where another topic is named for it; empty as a page does it.
+        kind: the kind of message; None for messages that no tool sends.
+        elsewhere: how to set another topic; empty for the way of the page.
 
     Raises:
-        PublishError: nobody does, or its messages are of another type.
+        PublishError: there is none, or its messages are of another type.
     """
     receivers, topic = outgoing.receivers, text(outgoing.topic, 80)
     named = _ELSEWHERE.get(kind, _ANOTHER) if kind else _ANOTHER
@@ -102,12 +102,12 @@ def other_publishers(source: Source, topic: str) -> Sequence[str]:
 
 
 def frame_fault(frames: KnownFrames, frame: str, kind: Kind) -> str:
-    """Return why a robot cannot take what is in a frame; empty when it can.
+    """Return why a robot cannot use a message in a frame; empty if it can.
 
     Args:
-        frames: of the robot; without any nothing is known.
-        frame: in which the place is given.
-        kind: what is sent.
+        frames: the frames of the robot; without any the frame is not checked.
+        frame: the frame of the message.
+        kind: the kind of message.
     """
     known = frames.frames
     if not known or kind in ("point", "markers"):

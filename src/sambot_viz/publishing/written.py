@@ -19,7 +19,7 @@ class HasFields(Protocol):
 
 
 def time_of(source: Source, newest_ns: int) -> int:
-    """Return the time of a robot [ns]: that which it tells, else its newest stamp.
+    """Return the time of a robot [ns]: its clock's, else its newest stamp.
 
     Args:
         source: the robot.
@@ -32,19 +32,19 @@ def time_of(source: Source, newest_ns: int) -> int:
 def written(
     outgoing: Outgoing, message: HasFields, now_ns: int, types: MessageTypes
 ) -> bytes:
-    """Return a message that is sent now as a topic wants it.
+    """Return a message in the encoding of a topic, with the present time.
 
-    A server that takes JSON puts in its own time, simulated or not; others get that of
-    the robot.
+    A server that accepts JSON fills in its own time, simulated or not; others get that
+    of the robot.
 
     Args:
         outgoing: the topic.
-        message: what is sent.
+        message: the message.
         now_ns: the time of the robot [ns].
-        types: has the definition of the message.
+        types: the definitions of messages.
 
     Raises:
-        PublishError: a field is not what the type says.
+        PublishError: a field does not fit the type.
     """
     sec, nanosec = divmod(now_ns, 10**9)
     try:
