@@ -35,25 +35,25 @@ from sambot_viz.text import capitalized
 
 
 class BrowserPanels:
-    """The rows that one browser has for itself.
+    """The rows of one browser alone.
 
     Args:
-        session: what it shows.
+        session: the session that it shows.
         client: the browser.
-        files: the disk, for those who may use it.
-        ask_page: makes a page of what is seen; None leaves that out.
+        files: the disk, for clients that may use it.
+        ask_page: makes a page of the present view; None leaves that out.
         invite: makes the link for viewers; None leaves inviting out.
-        recordings: those that can be opened; None where none can.
+        recordings: the recordings to choose from; None if there are none.
         displays: the rows of the displays, for everyone.
         shared_row: finds a row that everyone sees, by its id.
-        text: the text of the model; None where there is no file of it.
+        text: the text of the model; None without a file of it.
 
     Attributes:
         store: the rows, for the page.
-        camera: that of the page.
-        pictures: those of cameras in the scene, for the page.
+        camera: the camera of the page.
+        pictures: the pictures of cameras in the scene, for the page.
         item: finds a row, data or command of this browser by its id.
-        close: follows the browser no longer.
+        close: stops following the browser.
     """
 
     def __init__(
@@ -98,7 +98,7 @@ class BrowserPanels:
                 self._remake,
             )
         )
-        # Behind those that have something to say at once.
+        # After the panels that have rows at once.
         panels.append(self._notices)
         sync = self._sync = RowSync(session.worker, panels, "browser")
         self.store, self.item, self.close = sync.store, sync.item, sync.close

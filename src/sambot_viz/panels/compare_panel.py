@@ -26,12 +26,12 @@ _WITH = (
 
 
 class ComparePanel(Panel):
-    """The choice of a model, the look of its ghost, and a table of what differs.
+    """The choice of a model, the look of its ghost, and a table of the differences.
 
     Args:
-        comparison: of the session.
-        robot: what is shown.
-        scene: has the nodes of its links.
+        comparison: the comparison of the session.
+        robot: the shown robot.
+        scene: the scene with the nodes of its links.
         has_text: whether the text of the model can be changed.
     """
 
@@ -126,7 +126,7 @@ class ComparePanel(Panel):
         }
 
     def _link_of(self, found: Difference) -> str:
-        """Return the link that is meant: of a joint the one that it holds."""
+        """Return the link of a row; for a joint its child link."""
         if found.kind != "joint":
             return found.name
         models = (self._robot.model, self._comparison.other)

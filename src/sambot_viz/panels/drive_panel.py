@@ -65,7 +65,7 @@ class DrivePanel(Panel):
         ]
 
     def data(self) -> Sequence[Data]:
-        """Return whether the robot was stopped because no page drove it any more."""
+        """Return whether the robot was stopped because its driving page was gone."""
         wheels = self._drive.wheels
         return [] if wheels is None else [Data(_ALONE, self._drive.left_alone.value)]
 
@@ -78,7 +78,7 @@ class DrivePanel(Panel):
         return {
             "drive/linear": drive.v,
             "drive/angular": drive.w,
-            # A tenth of a millimetre; what nobody sees is not sent.
+            # A tenth of a millimetre; smaller changes are invisible and not sent.
             "drive/x": round(pose.x, 4) + 0.0,
             "drive/y": round(pose.y, 4) + 0.0,
             "drive/yaw": round(math.remainder(pose.yaw, math.tau), 4) + 0.0,
@@ -117,7 +117,7 @@ class DrivePanel(Panel):
             row_id = f"drive/{part}"
             yield _fact(row_id, _POSE, part, value[row_id], unit)
 
-    # What a hand does
+    # Driving by hand
 
     def _set_speed(self, row_id: str, value: float) -> Answer | None:
         linear = row_id == "drive/linear"

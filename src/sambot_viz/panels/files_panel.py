@@ -44,13 +44,13 @@ class FilesPanel(Panel):
     """Opens, saves and downloads for the File menu.
 
     Args:
-        client: who asks, and gets the downloads.
-        files: the disk; None for a visitor, who may only download.
-        roles: tells whether the client may use the disk; others see no folder of it.
+        client: the client that gets the downloads.
+        files: the disk; None for a client that may only download.
+        roles: knows whether the client may use the disk; others see no folder of it.
         keep_unfolded: writes into the document which rows are unfolded, from their
             ids.
         say: shows a sentence to this browser.
-        remake: called when there is another answer.
+        remake: called when the answer changes.
     """
 
     name = "files"
@@ -108,7 +108,7 @@ class FilesPanel(Panel):
         return {"file/state": self._state()}
 
     def _state(self) -> Json:
-        """Return what is known of the file; only another file or robot asks the disk.
+        """Return the facts about the file; read the disk only for a new file or robot.
 
         This is called for every step of a slider, once for each browser.
         """

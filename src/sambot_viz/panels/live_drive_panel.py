@@ -1,7 +1,8 @@
 """The panel that drives a live robot by hand, its goal, and STOP for everyone.
 
-What a hand says is taken at once, on the event loop and without the session's lock: a
-session that hangs stops the robot no later (see `publishing.dead_mans_switch`).
+Messages of a driving hand are handled at once, on the event loop and without the
+session's lock: a hanging session does not delay a stop (see
+`publishing.dead_mans_switch`).
 """
 
 from __future__ import annotations
@@ -30,9 +31,9 @@ class LiveDrivePanel(Panel):
 
     Args:
         publisher: the way to the robot.
-        roles: who may drive, and to whom control goes back.
-        driven: somebody begins or ends to drive.
-        post: has something done in the session's thread.
+        roles: know who may drive, and who gets control back.
+        driven: emitted when a user begins or ends to drive.
+        post: schedules a call in the session's thread.
     """
 
     name = "live"
@@ -48,7 +49,7 @@ class LiveDrivePanel(Panel):
         self._publisher, self._roles, self._post = publisher, roles, post
 
     def refresh(self) -> None:
-        """Stop what somebody drives who may not any more."""
+        """Stop a user who drives and no longer may."""
         driver = self._publisher.driver
         hand = driver and driver.driving.hand
         if driver is None or hand is None:
@@ -143,7 +144,7 @@ class LiveDrivePanel(Panel):
     @command("live/cancel", name="Cancel", at_once=True)
     def _cancel(self, client: int) -> None:
         name = self._publisher.name_of(client)
-        # What is sent is told in the session's thread.
+        # The log is written in the session's thread.
         self._post(lambda: self._publisher.cancel(name))
 
     @command("live/stop", client_local=True, at_once=True)

@@ -1,4 +1,4 @@
-"""The Model panel of one browser: the text of a file, and what is wrong in it."""
+"""The Model panel of one browser: the text of a file, and the problems in it."""
 
 from __future__ import annotations
 
@@ -266,7 +266,7 @@ class ModelPanel(Panel):
 
     @command("model/write", name="Write into the file")
     def _write(self) -> None:
-        """Let the editor of the page write the numbers that were moved.
+        """Let the editor of the page write the changed numbers.
 
         Of several files the page asks again for the next one.
         """
@@ -383,7 +383,7 @@ def _id(problem: Problem) -> str:
 
 
 def _extent(problem: Problem, source: SourceFile) -> Extent:
-    """Return what is marked: what a fix replaces, the name of a tag, or a line."""
+    """Return the marked text: the part that a fix replaces, a tag's name, or a line."""
     here = hash(source.text)
     for edit in problem.edits:
         if edit.seen == here and edit.end > edit.start:

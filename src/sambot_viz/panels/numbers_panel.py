@@ -18,7 +18,7 @@ from sambot_viz.session.signals import Signal
 from sambot_viz.session.undo import History
 
 _STEPS = 100
-"""A slider has at least so many."""
+"""The smallest number of steps of a slider."""
 
 
 class NumbersPanel(Panel):

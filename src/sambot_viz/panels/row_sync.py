@@ -73,7 +73,7 @@ class RowSync:
     def _listening_to_facts(
         self, panel: Panel
     ) -> tuple[Listening, Listening, Listening]:
-        """Return what shows a change of what a panel shows, all panels together."""
+        """Return what a panel listens with: to remake rows, to change them, to move."""
         return (
             Listening(partial(self._remake.add, panel)),
             Listening(partial(self._change.add, panel)),

@@ -24,22 +24,22 @@ from sambot_viz.session.worker import Worker
 MakePage = Callable[[], Awaitable[bytes]]
 """Makes an HTML file, on the event loop; raises SambotVizError when there is none."""
 AskPage = Callable[[SessionCopy, Past, Client, str, str], MakePage]
-"""Notes what a browser sees now, for a page with a motion ("sweep", "past" or "none")
-and a look; raises SambotVizError when there is no such motion or look."""
+"""Records the present view of a browser, for a page with a motion ("sweep", "past" or
+"none") and a look; raises SambotVizError for an unknown motion or look."""
 _UNNAMED = "robot"
 """Name of a picture or a page when there is no robot."""
 
 
 class PicturesPanel(Panel):
-    """Makes files of what a browser shows; one of each kind at a time.
+    """Makes files of a browser's view; one of each kind at a time.
 
     Args:
-        client: who asks, and gets the files.
-        scene: has the background.
-        robot: names the files.
-        copy: copies what the session shows.
-        worker: waits for the browser beside all other work.
-        ask_page: makes a page of what is seen; None leaves that out.
+        client: the client that gets the files.
+        scene: the scene, with its background.
+        robot: gives the files their name.
+        copy: copies the state of the session.
+        worker: waits for the browser without blocking other work.
+        ask_page: makes a page of the view; None leaves that out.
         say: shows a sentence to this browser.
     """
 

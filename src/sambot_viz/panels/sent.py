@@ -1,10 +1,10 @@
-"""What a browser sends back, before anything of it is checked.
+"""Read the messages of browsers, before they are checked.
 
 A message is a list: the id of a row and its new value, or the id of a command and its
-arguments; and for what a hand does in one go (a drag, a key that is held) the number of
-that gesture. `panels.validation` checks the value.
+arguments; and, for one continuous gesture (a drag, a held key), the number of that
+gesture. `panels.validation` checks the value.
 
-It stands alone, so that the port is open before the panels are imported.
+This module imports no panels, so that the port is open before they are imported.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Sent:
 
 
 def read(message: object) -> Sent | None:
-    """Read what a browser has sent; None when it is not an edit."""
+    """Read a message of a browser; None if it is not an edit."""
     if not isinstance(message, list) or not 2 <= len(cast("list[Any]", message)) <= 3:
         return None
     parts = cast("list[Any]", message)

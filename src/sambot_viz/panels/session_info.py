@@ -1,4 +1,4 @@
-"""Facts of the session for scripts of the page: frames, ids, version, what is read."""
+"""Facts of the session for scripts of the page: frames, ids, version, read files."""
 
 from __future__ import annotations
 

@@ -29,16 +29,16 @@ _MODIFIER = Argument(str, optional=True)
 
 
 class ToolsPanel(Panel):
-    """The tools, which of them is current, its hint, and what keys and buttons do.
+    """The tools, the current one, its hint, and the commands of keys and buttons.
 
     "tools/choose" always chooses a tool. "tools/press" follows RViz's rule for keys:
     pressed again, it goes back to the default tool.
 
     Args:
-        client: whose tools these are.
-        scene: is drawn again by Reset.
-        clients: their pointer shows everyone what is selected here.
-        robot: has the joints of links that are clicked on twice.
+        client: the owner of the tools.
+        scene: drawn again by Reset.
+        clients: their pointer shows the selection to everyone.
+        robot: has the joints of double-clicked links.
     """
 
     name = "tools"
@@ -53,7 +53,7 @@ class ToolsPanel(Panel):
         self._robot = robot
 
     def data(self) -> Sequence[Data]:
-        """Return the tools, what the current one shows, and what is selected."""
+        """Return the tools, the hint of the current one, and the selection."""
         tools = self._client.tools
         hint = tools.status or tools.current.help
         touch = hint.replace(tools.current.help, tools.current.touch)
@@ -125,7 +125,7 @@ class ToolsPanel(Panel):
 
     @command("tools/point", name="Point at the selection")
     def _point(self) -> Answer:
-        """Show everyone what is selected here."""
+        """Show the selection to everyone."""
         items = self._client.tools.selection
         if not items:
             raise UsageError("select what to point at first, with the tool Select")

@@ -1,8 +1,8 @@
-"""Which rows are unfolded: as RViz keeps it in the file, and as pages want them.
+"""The unfolded rows: as RViz lists them in the file, and as pages request them.
 
 RViz lists them as paths below the Displays panel, such as "/TF1/Frames1": each name is
-followed by its number among the rows of the same name. A page asks for the rows below
-one with a command, so that nothing is made that nobody sees.
+followed by its number among the rows of the same name. A page requests the rows below
+one with a command, so that no invisible rows are made.
 """
 
 from __future__ import annotations

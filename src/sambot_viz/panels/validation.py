@@ -1,6 +1,6 @@
-"""The one place that checks what a browser sends back: role, type and limits.
+"""The one place that checks the messages of browsers: role, type and limits.
 
-`panels.sent` reads which row or command a message names.
+`panels.sent` reads the row or command that a message names.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _REPR.maxstring = 60
 def accept(
     item: Row | Data | Command, value: Json, *, may_edit: bool
 ) -> Callable[[], object]:
-    """Check what a browser has sent, and return the call that does it.
+    """Check a message of a browser, and return the call that executes it.
 
     Args:
         item: the row or command that it names.

@@ -31,17 +31,17 @@ CURRENT = "view"
 class ViewsPanel(Panel):
     """The type of the view, its numbers, and the saved views.
 
-    The numbers are those of this browser's camera: they follow its mouse, and what is
-    typed moves only this camera. The saved views belong to the document.
+    The numbers are those of this browser's camera: they follow its mouse, and typed
+    values move only this camera. The saved views belong to the document.
 
     Args:
-        client: whose camera it is.
-        document: has the saved views.
-        scene: has the frames that a view may follow.
-        clients: may all follow the presenter.
-        roles: tells whether there is one.
-        history: does not record what a page restores.
-        say: tells the user that the presenter leads the view.
+        client: the owner of the camera.
+        document: the document with the saved views.
+        scene: the scene with the frames that a view may follow.
+        clients: all clients, which may follow the presenter.
+        roles: knows whether there is a presenter.
+        history: does not record the values that a page restores.
+        say: shows the user that the presenter leads the view.
     """
 
     name = "views"
@@ -57,7 +57,7 @@ class ViewsPanel(Panel):
         say: Callable[[str, Level], None],
     ) -> None:
         self._clients, self._client = clients, client
-        # One who comes later is told too.
+        # A client that joins later gets the notice too.
         self._say, self._led = say, False
         self._brought = clients.brought.value
         self.remade_by = (

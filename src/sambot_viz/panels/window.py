@@ -45,15 +45,15 @@ class Window:
     """The panels of one session.
 
     Args:
-        session: what they show.
+        session: the session that they show.
         joints: whether there are panels to move joints (``--no-gui`` leaves them out).
-        files: the disk; None when the browsers may not use it.
-        ask_page: makes a page of what is seen; None leaves that out.
+        files: the disk; None if the browsers may not use it.
+        ask_page: makes a page of the view; None leaves that out.
         invite: makes the link for viewers; None leaves inviting out.
-        recordings: those that can be opened; None where none can.
-        edits: writes fixes into files; None where no browser may.
-        text: the text of the model; None where there is no file of it.
-        lesson: what there is to learn; None where nothing is.
+        recordings: the recordings to choose from; None if there are none.
+        edits: writes fixes into files; None if no browser may.
+        text: the text of the model; None without a file of it.
+        lesson: the lesson; None without one.
 
     Attributes:
         text: the same.
@@ -249,7 +249,7 @@ class Window:
             validation.accept(found, sent.value, may_edit=may_edit)()
         except SambotVizError as error:
             refuse = partial(self._refuse, client_id, sent.id, str(error))
-            # One that is refused again and again is told it once.
+            # Repeated refusals are reported once.
             self._session.worker.post(refuse, latest_of=sent.id, client=client_id)
 
     def _refuse(self, client_id: int, item_id: str, sentence: str) -> None:
@@ -264,7 +264,7 @@ class Window:
         return any(row is not None and row.get("kind") in _NUMBERS for row in found)
 
     def _take(self, client_id: int, sent: Sent) -> None:
-        """Check what a browser wants and do it; a refusal is answered there."""
+        """Check a browser's message and execute it, or answer with the refusal."""
         browser = self._browsers.get(client_id)
         if browser is None:
             return

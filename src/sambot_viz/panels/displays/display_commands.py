@@ -25,16 +25,16 @@ TYPES: list[Json] = [
 
 
 class DisplayCommands(Panel):
-    """The types that can be added, what was made last, and the commands.
+    """The types that can be added, the last added display, and the commands.
 
-    Each page sends a mark with what it asks for, and selects the row that comes back
-    with its mark.
+    Each page sends a mark with its request, and selects the row that comes back with
+    the mark.
 
     Args:
         displays: the rows of the displays.
-        scene: has what is drawn.
-        document: has the displays that no config names.
-        remake: called when a display was made.
+        scene: the drawn scene.
+        document: the document, with the displays that no config names.
+        remake: called when a display was added.
     """
 
     name = "add"
@@ -92,12 +92,12 @@ class DisplayCommands(Panel):
         """Add a display that shows a topic.
 
         Args:
-            kind: of the display; empty for the one that usually shows it.
-            topic: its name.
-            name: of the display; empty for one after its class.
-            group: the row of the group that it goes into; empty for the top.
+            kind: class of the display; empty for the one that usually shows the topic.
+            topic: the topic.
+            name: name of the display; empty for one after its class.
+            group: the row of the group to add it to; empty for the top level.
             index: its place there; None for the end.
-            mark: of who asks.
+            mark: the mark of the requesting page.
         """
         messages = self._scene.context.messages
         type_name = "" if messages is None else messages.types().get(topic, "")
@@ -120,7 +120,7 @@ class DisplayCommands(Panel):
 
     @command("displays/duplicate", TEXT, TEXT, name="Duplicate")
     def _duplicate(self, row_id: str, mark: str) -> None:
-        """Copy a display, behind it."""
+        """Add a copy of a display after it."""
         config = self._displays.display_of(row_id)
         self._note(self._display_edits.duplicate_display(config), mark)
 
@@ -150,10 +150,10 @@ class DisplayCommands(Panel):
 
 
 def _usual_display(topic: str, type_name: str) -> type[Display]:
-    """Return what a topic is usually shown with.
+    """Return the class of display that usually shows a topic.
 
     Raises:
-        UsageError: nothing shows it.
+        UsageError: no display shows it.
     """
     found = displays_of_topic(topic, type_name)
     if not found:

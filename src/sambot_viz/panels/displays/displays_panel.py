@@ -169,7 +169,7 @@ class DisplaysPanel(Panel):
         return [*self._global_rows(), *self._display_rows(configs, "")]
 
     def values(self) -> Mapping[str, Json]:
-        """Return what is only shown, of links, frames and values that are unfolded."""
+        """Return the read-only data of unfolded links, frames and values."""
         return {
             _fact_id(row_id, key): value
             for shown in self._facts.values()
@@ -177,7 +177,7 @@ class DisplaysPanel(Panel):
             for key, value in facts().items()
         }
 
-    # Finding what a row means
+    # Finding the object of a row
 
     def id_of(self, config: DisplayConfig) -> str:
         """Return the id of a display's row; it stays the same when it is moved."""
@@ -278,7 +278,7 @@ class DisplaysPanel(Panel):
 
     def _status_rows(self, display: Display, parent: str) -> Iterator[Row]:
         row_id = f"{parent}/:status"
-        # While there is no robot, why.
+        # Without a robot, the problems that explain why.
         of_model = self._problems.of_newest
         mistakes = of_model if self._robot.model is None else ()
         unfolded = self._lazy.is_unfolded(row_id)

@@ -1,1 +1,1 @@
-"""The Frames panel, and what is known of a frame."""
+"""The Frames panel, and the facts about a frame."""

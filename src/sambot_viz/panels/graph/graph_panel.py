@@ -42,7 +42,7 @@ class GraphPanel(Panel):
         self._shown = False
 
     def rows(self) -> Sequence[Row]:
-        """Return the choice of a launch file, and what is to be known of the graph."""
+        """Return the choice of a launch file, and the facts about the graph."""
         return list(self._made()) if self._graph.is_there else ()
 
     def data(self) -> Sequence[Data]:

@@ -155,8 +155,8 @@ def joint_groups(names: Sequence[str]) -> list[JointGroup]:
 
     Returns:
         All joints, each in one group; a single group without a label if they are few,
-        or if their names have nothing in common. Of several robots, each further one
-        has groups of its own: the names of its joints begin with its own and a slash.
+        or if their names have nothing in common. With several robots each further one
+        has separate groups: the names of its joints begin with its name and a slash.
     """
     robots: dict[str, list[str]] = {}
     for name in names:

@@ -104,7 +104,7 @@ class JointsPanel(Panel):
         return [_follow_row(follows, recording), *rows]
 
     def _why_none(self) -> str:
-        """Return why there is no joint."""
+        """Return a sentence that explains why there is no joint."""
         model, data = self._robot.model, self._sources.data
         if model is None:
             return _NO_ROBOT
@@ -113,9 +113,10 @@ class JointsPanel(Panel):
         return _NOT_HERE_YET if data.moved_by.can("clock") else _NOT_RECORDED
 
     def data(self) -> Sequence[Data]:
-        """Return which joints are over a limit or turning, and where all began.
+        """Return the joints over a limit, the turning ones, and all start positions.
 
-        Who gets the joints is not a row: it is said later, and would move the sliders.
+        The receivers of the joints are data and no row: a row would come later, and
+        move the sliders.
         """
         if self._robot.joints is None:
             return ()

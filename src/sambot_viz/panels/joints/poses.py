@@ -28,13 +28,13 @@ MOVE_TIME = 0.3
 
 
 class PosesPanel(Panel):
-    """The poses that have a name, and the file they are kept in.
+    """The named poses, and their file.
 
     Args:
-        robot: its joints take them.
-        motion: moves them there.
-        history: records that one is removed.
-        roles: tells whether there are viewers, who see no folder of the server.
+        robot: the robot that takes the poses.
+        motion: moves its joints there.
+        history: records the removal of a pose.
+        roles: knows whether there are viewers, who see no folder of the server.
         remake: called when the poses have changed.
     """
 
@@ -129,9 +129,9 @@ class PosesPanel(Panel):
 
 
 class GhostPanel(Panel):
-    """The pose that one client sees as a ghost, beside the robot as it stands.
+    """The pose that one client sees as a ghost, in addition to the robot.
 
-    The page draws it, with copies of what it has: it needs the poses of the links only.
+    The page draws it with copies of its meshes: it needs only the poses of the links.
 
     Args:
         remake: called when another pose was chosen.

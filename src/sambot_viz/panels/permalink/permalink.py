@@ -219,7 +219,7 @@ class PermalinkPanel(Panel):
         rows = {name: self._row(joint_id(name)) for name in joints.free}
         positions: dict[str, float] = {}
         if not link.elsewhere:
-            # What a link does not name is where it was at first.
+            # Joints that a link does not name are at their start.
             first = self._robot.first.items()
             positions = {n: q for n, q in first if rows.get(n) is not None}
         link.missing["joint"] += [name for name in link.joints if name not in rows]

@@ -21,22 +21,22 @@ Pair = tuple[str, str]
 
 @dataclass
 class PermalinkParts:
-    """The contents of a permalink, and what of it cannot be shown here.
+    """The contents of a permalink, and the parts that cannot be shown here.
 
     Attributes:
         kind: the type of the view, such as "Orbit".
         robot: the name of the robot.
-        time: that of a recording, from its first message [s].
+        time: time of a recording, from its first message [s].
         fixed: the fixed frame, if it is not that of the config.
         view: property of the view → value.
         joints: joint → position [rad or m].
-        switches: those of the displays, by name (see `session.switches`).
-        selected: kind and name of what is selected, such as "link:base_link".
+        switches: name → whether the display is on (see `session.switches`).
+        selected: kind and name of the selection, such as "link:base_link".
         elsewhere: whether the robot here is another one.
-        watching: whether this browser may only change what it alone shows.
-        kept: whether joints or switches stay as they are for that reason.
-        missing: what of it is not here.
-        refused: why some of the values cannot be.
+        watching: whether this browser may only change its own view.
+        kept: whether joints or switches are unchanged for that reason.
+        missing: the parts that do not exist here.
+        refused: why some of the values are refused.
     """
 
     kind: str = ""
@@ -83,7 +83,7 @@ class PermalinkParts:
             self.refused.append(why)
 
     def answer(self) -> Answer:
-        """Return what a user reads: all is as in the link, or what is not."""
+        """Return the notice: all is as in the link, or what differs."""
         said = [self.missing.sentence(), *self.refused[:MOST_NAMED]]
         if self.kept:
             kept = f"{'time, ' if self.time else ''}joints and displays"

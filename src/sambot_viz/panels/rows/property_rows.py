@@ -81,7 +81,7 @@ def is_listed(item: ConfigItem, declared: Declared) -> bool:
         return False
     if not item.is_shown(declared.path):
         return False
-    # A group is there for what is in it; lists of links or frames add their own rows.
+    # A group needs children; lists of links or frames add their own rows.
     if prop.has_value or prop.open_keys:
         return True
     return any(
@@ -125,7 +125,7 @@ def property_row(
 
 
 def _set(item: ConfigItem, declared: Declared, change: Change, value: Any) -> object:
-    """Set a property; a value that is taken as another one is said."""
+    """Set a property; the answer says if the value was adjusted."""
     answer, now = change(declared.path, value), item.get(declared.path)
     if answer is not None or now == value or isinstance(now, tuple):
         return answer

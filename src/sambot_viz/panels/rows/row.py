@@ -47,7 +47,7 @@ class LongText(str):
 class FileContent(str):
     """The text of a file in an editor, which comes back as it is.
 
-    Nothing replaces what is invisible in it: the editor marks that.
+    Invisible characters are kept: the editor marks them.
     """
 
     __slots__ = ()
@@ -55,12 +55,12 @@ class FileContent(str):
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What the client that has sent a value gets back, from a row's `set` or a command.
+    """The answer to the client that sent a value, from a row's `set` or a command.
 
     Attributes:
-        say: a sentence for its status bar; with a text to copy, what the text is.
+        say: a sentence for its status bar; with a text to copy, the name of that text.
         copy: a text for its clipboard.
-        level: how good or bad what is said is.
+        level: the level of the sentence.
     """
 
     say: str = ""
@@ -75,20 +75,20 @@ class Row:
     Attributes:
         id: unique in the window, and the same as long as the row means the same.
         parent: the id of the row above it; empty at the top of its panel.
-        kind: how it is drawn, and what values it takes.
+        kind: decides how it is drawn, and which values it takes.
         name: its label.
-        value: what it shows; of the type that `kind` says.
+        value: the shown value, of the type for its `kind`.
         unit: written beside the value.
         least: lowest value that may be set.
         most: highest value that may be set.
-        step: what an arrow key adds.
-        options: what can be chosen.
-        editable: other texts than the options may be typed.
+        step: the step of an arrow key.
+        options: the choices.
+        editable: whether texts other than the options may be typed.
         help: a sentence or more about it.
         icon: the name of its picture.
-        level: how good or bad what it shows is.
+        level: the level of a status.
         expanded: whether the rows below it are shown when the page is opened.
-        bold: RViz writes what a file gives, and displays, in bold.
+        bold: whether its name is bold, as RViz shows displays and values of a file.
         client_local: whether setting it changes only what this client shows, so that
             viewers may set it too.
         extra: more for the page, by name.

@@ -1,8 +1,8 @@
-"""The rows of a session or of one client, and what a page lacks of them.
+"""The rows of a session or of one client, and the changes that a page lacks.
 
-Every change has a number. A page that has all changes up to one of them gets what has
-changed since, as it is now: a slow page skips what lies between, and nothing is kept
-for it but its number.
+Every change has a number. A page that has all changes up to one of them gets the
+present values of the rows that changed since: a slow page skips intermediate values,
+and only its number is kept for it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LONG = 4096
 """A longer patch is sent compressed, in a binary frame [bytes]."""
 COMPRESSED = b"\1"
 """The first byte of a binary frame: a message in JSON, compressed by gzip. Other
-numbers are for what is not JSON, such as pictures (`displays.pictures`)."""
+numbers mean other content, such as pictures (`displays.pictures`)."""
 
 Scope = Literal["session", "browser", "follower"]
 
@@ -67,7 +67,7 @@ class RowStore:
             self._replaced[panel] = self._next()
 
     def update(self, row_id: str, patch: Mapping[str, Json]) -> None:
-        """Change some keys of a row; what is None is taken away."""
+        """Change some keys of a row; remove those that are None."""
         with self._lock:
             version = self._next()
             changed = self._changed.pop(row_id, {})
@@ -115,10 +115,10 @@ class RowStore:
             listener()
 
     def since(self, version: int) -> tuple[int, str | bytes | None]:
-        """Return the present version, and a message with what has changed since one.
+        """Return the present version, and a message with the changes since one.
 
         Args:
-            version: of the last message that a page has; 0 for one that has none.
+            version: version of a page's last message; 0 for a page without any.
 
         Returns:
             None in place of a message when nothing has changed; bytes for a long one.

@@ -1,4 +1,4 @@
-"""The selected items, one by one, with what is known of them."""
+"""The selected items, one by one, with the facts about them."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class SelectedEntries:
         """Return the first of the selected items.
 
         Args:
-            most: so many.
+            most: number of items.
             frame: the frame in which poses of links and frames are shown.
         """
         found: list[SelectedEntry] = []

@@ -1,4 +1,4 @@
-"""What is known of a link or a frame that is selected."""
+"""The facts about a selected link or frame."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from sambot_viz.session.robot.robot_state import RobotState
 
 
 def facts_of(tree: FrameTree, robot: RobotState, name: str, frame: str) -> list[Fact]:
-    """Return what is known about a link or frame.
+    """Return the facts about a link or frame.
 
     Args:
-        tree: where it may be.
-        robot: what is shown.
+        tree: the tree of frames.
+        robot: the shown robot.
         name: the link or frame.
         frame: the frame in which its pose is given.
     """

@@ -1,4 +1,4 @@
-"""The Selection panel of one client: facts about what is selected."""
+"""The Selection panel of one client: facts about the selected items."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class SelectionPanel(Panel):
         return made
 
     def values(self) -> dict[str, Json]:
-        """Return what a motion or a message may have changed."""
+        """Return the values that a motion or a message may have changed."""
         entries = self._shown()
         made = [*self._distances(entries, self._entries.count)]
         for one in entries:

@@ -32,7 +32,7 @@ class ImagesPanel(Panel):
         self._scene = scene
 
     def rows(self) -> Sequence[Row]:
-        """Return the rows, each with what is wrong with its pictures."""
+        """Return the rows, each with the faults of its pictures."""
         made = list[Row]()
         pictures = self._scene.context.pictures
         for display in self._scene.displays:

@@ -19,7 +19,7 @@ class OtherRecordings(Protocol):
 
     @property
     def parts(self) -> Sequence[str]:
-        """What is shown, and can be replaced; the names of recordings."""
+        """The shown sources that can be replaced, and the names of recordings."""
         ...
 
     @property
@@ -38,12 +38,12 @@ class OtherRecordings(Protocol):
     def open(
         self, part: str, name: str, done: Callable[[SambotVizError | None], object]
     ) -> None:
-        """Show another recording; what is shown stays until it is open, or if it fails.
+        """Show another recording; keep the present one until it is open, or on failure.
 
         Args:
-            part: what it replaces.
-            name: what it is called.
-            done: called with the session locked, with what went wrong.
+            part: the source to replace.
+            name: the recording.
+            done: called with the session locked, with the error if any.
 
         Raises:
             UsageError: there is no such part or name, or one is being opened.
@@ -55,13 +55,13 @@ class RecordingsPanel(Panel):
     """Lists recordings for File > Open Recording, and opens one.
 
     Args:
-        client_id: who asks.
-        recordings: those that can be opened; None where none can.
-        sources: what is shown.
-        document: its config.
-        roles: tells whether the client may open others; viewers see no names.
+        client_id: the client.
+        recordings: the recordings to choose from; None if there are none.
+        sources: the shown sources.
+        document: the config.
+        roles: knows whether the client may open others; viewers see no names.
         say: shows a sentence to this browser.
-        remake: called when there is another answer.
+        remake: called when the answer changes.
     """
 
     name = "recordings"
@@ -87,7 +87,7 @@ class RecordingsPanel(Panel):
         self._answers = 0
 
     def data(self) -> Sequence[Data]:
-        """Return what is shown, what can be opened, and the last answer."""
+        """Return the shown recordings, the choices, and the last answer."""
         recordings = self._recordings
         if recordings is None:
             return ()
@@ -134,7 +134,7 @@ class RecordingsPanel(Panel):
 
 
 def _why(error: SambotVizError) -> str:
-    """Return what is wrong and what to do, without the folder of the file."""
+    """Return the error and the remedy, without the folder of the file."""
     problems = error.problems if isinstance(error, SourceError) else ()
     for problem in problems:
         if problem.severity == "error":

@@ -67,7 +67,7 @@ class SourcePanel(Panel):
         return (*steps, self._data.clock.state) if self._is_live else steps
 
     def data(self) -> Sequence[Data]:
-        """Return the topics, what is played (from when [s since 1970]), and robots."""
+        """Return the topics, the recording, its start [s since 1970], and robots."""
         # Those that have rows in the Topics panel; its search finds the others.
         found = [
             Data("names/topics", [*self._data.topics.names[: limits.TOPIC_ROWS.value]])
@@ -88,7 +88,7 @@ class SourcePanel(Panel):
         return self.rows()
 
     def values(self) -> dict[str, Json]:
-        """Return the time of what is played, and of the robot."""
+        """Return the times of the player and of the robot."""
         times: dict[str, Json] = {}
         if self._player is not None:
             times[TIME] = _time(self._player)

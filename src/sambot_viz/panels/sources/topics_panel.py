@@ -23,14 +23,14 @@ _LEVELS: dict[Severity, Level] = {"error": "error", "warning": "warn", "info": "
 
 
 class TopicsPanel(Panel):
-    """The topics that a search finds, and what is wrong with them.
+    """The topics that match a search, and their accounts.
 
-    Nothing is looked at before somebody opens the panel, and no age while it is not on
-    the screen.
+    Nothing is read before the panel is opened, and no age is computed while it is not
+    on the screen.
 
     Args:
-        sources: their topics are shown.
-        statuses: told when displays say something else of them.
+        sources: the sources of the topics.
+        statuses: emitted when the statuses of displays change.
         remake: called when other topics are shown.
     """
 
@@ -83,7 +83,7 @@ class TopicsPanel(Panel):
         return self._topics.moved_by if self._shown else ()
 
     def rows(self) -> Sequence[Row]:
-        """Return a row for each topic, and below it what is to be said."""
+        """Return a row for each topic, with its account below it."""
         if self._shown and self._topics.is_complete:
             self._rows = list(self._made())
         return self._rows
