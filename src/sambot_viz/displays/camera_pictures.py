@@ -1,8 +1,8 @@
-"""Pictures of cameras on their way to the panels that show them, the newest of each.
+"""The newest pictures of cameras, on their way to the panels that show them.
 
-Displays put them here in the worker; each page's channel takes what its page shows and
-lacks, when its connection is free. So a slow page gets fewer pictures and never old
-ones, and what nobody looks at is not even decoded.
+Displays put them here in the worker; each page's channel takes the ones that its page
+shows and lacks, when its connection is free. So a slow page gets fewer pictures and
+never old ones, and pictures that no page shows are not even decoded.
 """
 
 from __future__ import annotations
@@ -67,11 +67,11 @@ class Pictures:
     # For displays
 
     def begin(self, key: str, wake: Callable[[], object]) -> None:
-        """Have pictures of a display.
+        """Register a display with pictures.
 
         Args:
-            key: of the display.
-            wake: called when somebody begins to look at them.
+            key: key of the display.
+            wake: called when a page begins to show them.
         """
         if key not in self._wakes:
             self._wakes[key] = wake
@@ -169,7 +169,7 @@ class ClientPictures:
 
     @property
     def version(self) -> int:
-        """The number of the last frame, or of the one that is still to be sent."""
+        """The number of the last frame, or of the next one to send."""
         return self._handed + bool(self._lacking())
 
     def since(self, version: int) -> tuple[int, bytes | None]:

@@ -2,7 +2,7 @@
 
 A display lists its properties once (`properties`); reading, saving, the rows of the
 panel, clamping and live change all come from that list. Its values live
-in the `DisplayConfig` of the document, so what is on the screen is what a save writes.
+in the `DisplayConfig` of the document, so a save writes the values on the screen.
 A robot has hundreds of links, joints and frames with their own properties, so the
 panel offers a list to choose from (`EntryList`) and shows the chosen one's rows only.
 """
@@ -55,9 +55,9 @@ class Status:
     """One row of a status.
 
     Attributes:
-        level: how bad it is.
+        level: "Ok", "Warn" or "Error".
         text: a sentence.
-        code: of the reason, where a topic is not seen for it; "" for none of its own.
+        code: code of the reason why a topic shows nothing; "" without one.
     """
 
     level: Level
@@ -117,19 +117,19 @@ class StatusList:
 
 @dataclass(frozen=True, slots=True)
 class EntryList:
-    """One kind of things, such as the links of a RobotModel.
+    """The entries of one kind, such as the links of a RobotModel.
 
     Attributes:
         title: RViz's name for all of them: "Links", "Joints", "Frames".
-        singular: what one of them is called.
-        names: those there are.
+        singular: the name of one of them.
+        names: the names of the entries.
         item: name → its item of the document, with its properties.
         set: (name, property, value) → the value it has now; others may follow.
-        facts: name → what is only shown, such as "Position" → "1; 2; 3".
+        facts: name → read-only facts, such as "Position" → "1; 2; 3".
         rows: name → the properties that have a row, when not all of them do.
-        above: name → the name of another one that it is below; it begins with that
+        above: name → the name of the entry above it; its own name begins with that
             and a slash.
-        has_details: whether there is more of each than its box.
+        has_details: whether an entry has more than its box.
     """
 
     title: str
@@ -153,13 +153,13 @@ class DisplayContext:
     """The scene, frames, files and options that displays draw with; one per session.
 
     Attributes:
-        scene: where to draw (of the server, or of one client).
+        scene: viser's scene (of the server, or of one client).
         tree: the frames.
         nodes: the frames as scene nodes.
         assets: the mesh files and textures.
         fixed_frame: the frame everything is drawn in.
         meant: returns the frames that a config may mean by a name.
-        background: colour behind the scene, 0 to 255.
+        background: background colour, 0 to 255.
         robot: the robot that was opened, or None.
         moving: child frame → the joint type that moves it.
         models: reads other models, for a RobotModel with one of its own.
@@ -169,14 +169,14 @@ class DisplayContext:
         link_colors: link of that robot → the colour that a program has given it, 0 to
             255.
         highlighted: links of that robot that a program highlights.
-        messages: those that displays draw; None where none come.
+        messages: the messages that displays draw; None where none come.
         now: the time of messages [s since 1970]; None where no messages come.
-        time: when frames are drawn; None where no messages come.
-        is_paced: whether the time of a frame is another one, such as that of a
-            recording beside a live robot: it does not grow old.
-        pictures: those that panels show beside the view.
+        time: the time at which frames are drawn; None where no messages come.
+        is_paced: whether a frame has a different clock, such as that of a recording
+            beside a live robot, so that it does not age.
+        pictures: the pictures that panels show beside the view.
         displays: returns all displays, in their order.
-        apply: runs a function that draws, from any thread, and sends what it draws.
+        apply: runs a function that draws, from any thread, and sends the drawing.
         place: sends the poses of frames that moved.
     """
 
@@ -391,7 +391,7 @@ class Display:
         return False
 
     def handle(self, item: Selectable) -> Handle | None:
-        """Return what a hand can move of what a ray has met; None for nothing."""
+        """Return the movable marker that a ray has hit; None without one."""
         del item
 
     def parts(
@@ -409,7 +409,7 @@ class Display:
         return {}
 
     def selected(self, item: Selectable) -> SelectedData | None:
-        """Return what is known of data that is selected; None when it is not here."""
+        """Return the details of selected data; None if this display lacks it."""
         del item
 
     def entries(self) -> tuple[EntryList, ...]:
@@ -417,7 +417,7 @@ class Display:
         return ()
 
     def notes(self) -> Mapping[str, str]:
-        """Return what is worth knowing about values, by paths of properties."""
+        """Return notes on values, by the paths of their properties."""
         return {}
 
     def facts(self) -> Mapping[str, Callable[[], Mapping[str, str]]]:
@@ -444,9 +444,9 @@ class Display:
         """Draw mesh files and textures that were read in the background."""
 
     def unseen_topics(self) -> Iterable[tuple[str, TopicReason]]:
-        """Return topics of which it shows nothing, or not all, and why; as its status.
+        """Return topics that show nothing, or not all, with the reasons of its status.
 
-        What is told of all topics together, such as a loop of transforms, is left out.
+        Reasons about all topics together, such as a loop of transforms, are left out.
         """
         return ()
 

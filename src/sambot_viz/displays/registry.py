@@ -168,7 +168,7 @@ _ROWS: dict[str, _DisplayRow] = {
 
 
 class DisplayClasses(Mapping[str, "type[Display]"]):
-    """Display classes by what a `.rviz` file calls them."""
+    """Display classes by their names in a `.rviz` file."""
 
     def __getitem__(self, kind: str) -> type[Display]:
         """Import a display class.
@@ -194,7 +194,7 @@ class DisplayClasses(Mapping[str, "type[Display]"]):
         return len(_ROWS)
 
     def help_of(self, kind: str) -> str:
-        """Return what a display shows, in a sentence."""
+        """Return the help of a display, in a sentence."""
         return _ROWS[kind].help
 
 

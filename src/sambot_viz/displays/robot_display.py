@@ -1,4 +1,4 @@
-"""Displays that show a robot: what they add to `Display`, and what they are given.
+"""Displays that show a robot: their additions to `Display`, and their inputs.
 
 Most displays draw data. One that draws a robot may read it from a file, sets the frames
 of that robot, and waits for mesh files; the rest of the program reaches these through
@@ -22,17 +22,17 @@ ModelResult: TypeAlias = "Robot | RobotError"
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """What messages of a topic say of a robot.
+    """The robot that messages of a topic describe.
 
     Attributes:
         topic: its name.
-        text: the URDF; None for the opened robot, and as long as there is none.
-        label: what problems name as its file.
-        is_opened: the robot is the one that was opened.
-        level: of the status of the topic.
-        sentence: why there is no robot, or what is doubtful, with the remedy.
-        instead: a topic to use in place of this one; empty when none is meant.
-        reason: why the robot is not seen at a place, though its topic is read.
+        text: the URDF; None for the opened robot, and before one has come.
+        label: the name of its file in problems.
+        is_opened: whether the robot is the one that was opened.
+        level: level of the status of the topic.
+        sentence: why there is no robot, or a doubt, with the remedy.
+        instead: a topic to use in place of this one; empty without a suggestion.
+        reason: why the robot has no place, though its topic is read.
     """
 
     topic: str
@@ -62,7 +62,7 @@ class Descriptions(Protocol):
     """The robots that the topics of a recording or of a live robot describe."""
 
     def of(self, topic: str, qos: WantedQos) -> Description:
-        """Return what a topic says; displays draw again when that changes."""
+        """Return the robot of a topic; displays draw again when it changes."""
         ...
 
     def topics(self) -> Sequence[str]:
@@ -78,7 +78,7 @@ class Descriptions(Protocol):
         ...
 
     def transform_doubts(self) -> Mapping[str, TopicReason]:
-        """Return what is wrong with topics of transforms, by their names."""
+        """Return the problems of topics with transforms, by their names."""
         ...
 
 
@@ -102,10 +102,10 @@ class ModelRequest:
     """A display's wish for a model to be read.
 
     Attributes:
-        owner: the display; a new request replaces what it asked for before.
-        path: the file, or what a topic has sent instead.
+        owner: the display; a new request replaces its earlier one.
+        path: the file, or the text of a topic.
         trusted: whether its code may run.
-        done: takes the result; called in another thread.
+        done: called with the result, in another thread.
     """
 
     owner: object
@@ -115,7 +115,7 @@ class ModelRequest:
 
 
 class ModelReader(Protocol):
-    """Reads models in the background, for displays with a model file of their own."""
+    """Reads models in the background, for displays with a separate model file."""
 
     @property
     def package_path(self) -> tuple[Path | str, ...]:

@@ -1,4 +1,4 @@
-"""How large displays are that nobody has given a size: from the robot that is shown."""
+"""Default sizes of displays, from the size of the shown robot."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def round_size(size: float) -> float:
     """Return the nearest of 1, 2 and 5 times a power of ten, by their ratio.
 
     Args:
-        size: [m]; what is smaller than 0.1 mm is taken for that.
+        size: size [m]; smaller ones than 0.1 mm count as that.
     """
     size = max(size, 1e-4)
     power = 10.0 ** math.floor(math.log10(size))

@@ -20,8 +20,8 @@ class Aim:
         origin: the position of the camera, (3,) [m].
         direction: from there through the pixel, (3,), of length 1.
         pixel: size of a pixel at 1 m [m].
-        up: what is up in the picture, (3,), of length 1.
-        forward: where the camera looks, (3,), of length 1.
+        up: the direction up in the picture, (3,), of length 1.
+        forward: the viewing direction of the camera, (3,), of length 1.
     """
 
     origin: Array
@@ -32,7 +32,7 @@ class Aim:
 
     @property
     def right(self) -> Array:
-        """What is to the right in the picture, (3,), of length 1."""
+        """The direction to the right in the picture, (3,), of length 1."""
         return np.cross(self.forward, self.up)
 
     @property

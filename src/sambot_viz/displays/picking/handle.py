@@ -1,4 +1,4 @@
-"""What a hand can move or press in the view: a control of an interactive marker."""
+"""Handles that a user can move or press in the view: controls of markers."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ class MenuEntry:
     """An entry of the menu of a marker.
 
     Attributes:
-        id: that its program has given it.
-        title: what is read.
-        runs: it wants a command run, which is not done here.
-        entries: those of a menu below it.
+        id: the id that its program has given it.
+        title: its text.
+        runs: whether it requests to run a command, which is not done here.
+        entries: the entries of its submenu.
     """
 
     id: int
@@ -62,7 +62,7 @@ class Handle(Protocol):
 
     @property
     def topic(self) -> str:
-        """Where its program hears of what is done."""
+        """The topic for feedback to its program."""
         ...
 
     @property
@@ -87,7 +87,7 @@ class Handle(Protocol):
 
     @property
     def is_there(self) -> bool:
-        """Whether the marker still is the one that was met."""
+        """Whether the marker still is the one that the ray has hit."""
         ...
 
     def grab(self, point: Array, aim: Aim) -> bool:

@@ -1,4 +1,4 @@
-"""Pixels with what is in front in each, as in a renderer with a depth buffer."""
+"""Pixels with the nearest drawn object in each, like a renderer's depth buffer."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Owner(Protocol):
 
     @property
     def is_clear(self) -> bool:
-        """Whether what is behind it can be seen through it."""
+        """Whether it is transparent."""
         ...
 
     @property
@@ -39,30 +39,30 @@ class Owner(Protocol):
 
 
 def hides(owner: Owner) -> bool:
-    """Return whether something is in front of what is behind it.
+    """Return whether an object hides others from selection.
 
-    What can be seen through and selects nothing is not: else nobody could select a
-    robot in a map, or within the ellipsoid of a covariance.
+    Transparent objects that select nothing do not: otherwise a robot in a map, or
+    within the ellipsoid of a covariance, could not be selected.
     """
     return owner.selects or not owner.is_clear
 
 
 class PickBuffer:
-    """Pixels with what is in front in each.
+    """Pixels with the nearest drawn object in each.
 
-    A ray is followed as a rectangle of one pixel.
+    A single ray is a rectangle of one pixel.
 
     Args:
         pixels: the rays through the pixels.
-        takes: what is drawn.
+        takes: which objects are drawn.
 
     Attributes:
         pixels: as given.
-        takes: as given; it may be changed between two that are drawn.
-        writes: whether what is drawn gets the pixels where it is in front; else it is
-            only noted that it is seen there.
-        near: (rows, columns), 1 by the distance along the ray, which is counted in
-            multiples of its direction; 0 for the background.
+        takes: as given; it may be changed between two objects.
+        writes: whether an object takes the pixels where it is in front; otherwise it is
+            only noted that it is visible there.
+        near: (rows, columns), 1 / distance along the ray, which is counted in multiples
+            of its direction; 0 for the background.
     """
 
     def __init__(self, pixels: RayGrid, takes: Callable[[Owner], bool] = hides) -> None:
@@ -79,14 +79,14 @@ class PickBuffer:
     def cover(
         self, left: int, top: int, near: Array, owner: Owner, number: int = 0
     ) -> None:
-        """Put something in front of what is farther away.
+        """Draw an object where it is nearer than the others.
 
         Args:
             left: the first column of a part of the pixels.
             top: its first row.
-            near: how near it is there, (rows, columns), as in the attribute.
-            owner: what is drawn.
-            number: of its numbers.
+            near: its nearness there, (rows, columns), as in the attribute.
+            owner: the drawn object.
+            number: one of its numbers.
         """
         rows, columns = near.shape
         window = np.s_[top : top + rows, left : left + columns]
@@ -102,13 +102,13 @@ class PickBuffer:
     def cover_pixels(
         self, pixels: Indices, near: Array, owner: Owner, numbers: Indices
     ) -> None:
-        """Put many small things in front of what is farther away.
+        """Draw many small parts where they are nearer than the others.
 
         Args:
-            pixels: (F,), row · columns + column of each; one may be there twice.
-            near: (F,), how near that is.
-            owner: what is drawn.
-            numbers: (F,), of its numbers.
+            pixels: (F,), row · columns + column of each; repetitions are allowed.
+            near: (F,), nearness of each.
+            owner: the drawn object.
+            numbers: (F,), the number of each part.
         """
         nearer = np.flatnonzero(near > self.near.ravel()[pixels])
         if not self.writes:

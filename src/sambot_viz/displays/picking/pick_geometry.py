@@ -17,8 +17,8 @@ class Nearby:
     """A point that a ray goes past.
 
     Attributes:
-        distance: to the point along the ray [m].
-        hit: what is met if the ray is taken for one through the point.
+        distance: distance to the point along the ray [m].
+        hit: the result if the ray is treated as one through the point.
     """
 
     distance: float

@@ -22,11 +22,11 @@ HERE = np.eye(4)
 
 
 class Placed:
-    """Something that is drawn, at its pose; the base of all that is one item.
+    """A drawn object at its pose; the base of all that are one item.
 
     Attributes:
-        item: what a click selects; None when that is nothing.
-        is_clear: whether what is behind it can be seen through it.
+        item: the item that a click selects; None for nothing.
+        is_clear: whether it is transparent.
     """
 
     item: Selectable | None
@@ -53,7 +53,7 @@ class Placed:
         return {} if self.item is None else {self.item: None}
 
     def position(self, number: int) -> Array | None:
-        """Return None: what is met is its surface."""
+        """Return None: a ray hits its surface."""
         del number
 
     def cut_off(self, pixels: RayGrid) -> Iterator[Selectable]:
@@ -76,14 +76,14 @@ class Placed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlacedMesh(Placed):
-    """Triangles with their pose, and what they belong to.
+    """Triangles with their pose and their item.
 
     Attributes:
-        item: the link, frame or marker; None for what is not selectable.
+        item: the link, frame or marker; None if not selectable.
         mesh: the triangles.
         T: (4, 4) from them to the fixed frame; it may scale.
-        color: of the shape of a robot, 0 to 255; None for anything else.
-        is_clear: whether what is behind them can be seen through them.
+        color: colour of the shape of a robot, 0 to 255; None for other objects.
+        is_clear: whether they are transparent.
     """
 
     item: Selectable | None

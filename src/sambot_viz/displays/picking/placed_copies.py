@@ -19,7 +19,7 @@ from sambot_viz.displays.picking.triangle_mesh import Part, TriangleMesh
 from sambot_viz.geometry import Matrix
 
 Items: TypeAlias = "Selectable | Sequence[Selectable | None] | None"
-"""What a node is to a selection: one item, or one for each of its copies."""
+"""The selectable items of a node: one, or one for each of its copies."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,11 +27,11 @@ class PlacedCopies(Placed):
     """Copies of one mesh.
 
     Attributes:
-        items: what they belong to.
+        items: the item of each copy, or of all.
         mesh: the triangles of each.
         T_node_copy: (N, 4, 4), their poses; they may scale.
         T: (4, 4) from the node to the fixed frame.
-        is_clear: whether what is behind one of them can be seen through it.
+        is_clear: whether they are transparent.
     """
 
     items: Items
@@ -58,7 +58,7 @@ class PlacedCopies(Placed):
         return self.items is not None
 
     def item_of(self, number: int) -> Selectable | None:
-        """Return what a copy belongs to."""
+        """Return the item of a copy."""
         return self.items[number] if isinstance(self.items, Sequence) else self.items
 
     def selection(self, numbers: Indices) -> Selection:

@@ -22,15 +22,15 @@ NEAR_LINE = 3.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlacedLines(Placed):
-    """Lines that face the eye; they are met from some pixels.
+    """Lines that face the eye; a ray hits them within some pixels.
 
     Attributes:
-        item: the marker; None for what is not selectable, which is pointed at where the
-            ray meets nothing else.
+        item: the marker; None if not selectable: then they are only hit where the ray
+            hits nothing else.
         segments: (N, 2, 3), their ends [m].
         T: (4, 4) from them to the fixed frame.
-        width: [m]; 0 for lines as thin as a pixel.
-        is_clear: whether it can be seen past them.
+        width: width [m]; 0 for lines as thin as a pixel.
+        is_clear: whether they are transparent.
     """
 
     item: Selectable | None

@@ -67,13 +67,13 @@ class PlacedPoints(Placed):
     """Points with their outline and their pose.
 
     Attributes:
-        item: what they belong to; None when they cannot be selected.
+        item: their item; None if they cannot be selected.
         points: (N, 3) [m].
         T: (4, 4) from them to the fixed frame.
         look: their outline.
-        numbers: (N,), rising, what a selection calls them; None where they are selected
+        numbers: (N,), rising, their numbers in a selection; None if they are selected
             together.
-        is_clear: whether what is behind them can be seen through them.
+        is_clear: whether they are transparent.
     """
 
     item: Selectable | None
@@ -120,8 +120,8 @@ class PlacedPoints(Placed):
 
         Args:
             pixels: the rays.
-            radius: of the balls around the points [m].
-            more: what is added to it [pixels].
+            radius: radius of the balls around the points [m].
+            more: margin added to it [pixels].
         """
         for start in range(0, len(self.points), CHUNK):
             some = self.points[start : start + CHUNK]

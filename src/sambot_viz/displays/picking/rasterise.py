@@ -1,11 +1,10 @@
-"""Draws triangles into pixels, as a renderer does: which are covered, and how near.
+"""Rasterise triangles as a renderer does: the covered pixels, and their nearness.
 
-Only the side is drawn that a page draws: a triangle that is seen from behind covers
-nothing. Groups of neighbouring triangles whose box lies beside the pixels, or falls
-between them, are dropped first; then the same is done with the triangles of the other
-groups. What is left is filled row by row. Nothing is clipped: inside of a triangle, the
-edge functions and the inverse of the distance are linear in column and row, also for a
-triangle that reaches behind the eye.
+Only front faces are drawn, as in a page. Groups of neighbouring triangles whose box is
+beside the pixels, or falls between them, are dropped first, then triangles of the other
+groups by the same test. The rest is filled row by row. Nothing is clipped: inside of a
+triangle, the edge functions and the inverse of the distance are linear in column and
+row, also for a triangle that reaches behind the eye.
 """
 
 from __future__ import annotations

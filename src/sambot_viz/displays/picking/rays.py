@@ -39,10 +39,10 @@ class RayGrid:
 
     Attributes:
         origin: the eye, (3,) [m].
-        axes: from one column to the next, from one row to the next, and the first ray,
-            as columns, (3, 3); right-handed.
-        columns: how many.
-        rows: how many.
+        axes: the step from one column to the next, from one row to the next, and the
+            first ray, as columns, (3, 3); right-handed.
+        columns: number of columns.
+        rows: number of rows.
         pixel: size of a pixel of the picture at 1 m [m]; 0 where there is no picture.
     """
 
@@ -66,7 +66,7 @@ class RayGrid:
             origin: the eye, (3,) [m].
             direction: (3,).
             pixel: as the attribute.
-            up: what is up in the picture, (3,); None where that does not matter.
+            up: the direction up in the picture, (3,); None where it does not matter.
         """
         axes = np.empty((3, 3))
         # Else any two axes across the ray will do.
@@ -117,16 +117,16 @@ class RayGrid:
         """Return those of some balls that may cover a pixel.
 
         Args:
-            points: their middles, (N, 3) [m].
+            points: their centres, (N, 3) [m].
             T: (4, 4) affine map from their frame to that of the rays.
             radii: (N,), or (1,) for all [m].
-            pixels: what is added to the radii [pixels].
+            pixels: margin added to the radii [pixels].
         """
         A, b = self._to_eye(T)
         ends = [(c, r) for c in (0, self.columns - 1) for r in (0, self.rows - 1)]
         rays = [self.axes @ np.array((*end, 1.0)) for end in ends]
         aslant = max(float(np.linalg.norm(ray)) for ray in rays)
-        # What is beside the columns need not be looked at again.
+        # Balls beside the columns are not tested against the rows.
         z = _along(points, A[2], b[2])
         radii = radii + pixels * self.pixel * np.maximum(z, 0.0)
         index: Indices = np.arange(len(points))
@@ -135,7 +135,7 @@ class RayGrid:
             at, metres = _along(points, A[axis], b[axis]), self.axes[:, axis]
             beside = np.maximum(-at, at - (count - 1) * z)
             away = beside * float(np.linalg.norm(metres)) > radii * aslant
-            # One that the eye is in may be anywhere.
+            # A ball around the eye may cover any pixel.
             near = np.flatnonzero((~away | (z <= radii)) & (z > -radii))
             points, z, index, radii = points[near], z[near], index[near], radii[near]
             seen = [one[near] for one in (*seen, at)]

@@ -1,4 +1,4 @@
-"""What can be selected, what is selected, and what a ray has met."""
+"""Selectable items, selections, and the hits of rays."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ ItemKind = Literal["link", "frame", "marker", "points", "pose"]
 
 @dataclass(frozen=True, slots=True)
 class Selectable:
-    """Something that can be selected.
+    """An item that can be selected.
 
     Attributes:
         kind: a link of the robot, a TF frame, a marker, the points of one message, or
             the pose of a display.
-        name: what people call it.
-        of: of what a display draws: which display, and for points which message.
+        name: its name for users.
+        of: for data, the display, and for points the message.
     """
 
     kind: ItemKind
@@ -35,7 +35,7 @@ class Selectable:
 
 
 Selection: TypeAlias = Mapping[Selectable, Indices | None]
-"""What is selected; of points also their numbers, sorted, and None for all others."""
+"""Selected item → for points their sorted numbers, for others None."""
 
 
 def merged(before: Selection, items: Selection, modifier: str | None) -> Selection:
@@ -78,10 +78,10 @@ class Hit:
     """The result of following a ray from the cursor.
 
     Attributes:
-        point: the nearest point of what is drawn, in the fixed frame, (3,) [m]; None
-            for the background.
-        item: what a click selects; None for what cannot be, and the background.
-        number: of the point, where the item is points.
+        point: the nearest drawn point, in the fixed frame, (3,) [m]; None for the
+            background.
+        item: the item that a click selects; None if not selectable, or background.
+        number: number of the point, where the item is points.
     """
 
     point: Array | None
@@ -90,7 +90,7 @@ class Hit:
 
     @property
     def selection(self) -> Selection:
-        """What a click selects, as a selection."""
+        """The item of a click, as a selection."""
         if self.item is None:
             return {}
         numbers = None if self.number is None else np.array([self.number])

@@ -59,14 +59,14 @@ class SelectedData:
     """Data of a display that can be selected, at one moment."""
 
     def facts(self, numbers: Indices | None) -> Sequence[DataFacts]:
-        """Return what is said of it.
+        """Return the facts about it.
 
         Args:
-            numbers: of points; None for a marker or a pose.
+            numbers: numbers of points; None for a marker or a pose.
         """
         raise NotImplementedError
 
     def cubes(self, numbers: Indices) -> Cubes:
-        """Return the boxes around some points; what is none has other boxes."""
+        """Return the boxes around some points; other items override this."""
         del numbers
         return Cubes(np.zeros((0, 3)), np.zeros(0))

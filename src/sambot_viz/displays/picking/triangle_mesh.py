@@ -54,7 +54,7 @@ class TriangleMesh:
         return cls(none, none.astype(np.uint32), *ends)
 
     def both_sides(self) -> TriangleMesh:
-        """Return the mesh with triangles that are seen from behind, too."""
+        """Return the mesh with the back faces of its triangles added."""
         faces = np.concatenate([self.faces, self.faces[:, ::-1]])
         return TriangleMesh(self.vertices, faces, self.low, self.high)
 
@@ -127,7 +127,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TurnedBox:
-    """A box along axes of its own.
+    """An oriented box.
 
     Attributes:
         T: (4, 4) from these axes to the fixed frame.

@@ -1,4 +1,4 @@
-"""What is said of the mass of a robot, and of what it takes to tip it over."""
+"""The facts about the mass of a robot, and about its stability."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def balance_facts(robot: Robot, found: Balance | None) -> Mapping[str, str]:
 
 
 def balance_status(found: Balance | None) -> Status:
-    """Say whether a robot stands."""
+    """Return the status that says whether a robot stands."""
     if found is None:
         return Status("Warn", "No link of this robot has a mass")
     tipping = found.tipping
@@ -95,7 +95,7 @@ def _assumed(robot: Robot) -> Sequence[str]:
     """Return the links of an SDF that do not say their mass."""
     if robot.language != "sdf":
         return ()
-    # What is not written has no place in the file.
+    # A missing element has no place in the file.
     links = robot.links.values()
     return [link.name for link in links if link.inertial and not link.inertial.place]
 

@@ -1,4 +1,4 @@
-"""The centre of mass in the view: a ball, its fall, and what the robot stands on."""
+"""The centre of mass in the view: a ball, its plumb line, and the support polygon."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class BalanceMark:
         self._make("")
 
     def draw(self, root: str, found: Balance | None) -> None:
-        """Draw what is known; what has not changed is not sent again.
+        """Draw the balance; unchanged nodes are not sent again.
 
         Args:
             root: the frame of the root link.

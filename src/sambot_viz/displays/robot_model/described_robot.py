@@ -23,15 +23,15 @@ class DescribedRobot:
     """Chooses the robot of one display by the topic that it names.
 
     Args:
-        context: the opened robot, what topics say, and the reader of models.
-        wanted: returns the topic and the QoS that the display asks for.
+        context: the opened robot, the robots of topics, and the reader of models.
+        wanted: returns the topic and the QoS of the display.
         on_read: called when a model has been read, or could not be.
 
     Attributes:
         robot: the robot to draw, or None while there is none.
-        is_opened: it is the one that was opened.
-        status: why there is no robot, or not the latest one; None when all is well.
-        described: what the topic says; None where no messages come.
+        is_opened: whether it is the one that was opened.
+        status: why there is no robot, or not the latest one; None if all is well.
+        described: the robot of the topic; None where no messages come.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class DescribedRobot:
         return ("Opened", id(self._context.robot))
 
     def _read(self, model: Path | Description | None, trusted: bool) -> None:
-        """Start reading a file, or what a topic has sent; `_take` gets the result."""
+        """Start reading a file, or the text of a topic; `_take` gets the result."""
         models = self._context.models
         if model is None or models is None:
             return
@@ -149,6 +149,6 @@ class DescribedRobot:
         self._on_read()
 
     def _may_quote(self, trusted: bool) -> bool:
-        """Return whether what is wrong with a model may be told: a topic is public."""
+        """Return whether the problems of a model may be shown: a topic is public."""
         del trusted
         return True

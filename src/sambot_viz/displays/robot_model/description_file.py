@@ -25,20 +25,20 @@ def find_description(name: str, near: Sequence[Path]) -> Path | None:
     file ``pkg/urdf/a.urdf`` is found.
 
     Args:
-        name: as the config says; "~", file:// and package:// are understood.
+        name: the name in the config; "~", file:// and package:// are understood.
         near: folders in which to look, the most likely first.
 
     Returns:
-        None when there is no such file.
+        None if there is no such file.
     """
     found = (path for path in _candidates(name, near) if os.path.isfile(path))
     return next(found, None)
 
 
 def find_below(name: str, folders: Sequence[Path]) -> Path | None:
-    """The file that a browser means: only one that lies below some opened folders.
+    """Return the file that a browser names, if it is below some opened folders.
 
-    Nothing outside the folders is looked at, so the answer reveals nothing about it.
+    Nothing outside the folders is read, so the answer reveals nothing about it.
 
     Args:
         name: as for `find_description`.

@@ -112,7 +112,7 @@ class LinkOverlays:
         self._fixed = context.fixed_frame
 
     def draw(self, robot: Robot, entries: RobotEntries, wanted: Wanted) -> None:
-        """Draw what is missing, take out what is not wanted any more."""
+        """Add missing overlays, and remove those no longer wanted."""
         keep: set[tuple[str, str]] = set()
         for link in robot.links.values():
             own = entries.link(link.name)

@@ -90,7 +90,7 @@ class RobotModelDisplay(TriangleDisplay):
     def topic_values(
         cls, topic: str, type_name: str, qos: WantedQos | None
     ) -> Mapping[str, object] | None:
-        """Return the values of one that shows a description, or what joints move."""
+        """Return the values for a display of a description, or one moved by joints."""
         if meaning_of(type_name) is Meaning.JOINTS:
             return {}
         if not describes_robot(topic, type_name):
@@ -103,7 +103,7 @@ class RobotModelDisplay(TriangleDisplay):
         return self._source.frame_of(link, prefix)
 
     def draw(self) -> None:
-        """Draw what is missing and change what differs."""
+        """Add missing nodes, and update others."""
         robot = self._take_robot()
         if robot is None:
             self._remove_shapes()
@@ -149,7 +149,7 @@ class RobotModelDisplay(TriangleDisplay):
         self._draw_balance(robot)
 
     def _draw_balance(self, robot: Robot) -> None:
-        """Draw the centre of mass, and say whether the robot stands."""
+        """Draw the centre of mass, and report whether the robot stands."""
         if not self.config.get(BALANCE):
             self._mark.remove()
             return

@@ -64,11 +64,11 @@ class ShapeNode:
     """The nodes of one shape under its link's frame node.
 
     Primitives and plain meshes change colour and opacity in place; a part with a
-    texture or with normals of its own is sent again for another opacity.
+    texture or with its own normals is sent again for another opacity.
 
     Attributes:
         asset: the file it is drawn from, or None.
-        waiting: the file is being read.
+        waiting: whether the file is being read.
     """
 
     def __init__(

@@ -26,7 +26,7 @@ from sambot_viz.robot.parts import (
 )
 
 DEFAULT_RED: Rgba = (1.0, 0.0, 0.0, 1.0)
-"""What a link without a material is drawn in."""
+"""The colour of a link without a material."""
 ERROR_WHITE: Rgb = (255, 255, 255)
 UNLIT = "toon3"
 """The page script draws toon materials unlit; nothing else here uses one."""
@@ -46,10 +46,10 @@ class ShapeLook:
     """The look of a shape: visible or not, its alpha, or the white of an error.
 
     Attributes:
-        visible: drawn at all.
-        alpha: display alpha times link alpha; the material's own comes on top.
-        error: white, opaque and unlit, because its link has no transform.
-        color: in place of its own, 0 to 255; a program has chosen it for the link.
+        visible: whether it is drawn at all.
+        alpha: display alpha times link alpha; multiplied by the material's own.
+        error: whether it is white, opaque and unlit, because its link has no transform.
+        color: colour that a program has set for the link, 0 to 255; None for its own.
     """
 
     visible: bool

@@ -23,7 +23,7 @@ from sambot_viz.geometry import (
 from sambot_viz.meshes.primitives import CONE_TIP
 
 THIN = 0.001
-"""Thickness of what is flat [m]."""
+"""Thickness of flat shapes [m]."""
 _STEEPEST = math.radians(89)
 _X, _Y, _Z = np.eye(3)
 _DISCS = (((1, 2), _X, _Z, -_Y), ((0, 2), _Y, _Z, -_X), ((0, 1), _Z, _X, -_Y))
@@ -76,12 +76,12 @@ def covariance_solids(
         covariance: (6, 6) or (36,) of x, y, z [m²] and the rotations about them [rad²];
             only the lower triangle is read.
         wxyz: rotation of the pose in its frame.
-        position: of the pose there [m].
-        look: what is drawn; RViz's defaults without.
+        position: position of the pose there [m].
+        look: the settings of the drawing; by default RViz's.
 
     Returns:
-        A sphere, then a cone where z, roll and pitch are certain, three cylinders
-        elsewhere; without what has a negative variance or none that is a number.
+        A sphere, then a cone if z, roll and pitch are certain, or else three cylinders;
+        shapes with a negative variance or NaN are left out.
     """
     look = look or CovarianceLook()
     given: Matrix = np.reshape(np.asarray(covariance, np.float64), (6, 6))

@@ -146,7 +146,7 @@ def _pose(T: Matrix) -> Pose:
 
 
 FARTHEST = 1e30
-"""Browsers compute with 32 bits: what is farther away [m] would be infinite there."""
+"""The largest distance [m]: browsers compute with 32 bits, where more is infinite."""
 
 
 def position_of(T: Matrix) -> Vector3:

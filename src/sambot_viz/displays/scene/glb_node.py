@@ -1,8 +1,8 @@
-"""Nodes that the page draws by rules of its own.
+"""Nodes that the page draws in special ways.
 
 viser has neither ribbons nor palettes nor coloured text. It does load GLB files, whose
-`extras` reach the page's script: `drawAs` there names what page/view/drawn.js makes of
-the file's vertices.
+`extras` reach the page's script: `drawAs` selects the way in which page/view/drawn.js
+draws the file's vertices.
 """
 
 from __future__ import annotations
@@ -58,14 +58,14 @@ class GlbNode(PosedNode[viser.GlbHandle]):
         wxyz: Wxyz = IDENTITY,
         position: Vector3 = ORIGIN,
     ) -> None:
-        """Send the file if its content is another one, and the pose if it is.
+        """Send the file if its content has changed, and the pose if that has.
 
         Args:
-            content: everything that the file depends on; arrays, and what `repr` tells
-                apart.
+            content: everything that the file depends on: arrays, and values that differ
+                in their `repr`.
             make: returns the file.
-            wxyz: rotation in the frame of the node above.
-            position: there [m].
+            wxyz: rotation in the frame of the parent node.
+            position: position there [m].
         """
         digest = digest_of(content)
         self.send(digest != self._digest, make, wxyz, position)
@@ -112,7 +112,7 @@ def _as_sent(file: bytes) -> bytes:
 
 
 def digest_of(content: Sequence[object]) -> bytes:
-    """Return a digest of arrays and of what `repr` tells apart."""
+    """Return a digest of arrays and of the `repr` of other values."""
     digest = hashlib.blake2b(digest_size=16)
     for part in content:
         if isinstance(part, np.ndarray):
@@ -125,7 +125,7 @@ def digest_of(content: Sequence[object]) -> bytes:
 
 
 def single(values: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    """Return numbers with 32 bits, as browsers have them; what is too large is inf.
+    """Return numbers with 32 bits, as browsers have them; too large ones become inf.
 
     Those that have them already are not copied.
     """
@@ -164,17 +164,17 @@ def drawn_glb(
     """Return a GLB file with one unlit part that is seen from both sides.
 
     Args:
-        draw_as: what draws it, a name of page/view/drawn.js.
+        draw_as: the way to draw it, a name of page/view/drawn.js.
         attributes: glTF's name → (N, 1 to 4) float32 or uint8, 0 to 255 for 0 to 1;
             none for a file that only carries `extras`.
-        extras: what else the page has to know.
+        extras: further values for the page.
         mode: `POINTS`, `LINES`, `LINE_STRIP` or `TRIANGLES`.
         indices: of the corners of the triangles, uint32.
-        blended: whether alpha is looked at; then it writes no depth.
+        blended: whether alpha is used; then it writes no depth.
         color: of all vertices, (4,) uint8, which those in the attributes multiply.
         image: a PNG file, the texture.
-        has_bounds: whether the page looks at the bounds of the positions, to leave out
-            what is not in sight.
+        has_bounds: whether the page uses the bounds of the positions to skip the node
+            when it is out of sight.
     """
     body = _Body()
     said = {"drawAs": draw_as, **(extras or {})}

@@ -179,14 +179,14 @@ class LineNode(LinesNode):
         wxyz: Wxyz = IDENTITY,
         position: Vector3 = ORIGIN,
     ) -> None:
-        """Draw a line from each point to the next, of which each is sent once.
+        """Draw a line from each point to the next; each point is sent once.
 
         Args:
-            points: (N, 3) [m]; to and from one that is not finite there is no line.
+            points: (N, 3) [m]; no line leads to or from one that is not finite.
             color: 0 to 255.
-            alpha: as for `draw`, and so are the others.
-            wxyz: rotation in the frame of the node above.
-            position: there [m].
+            alpha: as for `draw`, like the others.
+            wxyz: rotation in the frame of the parent node.
+            position: position there [m].
         """
         at: Floats = np.ascontiguousarray(single(points))
         if len(at) < 2 or not np.isfinite(at).all():
@@ -290,10 +290,10 @@ class PathLine:
         self._drawn = 1
 
     def draw(self, above: str | None, points: Sequence[tuple[float, float]]) -> bool:
-        """Draw what is new; a list that became shorter is drawn from the start.
+        """Draw the new points; a list that became shorter is drawn from the start.
 
         Args:
-            above: the node of the frame that the points are in; None draws nothing.
+            above: the node of the frame of the points; None draws nothing.
             points: x, y [m].
 
         Returns:

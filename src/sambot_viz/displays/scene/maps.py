@@ -72,12 +72,12 @@ def palette(scheme: str, is_binary: bool = False, threshold: int = 100) -> Palet
 class MapNode(PosedNode[viser.FrameHandle]):
     """The cells of one map, in squares of `TILE` cells below a node with its pose.
 
-    What a square shows is sent again only if one of its cells has changed; the palette,
-    the alpha and the order of drawing are a file of 2.6 kB.
+    A square is sent again only if one of its cells has changed; the palette, the alpha
+    and the order of drawing are a separate file of 2.6 kB.
 
     Args:
-        scene: where to draw.
-        name: of the node; it is drawn in the frame of the node above.
+        scene: viser's scene.
+        name: name of the node; it is drawn in the frame of its parent node.
     """
 
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
@@ -226,7 +226,7 @@ def _square(row: int, column: int) -> tuple[slice, slice]:
 
 
 def _look_glb(look: dict[str, object]) -> bytes:
-    """Return a GLB file that shows nothing and says what a map looks like."""
+    """Return a GLB file without geometry that carries the look of a map."""
     corners = np.zeros((3, 3), np.float32)
     attributes = {"POSITION": corners, "TEXCOORD_0": corners[:, :2]}
     return drawn_glb("map", attributes, extras=look, image=ONE_PIXEL)

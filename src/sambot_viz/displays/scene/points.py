@@ -71,7 +71,7 @@ class PointNode(GlbNode):
 
     def __init__(self, scene: viser.SceneApi, name: str) -> None:
         super().__init__(scene, name)
-        # To compare them takes a fraction of what a digest of them does.
+        # Comparing them takes a fraction of the time of a digest.
         self._shown: Shown | None = None
 
     def draw(

@@ -1,4 +1,4 @@
-"""The mesh files and textures of one session: what is read, and what is on its way."""
+"""The mesh files and textures of one session: read ones, and those being read."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ class AssetUser(Protocol):
 
 
 class SessionAssets:
-    """Gives displays what they draw from as soon as it is read.
+    """Gives displays their files as soon as these are read.
 
     Args:
-        cache: what is read already.
-        reader: reads the rest in the background; None reads it when it is asked for.
+        cache: the files that are read already.
+        reader: reads the others in the background; None reads them on demand.
         on_read: called after some files have been read in the background.
 
     Attributes:
-        cache: what is read already.
-        read_count: how many files have been read in the background so far.
+        cache: as given.
+        read_count: number of files that have been read in the background so far.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class SessionAssets:
         return self.cache.known(asset)
 
     def content(self, asset: Asset) -> Content | None:
-        """Return what is in a file; None while it is read in the background."""
+        """Return the content of a file; None while it is read in the background."""
         if self._reader is None:
             return self.cache.read(asset)
         content = self.cache.known(asset)

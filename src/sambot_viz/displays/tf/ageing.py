@@ -11,7 +11,7 @@ from sambot_viz.errors import FrameError
 
 GREY: Rgb = (178, 178, 178)
 STEPS = 8
-"""So many looks a frame has on its way to grey, and again until it is gone: each is a
+"""Number of steps of a frame on its way to grey, and again until it is gone: each is a
 message to all browsers."""
 SAME_CLOCK = 3600.0
 """Stamps further from the time of a recording are of another clock [s]."""
@@ -62,7 +62,7 @@ def look_at_age(age: float, timeout: float) -> FrameLook:
 
 
 def _step(part: float) -> float:
-    """Round up, so that what is left is seen until the end."""
+    """Round up, so that the rest is visible until the end."""
     return min(1.0, (int(part * STEPS) + 1) / STEPS)
 
 

@@ -78,8 +78,8 @@ TF_PROPERTIES: tuple[Property, ...] = (
 class FrameEntries:
     """The frames of one TF display as items of the document.
 
-    A frame that the file names without a "Value" is off, as in RViz; one that it does
-    not name follows "All Enabled".
+    A frame that the file lists without a "Value" is off, as in RViz; a frame that it
+    does not list follows "All Enabled".
 
     Args:
         config: the display.

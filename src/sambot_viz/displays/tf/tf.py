@@ -98,7 +98,7 @@ class TfDisplay(TriangleDisplay):
             self.draw()
 
     def draw(self) -> None:
-        """Draw what is missing and change what differs."""
+        """Add missing nodes, and update others."""
         tree, nodes = self.context.tree, self.context.nodes
         passes = self._filter()
         frames = {
@@ -267,7 +267,7 @@ class TfDisplay(TriangleDisplay):
         self.status.replace(rows)
 
     def unseen_topics(self) -> Iterator[tuple[str, TopicReason]]:
-        """Yield topics of transforms with what is wrong; parents are told elsewhere."""
+        """Yield topics of transforms with their faults, except those of parents."""
         for topic, row in self.status.rows.items():
             if row.code and row.code not in OF_PARENTS:
                 yield topic, TopicReason(row.code, row.text)
@@ -287,7 +287,7 @@ def frame_arrow(at: Vector3, scale: float) -> Arrow | None:
 
     Args:
         at: origin of the frame in its parent [m].
-        scale: Marker Scale.
+        scale: the property "Marker Scale".
 
     Returns:
         None when the frames are too close for an arrow. A head that is longer than the
