@@ -7,24 +7,24 @@ import struct
 from sambot_viz.errors import DecodeError
 
 HEAD = 4
-"""So many bytes stand before the fields, which are aligned from behind them."""
+"""Length of the header [bytes]; the fields are aligned from its end."""
 
 
 class CdrReader:
-    """Finds fields: all is aligned to its size, texts end with a zero.
+    """Finds fields: numbers are aligned to their size, texts end with a zero.
 
-    Positions count from behind the head.
+    Positions count from the end of the header.
 
     Args:
         data: the message.
 
     Attributes:
-        data: the fields, without the head.
-        order: of the bytes, "<" or ">".
-        gaps: (begin, end) of bytes without meaning that were passed, in the message.
+        data: the fields, without the header.
+        order: the byte order, "<" or ">".
+        gaps: (start, end) of skipped padding in the message.
 
     Raises:
-        DecodeError: it is not in CDR.
+        DecodeError: the message is not in CDR.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -32,7 +32,7 @@ class CdrReader:
             raise DecodeError(f"it begins with {data[:2].hex() or 'nothing'}, not CDR")
         self.order = "<" if data[1] else ">"
         self.data = data[HEAD:]
-        # Two bytes of the head are options that nobody reads.
+        # Two bytes of the header are options, which are not used.
         self.gaps: list[tuple[int, int]] = [(2, HEAD)]
         self._length = struct.Struct(self.order + "I").unpack_from
 
@@ -53,12 +53,12 @@ class CdrReader:
         return found
 
     def text(self, position: int) -> tuple[str, int]:
-        """Return a text, and where it ends.
+        """Return a text, and the position of its end.
 
         Raises:
             DecodeError: the text is longer than the message.
-            UnicodeDecodeError: it is no UTF-8.
-            struct.error: the message is cut off.
+            UnicodeDecodeError: the text is not UTF-8.
+            struct.error: the message is truncated.
         """
         end = position + 4 + self.length(position)
         if end > len(self.data):

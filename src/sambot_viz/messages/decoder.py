@@ -28,7 +28,7 @@ _XCDR2 = tuple(bytes((0, number)) for number in range(6, 12))
 _PADDING = 3
 """CDR pads messages to four bytes."""
 _ZEROS = 8
-"""As many zeros as rclpy.serialize_message leaves behind a message."""
+"""The zeros that rclpy.serialize_message adds after a message."""
 
 
 class Decoder:
@@ -55,30 +55,30 @@ class Decoder:
         self.note: Reason | None = None
 
     def decode(self, payload: Payload, kept: KeptElements | None = None) -> Any:
-        """Return a message.
+        """Decode a message.
 
         Args:
             payload: its bytes.
-            kept: the elements of the message before of its topic: those of the same
-                bytes are the same objects.
+            kept: the elements of the last message of its topic: elements with the same
+                bytes become the same objects.
 
         Returns:
             An object with the fields as attributes; arrays of numbers are read-only
-            views of the payload. A dict of fields for what is not of ROS.
+            views of the payload. For messages that are not of ROS, a dict of fields.
 
         Raises:
-            DecodeError: the bytes are no such message; a short cause.
+            DecodeError: the bytes do not fit the type; with a short cause.
         """
         raise DecodeError(self.reason.text if self.reason else "it cannot be read")
 
     def transforms(self, payload: Payload) -> ReadTransforms | None:
-        """Return transforms that need no objects; None for what is to be decoded."""
+        """Return transforms without making objects; None if they must be decoded."""
         del payload
         return None
 
 
 class _Store:
-    """What a generated function asks rosbags' store for, for one message.
+    """Stands in for rosbags' store in the generated functions, for one message.
 
     No sequence can have more elements than the message has bytes; rosbags would
     count up to any number where elements take none.

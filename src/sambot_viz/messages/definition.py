@@ -1,8 +1,8 @@
 """The definition of a message: a type with all types that it is made of.
 
-A definition comes from a file or a peer that nobody vouches for, and rosbags makes
-Python code of it. So only names that are plain words get that far, and no array that
-would make the code, or what it makes of a small message, grow without bound.
+A definition comes from an untrusted file or peer, and rosbags turns it into Python
+code. So it may contain only plain words as names, and no array that would make the
+code, or the result of a small message, grow without bound.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ class TypeDefinition:
 
 
 def closed(name: str, types: Types, find: Lookup) -> TypeDefinition:
-    """Return a definition with all that a type needs.
+    """Return a definition with all types that a type needs.
 
     Args:
-        name: of the type.
-        types: what is defined.
-        find: finds what is not.
+        name: the type.
+        types: the defined types.
+        find: finds the others.
 
     Raises:
         UnreadFieldError: a field is of a kind that is not read.
-        DecodeError: a type is missing or contains itself, or the definition is one
-            that nobody writes.
+        DecodeError: a type is missing or contains itself, or the definition is beyond
+            all that is in use.
     """
     known = dict(types)
     needed: dict[str, Fielddefs] = {}

@@ -26,7 +26,7 @@ _MOST_LEAVES = 64
 
 
 def leaves_of(name: str, types: Types) -> tuple[Leaf, ...]:
-    """Return the numbers and texts of a type; none of one that has other fields."""
+    """Return the numbers and texts of a type; none if it has other fields."""
     found = tuple(islice(_leaves(name, types, ""), _MOST_LEAVES + 1))
     return () if None in found or len(found) > _MOST_LEAVES else cast("Any", found)
 
@@ -62,13 +62,13 @@ def smallest(leaves: Sequence[Leaf]) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where an element in a message has its fields.
+    """The positions of the fields of an element in a message.
 
     Attributes:
-        begin: of the element.
-        end: behind its last field.
-        numbers: path → place, counted from `begin`, and numpy's type.
-        texts: (begin, end) of each text with its length, counted from `begin`.
+        begin: start of the element.
+        end: end of its last field.
+        numbers: path → position, counted from `begin`, and numpy's type.
+        texts: (start, end) of each text with its length, counted from `begin`.
     """
 
     begin: int

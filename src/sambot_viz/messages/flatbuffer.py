@@ -55,7 +55,7 @@ class FlatBufferDecoder(Decoder):
     def decode(
         self, payload: Payload, kept: KeptElements | None = None
     ) -> dict[str, Any]:
-        """Return the fields of a message; one that is not set has its default."""
+        """Return the fields of a message, with defaults for those not set."""
         reading = FlatBufferReading(within_limit(payload))
         try:
             return self._types[self.type_name].read(reading, reading.jump(0))
@@ -86,13 +86,13 @@ class FlatBufferReading:
         return at + self.number("I", at)
 
     def take(self, count: int) -> None:
-        """Count what is read; messages whose parts are each other never end."""
+        """Count the parts that are read: a message with circular parts never ends."""
         self._left -= count
         if self._left < 0:
             raise DecodeError("its parts are each other")
 
     def place(self, table: int, slot: int) -> int:
-        """Return where a table has a field; 0 for one that is not set."""
+        """Return the position of a field of a table; 0 if it is not set."""
         vtable = table - self.number("i", table)
         entry = 4 + 2 * slot
         if entry + 2 > self.number("H", vtable):
@@ -131,7 +131,7 @@ class _Type:
         self.fields: list[tuple[str, int, Read, Any]] = []
 
     def read(self, reading: FlatBufferReading, at: int) -> dict[str, Any]:
-        """Return the fields of one that begins somewhere."""
+        """Return the fields of the table at a position."""
         reading.take(len(self.fields))
         reading.depth += 1
         if reading.depth > limits.FIELDS_DEPTH.value:
@@ -183,7 +183,7 @@ def _types_of(data: bytes) -> dict[str, _Type]:
 
 
 def _reader(schema: FlatBufferReading, kind: int, types: list[_Type]) -> Read | None:
-    """Return what reads a field; None for unions and what is not known."""
+    """Return the reader of a field; None for unions and unknown types."""
     base = int(_number(schema, kind, 0, "b"))
     element = int(_number(schema, kind, 1, "b"))
     index = int(_number(schema, kind, 2, "i", -1))

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _register_lock = Lock()
 _POSE = "geometry_msgs/msg/Pose"
 _ARRAY = "[]"
-"""Behind the name of a type: arrays of it, as a type that rosbags' code asks us for."""
+"""Suffix of a type's name for arrays of it, as rosbags' code requests them."""
 
 
 class Functions:
@@ -32,14 +32,14 @@ class Functions:
     rosbags' own store makes fourteen for each type, of which reading needs one.
 
     Args:
-        types: the fields of all of them.
-        root: the one whose messages come one after the other; the elements of its own
-            arrays are kept for the next message, if its reader wants that.
+        types: the fields of all types.
+        root: the type of the messages; the elements of its arrays are kept for the next
+            message, if its reader wants that.
 
     Attributes:
-        max_sequence_length: no array may have more elements; one that reads a whole
-            message says how many.
-        kept: elements of the message before; one that reads a whole message has them.
+        max_sequence_length: limit for the elements of an array; set by the reader of a
+            whole message.
+        kept: elements of the last message; set by the reader of a whole message.
     """
 
     max_sequence_length = 0
@@ -82,7 +82,7 @@ def _with_arrays(fields: Fielddefs, ours: Collection[str]) -> Fielddefs:
 
 
 def _element(desc: FieldDesc) -> str:
-    """Return the type of the elements of an array; "" for what is none, or numbers."""
+    """Return the element type of an array; "" for other fields and for numbers."""
     kind, what = cast("tuple[int, Any]", desc)
     return str(what[0][1]) if kind == SEQUENCE and what[0][0] == NAME else ""
 

@@ -43,11 +43,11 @@ class JointStateTemplate:
 
         Args:
             payload: the message.
-            names: what a decoder has found in it.
-            positions: as many numbers, found so as well [rad or m].
+            names: the names that a decoder has found in it.
+            positions: the positions that it has found, one for each name [rad or m].
 
         Returns:
-            None: its fields are at other places, or it has no joints.
+            None if its fields are at other positions, or if it has no joints.
         """
         data = bytes(payload)
         if not names or len(names) != len(positions):
@@ -82,7 +82,7 @@ class JointStateTemplate:
 
 
 def _first_position(cdr: CdrReader, names: Sequence[str]) -> int | None:
-    """Return where the positions begin in a message; None when it is no JointState."""
+    """Return the start of the positions in a message; None if it is no JointState."""
     _, at = cdr.text(_BEHIND_STAMP)
     at = cdr.aligned(at, 4)
     if cdr.length(at) != len(names):

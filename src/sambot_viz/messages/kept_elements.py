@@ -18,8 +18,8 @@ MOST_BYTES = 16_000_000
 _WIDEST = 8
 """No field is aligned to more bytes, so that it matters where a part begins."""
 Read = Callable[[memoryview, int, Callable[..., Any], Any], tuple[Any, int]]
-"""Reads what begins somewhere in a message, as rosbags generates it: returns what is
-made of its values, and where it ends."""
+"""Reads the element at a position of a message, as rosbags generates it: returns an
+object of its values, and the position of its end."""
 
 
 @dataclass(slots=True, eq=False)

@@ -55,13 +55,13 @@ class ProtobufDecoder(Decoder):
         self._transforms = ProtobufTransforms(descriptor)
 
     def transforms(self, payload: Payload) -> ReadTransforms | None:
-        """Return transforms as they usually come; None for what is to be decoded."""
+        """Return transforms in their usual layout; None if they must be decoded."""
         return self._transforms.read(within_limit(payload))
 
     def decode(
         self, payload: Payload, kept: KeptElements | None = None
     ) -> dict[str, Any]:
-        """Return the fields of a message; one that is not set is not there."""
+        """Return the fields of a message, without those that are not set."""
         from google.protobuf.message import DecodeError as CannotDecodeError
 
         message = self._class()
@@ -84,7 +84,7 @@ class ProtobufDecoder(Decoder):
         return found
 
     def _reader(self, field: FieldDescriptor) -> Get:
-        """Return what reads a field of a message; None is what is not set."""
+        """Return the reader of a field of a message; it returns None if not set."""
         name, inner = field.name, field.message_type
         if field.is_repeated:
             if inner is not None and inner.GetOptions().map_entry:

@@ -1,10 +1,9 @@
 """Read foxglove.FrameTransforms in Protobuf without an object for each field.
 
-The package of Google makes objects of all fields, and reading them takes 8 µs for each
-transform. A publisher sends the same frames again and again, so that its messages
-differ in their stamps and poses alone: the first one of a length is walked through by
-the descriptor and leaves a template, as in CDR. What is laid out in any other way is
-left to the package.
+Google's package makes an object of each field, and reading them takes 8 µs for each
+transform. A publisher sends the same frames repeatedly, so that its messages differ
+only in their stamps and poses: the first one of a length is parsed by the descriptor
+and gives a template, as in CDR. Other layouts are left to the package.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ _VARINT, _FIXED, _LENGTH = 0, 1, 2
 """Wire types of Protobuf: a number of some bytes, one of eight bytes, and a length."""
 _LONGEST_VARINT = 5
 _PADDING = 8
-"""Zeros behind a message, where numbers that are not in it are read."""
+"""Zeros after a message, where missing numbers are read."""
 _SECOND = 1_000_000_000
 _POSE = (
     *(("translation", axis) for axis in "xyz"),
@@ -204,7 +203,7 @@ class _Template:
             begin = after
 
     def _number(self, place: tuple[int, int] | None, data: bytes) -> int:
-        """Return where a number is read; one that is not there is 0, behind the end."""
+        """Return the position of a number; a missing one is read from the zeros."""
         if place is None:
             return len(data)
         self._mask[slice(*place)] = 0

@@ -170,7 +170,7 @@ class ArrayReader:
         return (rows, end) if rows.are_uniform() else None
 
     def _layout(self, data: memoryview, end: int) -> Layout:
-        """Return the layout of the element behind the end of another one."""
+        """Return the layout of the element after another one."""
         return Layout.of(self.leaves, data, self._begin(end), self.order, self.aligned)
 
     def _begin(self, end: int) -> int:

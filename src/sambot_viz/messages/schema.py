@@ -10,11 +10,11 @@ class Schema:
     """The definition of the messages of a channel.
 
     Attributes:
-        name: of the type, as it was given: "sensor_msgs/msg/LaserScan", or without
+        name: name of the type, as given: "sensor_msgs/msg/LaserScan", or without
             "/msg/", or of another system.
-        encoding: how the text is written: "ros2msg", "ros2idl", "ros1msg",
-            "jsonschema", "protobuf", …; "" when there is no text.
-        text: the definition itself; bytes where it is not text.
+        encoding: format of the text: "ros2msg", "ros2idl", "ros1msg", "jsonschema",
+            "protobuf", …; "" without a text.
+        text: the definition; bytes for binary formats.
     """
 
     name: str

@@ -76,10 +76,10 @@ class MessageShape:
         self._fill = self._of_type(definition.name)
 
     def filled(self, fields: Mapping[str, Any]) -> Any:
-        """Return an object of the type; what is not in the fields is zero or empty.
+        """Return an object of the type; missing fields are zero or empty.
 
         Raises:
-            DecodeError: a field is not what its type says.
+            DecodeError: a field does not fit its type.
         """
         return self._fill(fields)
 
@@ -284,7 +284,7 @@ def _elements(fill: Fill, count: int | None) -> Fill:
 
 
 def _kind(value: Any) -> str:
-    """Say what a value is, to a person."""
+    """Describe a value for a user."""
     if isinstance(value, str):
         return "a text"
     if isinstance(value, bool | int | float | np.number):

@@ -34,20 +34,20 @@ _NUMBERS = attrgetter(
 )
 _PADDING = 3
 _ZEROS = 8
-"""As many zeros as rclpy.serialize_message leaves behind a message."""
+"""The zeros that rclpy.serialize_message adds after a message."""
 
 
 class TransformDecoder:
     """Reads tf2_msgs/msg/TFMessage, and tf/tfMessage of ROS 1.
 
-    Messages with the same frames give the same `edges` object again, so that whoever
-    takes them can know them by it.
+    Messages with the same frames give the same `edges` object again, by which callers
+    can recognise them.
 
     Args:
-        message_encoding: "cdr" or "ros1"; of others transforms are sorted only.
+        message_encoding: "cdr" or "ros1"; for others transforms are only sorted.
 
     Attributes:
-        is_fast: the encoding is one that is decoded.
+        is_fast: whether the encoding is one of these.
     """
 
     def __init__(self, message_encoding: str) -> None:

@@ -49,9 +49,9 @@ class ClassItem(ConfigItem):
 
         Args:
             node: its map.
-            declared: the properties of its class, or None when the class is not known.
-            findings: takes what is doubtful.
-            attach: puts the map into the document when something is set.
+            declared: the properties of its class; None for an unknown class.
+            findings: collects warnings.
+            attach: puts the map into the document when a value is set.
         """
         self.supported = declared is not None
         ros1 = is_ros1(node.text("Class") or "")
@@ -142,9 +142,9 @@ class DisplayConfig(ClassItem):
 
         Args:
             node: its map.
-            declared: the properties of its class, or None when the class is not known.
-            findings: takes what is doubtful.
-            parent: the group it is in; None at the top.
+            declared: the properties of its class; None for an unknown class.
+            findings: collects warnings.
+            parent: its group; None at the top level.
         """
         super().__init__(node, declared, findings)
         self.parent = parent
@@ -205,14 +205,14 @@ class ToolConfig(ClassItem):
 
 
 def meant_key(key: str, free: Sequence[str]) -> str | None:
-    """Return the property that was meant by an unknown key.
+    """Return the property that an unknown key probably means.
 
     Args:
         key: the key.
-        free: the properties that are not given.
+        free: the properties that are missing in the file.
 
     Returns:
-        One that is almost the same, or the only one that has its words and others.
+        A property of almost the same name, or the only one that contains its words.
     """
     near = nearest(key, free, _LIKENESS)
     words = set(key.split())

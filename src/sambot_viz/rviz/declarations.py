@@ -47,7 +47,7 @@ def written_in_ros1(kind: str) -> str:
 
 
 def short_name(kind: str) -> str:
-    """Return the part behind the slash, such as "Grid"."""
+    """Return the part after the slash, such as "Grid"."""
     return kind.rpartition("/")[2]
 
 

@@ -71,9 +71,9 @@ class DisplayList(VisualizationManager):
 
         Args:
             kind: ROS 2 class id; a file of ROS 1 gets ROS 1's name for it.
-            name: its label; the class's short name when not given.
-            group: the group to put it in; the top when not given.
-            after: the display behind which it goes; the end when not given.
+            name: its label; by default the class's short name.
+            group: the group to put it in; by default the top level.
+            after: the display to insert it after; by default the last one.
 
         Raises:
             UsageError: `group` is not a group, or `after` is not in it.
@@ -92,7 +92,7 @@ class DisplayList(VisualizationManager):
         return display
 
     def duplicate(self, display: DisplayConfig) -> DisplayConfig:
-        """Copy a display with all it holds, right behind it, under the same name."""
+        """Insert a copy of a display with its members after it, with the same name."""
         node = copied_map(display.node)
         group = display.parent
         copy = self._display(node, group)
@@ -111,7 +111,7 @@ class DisplayList(VisualizationManager):
         return Removed(display, self._take_out(display), group, index)
 
     def put_back(self, removed: Removed) -> None:
-        """Put a display that was taken out where it was.
+        """Put a removed display back into its place.
 
         Raises:
             UsageError: its group is no longer in this config.

@@ -36,8 +36,8 @@ class ConfigItem(ItemMap):
         Args:
             node: the map; one that is not in the document is attached when needed.
             declared: the properties.
-            findings: takes what is doubtful.
-            ros1: the map is written in ROS 1's names, whose defaults differ.
+            findings: collects warnings.
+            ros1: whether the map uses ROS 1's names, whose defaults differ.
             attach: puts the map into the document.
         """
         super().__init__(node, attach)
@@ -94,7 +94,7 @@ class ConfigItem(ItemMap):
 
     @property
     def findings(self) -> ConfigFindings:
-        """Takes what is doubtful in the file."""
+        """Collects the warnings about the file."""
         return self._findings
 
     @property
@@ -113,7 +113,7 @@ class ConfigItem(ItemMap):
         return MappingProxyType(self._declared)
 
     def is_given(self, path: str) -> bool:
-        """Return whether the value is in the file or was set, and is no default."""
+        """Return whether the value is in the file or was set: it is not a default."""
         return path in self._given
 
     def get(self, path: str) -> Any:
@@ -137,10 +137,10 @@ class ConfigItem(ItemMap):
 
         Args:
             path: keys from this item on, joined by "/".
-            value: what a program or a browser gives.
+            value: the value from a program or a browser.
 
         Returns:
-            The value it has now: clamped, and of the property's own type.
+            The value it has now: clamped, and of the property's type.
 
         Raises:
             UnknownPropertyError: no such property is declared.
@@ -238,9 +238,9 @@ DETAILS = "Details"
 class EntryItem(ConfigItem):
     """Typed values of one entry of another item, such as a link of a RobotModel.
 
-    Reading writes nothing. The entry, and what is missing above it, come into the
-    document with the first value that is set. An entry that is only a text
-    ("base_link: false") gives its "Value".
+    Reading writes nothing. The first value that is set adds the entry, and missing maps
+    above it, to the document. An entry that is only a text ("base_link: false") is its
+    "Value".
     """
 
     def __init__(

@@ -155,11 +155,11 @@ class ItemMap:
         return made
 
     def _instead(self, keys: tuple[str, ...], old: Node | None) -> Map:
-        """A map in the place of a flat value ("Line Style: Lines") or of nothing.
+        """Return a new map in place of a flat value ("Line Style: Lines") or of none.
 
         Args:
             keys: its place in the item.
-            old: what is there; a text becomes the map's "Value".
+            old: the node in this place; a text becomes the map's "Value".
         """
         found = (d for d in self._declared.values() if d.keys == keys)
         declared = next(found, None)

@@ -8,9 +8,9 @@ from sambot_viz.text import text
 
 
 def tools_not_here(config: RvizConfig) -> tuple[Problem, ...]:
-    """Return what a page says of the tools of a config that it does not have.
+    """Return the sentence for a page about tools of a config that do not exist here.
 
-    Displays that do not exist here have a row, which says so.
+    Displays that do not exist here have a row with a note instead.
     """
     missing = [text(tool.class_id) for tool in config.tools if not tool.supported]
     if not missing:

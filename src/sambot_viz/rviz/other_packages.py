@@ -170,7 +170,7 @@ def package_of(kind: str) -> str:
 
 
 def about_other(kind: str) -> str:
-    """Return what a display of another package is, and what it would need.
+    """Describe a display of another package, and its requirements.
 
     Args:
         kind: its class id.

@@ -33,20 +33,20 @@ _DISPLAYS, _TIME = "Displays", "Time"
 class RvizConfig(DisplayList, ViewList):
     """A config: typed values in front, the untouched document behind.
 
-    What is not understood is kept and saved: unknown classes, keys, panels, window
-    geometry, comments, the order of keys.
+    Everything else is kept and saved: unknown classes, keys, panels, window geometry,
+    comments, the order of keys.
 
     Attributes:
         global_options: Fixed Frame, Background Color, Frame Rate.
         tools: the tools of the toolbar.
-        time: what RViz's Time panel says of synchronization.
-        fits_robot: whether its sizes are to be those of the robot that is shown,
-            because it is not a user's; it is not saved.
-        fits_frames: the same where frames are shown that have no robot.
-        unasked: its displays of what a recording or a robot has, as no config says
-            what of it is to be shown; that they are is not saved.
-        offered: the topics that have got such a display, also if it was taken out.
-        assumed_frame: the fixed frame that no user has asked for; "" for none.
+        time: the synchronization settings of RViz's Time panel.
+        fits_robot: whether sizes are scaled to the shown robot, because the config is
+            not a user's; not saved.
+        fits_frames: the same for frames without a robot.
+        unasked: the displays that were added for a recording or a robot without a
+            config; this flag is not saved.
+        offered: the topics that got such a display, also if it was removed.
+        assumed_frame: the fixed frame that the program has chosen; "" for none.
     """
 
     def __init__(self, document: Document, declarations: Declarations):

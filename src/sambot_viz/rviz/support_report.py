@@ -17,7 +17,7 @@ from sambot_viz.text import text
 Level: TypeAlias = Literal[
     "shown", "approximated", "not supported", "kept", "unknown key"
 ]
-"""How far we show something.
+"""The level of support.
 
 A "kept" key has no effect in RViz for ROS 2 either; an "unknown key" is one that RViz
 does not know.
@@ -66,7 +66,7 @@ class ItemReport:
         enabled: its box; None where there is none.
         properties: its properties.
         displays: the members of a group.
-        note: what a display of another package is; empty for all others.
+        note: description of a display of another package; empty for all others.
     """
 
     name: str
@@ -108,7 +108,7 @@ class ConfigReport:
         saved_views: the other views.
         tools: the tools of the toolbar.
         panels: the classes of RViz's panels; ours are others, so they are only kept.
-        problems: what is doubtful in the file.
+        problems: the warnings about the file.
     """
 
     file: str | None

@@ -1,10 +1,9 @@
-"""Undo and redo what was set in the items of a document, down to how it is written.
+"""Undo and redo changes of the items of a document, including their notation.
 
-`record_changes` collects what is set inside it, whichever item it belongs to: one value
-that a user sets may change others, as "All Links Enabled" does. Each change keeps the
-nodes of the document that it has replaced and puts these same nodes back, so that a
-document with all edits undone is saved byte for byte as it was. What others have
-written beside a value since stays.
+`record_changes` collects all changes in its block, in any item: one value that a user
+sets may change others, as "All Links Enabled" does. Each change keeps the nodes of the
+document that it has replaced and puts these same nodes back, so that a document with
+all edits undone is saved byte for byte as it was. Later changes next to a value stay.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ class Undoable(Protocol):
     """An item whose properties can be put back."""
 
     def begin_change(self, path: str) -> FinishChange:
-        """Keep what a property is now."""
+        """Record the present state of a property."""
         ...
 
 
@@ -46,7 +45,7 @@ class UndoLog:
         return bool(self._steps)
 
     def note(self, item: Undoable, path: str) -> None:
-        """Keep what a property is; it is set next."""
+        """Record the state of a property before it is set."""
         # A change ends where the next one begins: a later one may move what an
         # earlier one has written, and is undone before it.
         self.finish()

@@ -107,7 +107,7 @@ class ViewList(VisualizationManager):
         return view
 
     def store_view(self, view: ViewConfig) -> None:
-        """Let the current view say what another one says; what is the same stays."""
+        """Copy the values of another view to the current one; keep equal nodes."""
         if view.supported and view.class_id == self._view.class_id:
             for path, value in view.properties.items():
                 self._view.set(path, value)

@@ -82,7 +82,7 @@ class InteractTool(Tool):
             self._moved = not self._tell("POSE_UPDATE")
 
     def drop(self, begin: Click, click: Click) -> None:
-        """Leave it: what is pressed acts now."""
+        """Release the marker: a pressed button acts now."""
         held = self._holding(begin)
         if held is None:
             return
@@ -94,7 +94,7 @@ class InteractTool(Tool):
             self._show_menu(held, self._point)
 
     def _holding(self, begin: Click) -> Handle | None:
-        """Return what is held, or what is taken now; None where that may not be."""
+        """Return the held handle, or take the one here; None if that is not allowed."""
         if why := self.context.publish_refusal("markers"):
             # Control was lost in the middle of a drag.
             if self._held is not None:
@@ -128,12 +128,12 @@ class InteractTool(Tool):
         self._held, self._moved = None, False
 
     def left(self) -> None:
-        """Leave what is held."""
+        """Release the held handle."""
         self.cancel()
         self._over = None
 
     def cancel(self) -> None:
-        """Leave what is held where it is."""
+        """Release the held handle at its place."""
         if self._held is not None:
             self._tell("POSE_UPDATE", "MOUSE_UP", ends=True)
             self._leave()
@@ -142,7 +142,7 @@ class InteractTool(Tool):
     # Its menu
 
     def open_menu(self) -> bool:
-        """Show the menu of what is under the mouse; return whether there is one."""
+        """Show the menu of the marker under the mouse; return whether there is one."""
         over = self._over
         if over is None or self._held is not None or not over.menu:
             return False
@@ -166,7 +166,7 @@ class InteractTool(Tool):
             self.context.tell_program([made], handle.topic)
 
     def _tell(self, *events: FeedbackEvent, ends: bool = False) -> bool:
-        """Tell the program what was done with what is held, and where it is."""
+        """Send feedback about the held handle to its program."""
         held = self._held
         if held is None or not held.is_there:
             return False

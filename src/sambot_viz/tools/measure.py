@@ -103,7 +103,7 @@ class MeasureTool(Tool):
         return float(np.linalg.norm(self._end - self._start))
 
     def _draw(self) -> None:
-        """Draw the start, or the line; one that follows the mouse is not made again."""
+        """Draw the start or the line; a line that follows the mouse is only moved."""
         if self._start is None:
             self._clear()
             self.context.show_status("")
@@ -140,7 +140,7 @@ class MeasureTool(Tool):
             )
             for name, color, thickness in looks
         )
-        # A label of a size on the screen has a box behind it, other than RViz's names.
+        # A label of constant size on the screen has a background, unlike RViz's names.
         self._text = scene.add_label(
             "/~measure.length",
             length,

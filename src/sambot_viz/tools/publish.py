@@ -36,7 +36,7 @@ SHAFT, HEAD = (2.0, 0.2), (0.5, 0.35)
 """Length and diameter of the parts of RViz's arrow [m]."""
 GREEN = (0, 255, 0)
 FLATTEST = 0.0175
-"""Where the ground is seen at a smaller angle than this [rad] nobody means a place."""
+"""The smallest angle [rad] at which a point of the ground can be meant."""
 SHORTEST = 0.01
 """A drag shorter than this part of the camera's distance has no heading."""
 _DRAG = "Drag from the place towards the heading; Esc or a right click stops."
@@ -65,7 +65,7 @@ class PublishTool(Tool):
         return next(one.default for one in self.properties if one.name == name)
 
     def chosen(self) -> None:
-        """Let the robot know of the topic, and say what is in the way."""
+        """Announce the topic to the robot, and report what prevents sending."""
         self.context.show_status(self.context.publish_refusal(self.message.kind))
         self.property_changed()
 
@@ -128,7 +128,7 @@ class PoseTool(PublishTool):
             self.context.publish(made, self.topic)
 
     def pose(self, frame: str, x: float, y: float, yaw: float) -> Outbound:
-        """Return what is sent of a place [m] and a heading [rad]."""
+        """Return the message for a place [m] and a heading [rad]."""
         raise NotImplementedError
 
     def left(self) -> None:
@@ -238,7 +238,7 @@ class PublishPointTool(PublishTool):
 
     @property
     def wants_hover(self) -> bool:
-        """The point under the mouse is said."""
+        """Whether it follows the mouse: the status shows the point under it."""
         return True
 
     def hover(self, click: Click, hit: Hit) -> None:

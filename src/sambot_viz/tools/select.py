@@ -18,7 +18,7 @@ class SelectTool(Tool):
     rectangles = True
 
     def click(self, click: Click, hit: Hit) -> None:
-        """Select what is under the cursor; nothing on grid and background."""
+        """Selects the item under the cursor; nothing on the grid and the background."""
         self.context.select(hit.selection, click.modifier)
 
     def rectangle(self, items: Selection, modifier: str | None) -> None:

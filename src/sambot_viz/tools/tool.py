@@ -71,12 +71,12 @@ class ToolContext(Protocol):
         ...
 
     def publish(self, message: Outbound, topic: str, *, leave: bool = True) -> None:
-        """Send a message to the robot once, and show what becomes of it.
+        """Send a message to the robot once, and show its progress.
 
         Args:
-            message: what is sent.
-            topic: where.
-            leave: whether the default tool is chosen once it was sent.
+            message: the message.
+            topic: the topic.
+            leave: whether to switch to the default tool after sending.
         """
         ...
 
@@ -86,20 +86,20 @@ class ToolContext(Protocol):
         ...
 
     def handle(self, item: Selectable) -> Handle | None:
-        """Return what a hand can move of what a ray has met; None for nothing."""
+        """Return the movable marker that a ray has hit; None without one."""
         ...
 
     def tell_program(
         self, messages: Sequence[Outbound], topic: str, *, follows: bool = False
     ) -> bool:
-        """Send what is done with a marker, all at once; return whether it was sent.
+        """Send the events of a marker together; return whether they were sent.
 
-        Why it was not sent is shown, unless it only comes too soon.
+        A refusal is shown, unless they only come too soon.
 
         Args:
-            messages: what is sent.
-            topic: where.
-            follows: whether it may come at once after what was sent last.
+            messages: the messages.
+            topic: the topic.
+            follows: whether they may follow the last messages at once.
         """
         ...
 
@@ -116,14 +116,14 @@ class Tool:
         label: the text of its button.
         key: the key that chooses it.
         help: how to use it; shown while it is current.
-        touch: the same for fingers, where there is no mouse.
+        touch: the same for fingers.
         clicks: whether it uses clicks. Only then does the page send them: with any
             other tool a press of the mouse moves the camera.
         rectangles: whether dragging with the left button draws a rectangle.
         drags: whether it follows a drag with the left button itself.
-        takes_pose: whether it can be given a pose by numbers.
-        takes_handles: whether rays of its pointer meet what a hand can move; a press of
-            that is a drag of the tool.
+        takes_pose: whether a pose can be typed for it.
+        takes_handles: whether rays of its pointer hit movable markers; a press on one
+            is a drag of the tool.
         only_listed: whether it has a button only where the config lists it.
         sends: whether it sends something to a robot.
         properties: its settings.
@@ -200,7 +200,7 @@ class Tool:
         return False
 
     def open_menu(self) -> bool:
-        """Show the menu of what is under the mouse; return whether there is one."""
+        """Show the menu of the marker under the mouse; return whether there is one."""
         return False
 
     def choose_entry(self, number: int) -> None:

@@ -18,16 +18,16 @@ Support: TypeAlias = Literal["full", "approximate", "none", "kept"]
 
 
 class Report(Protocol):
-    """Takes what is doubtful in a file."""
+    """Collects the warnings about a file."""
 
     def __call__(self, node: Node, message: str, hint: str, right: str = "") -> None:
         """Report a node.
 
         Args:
-            node: it.
-            message: what is doubtful.
-            hint: what to write instead.
-            right: the text of a right node, where it is certain.
+            node: the doubtful node.
+            message: the warning.
+            hint: the remedy.
+            right: the text of a correct node, where it is certain.
         """
 
 

@@ -18,7 +18,7 @@ from sambot_viz.rviz.properties.property import Property, PropertyError, Report
 from sambot_viz.rviz.yaml.yaml_nodes import Scalar
 
 FIXED_FRAME = "<Fixed Frame>"
-"""What a frame property says when it means the fixed frame, whatever that is."""
+"""The value of a frame property that means the fixed frame, whatever that is."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -28,7 +28,7 @@ class StringProperty(Property):
     default: str = ""
 
     def coerce(self, value: object) -> str:
-        """Take a text; see `checked_text` for what is refused."""
+        """Accept a text; see `checked_text` for the refused ones."""
         return checked_text(self.name, value)
 
     @property

@@ -113,7 +113,7 @@ class _Slip:
             before = text[: position if isinstance(position, int) else 0]
             line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
         if line > len(self.lines):
-            # The end of the file is behind its last line.
+            # The end of the file is after its last line.
             return len(self.lines), None
         return line, column
 

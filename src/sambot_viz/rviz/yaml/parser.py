@@ -53,11 +53,12 @@ def parse(text: str) -> Node | None:
         text: the file, decoded, with its own line breaks.
 
     Returns:
-        Its root; None when the stream has no document.
+        Its root; None if the stream has no document.
 
     Raises:
         yaml.YAMLError: the text is not YAML.
-        ParseFault: too deep, too much, an unknown alias, or one that holds itself.
+        ParseFault: it is too deep or too large, or an alias is unknown or contains
+            itself.
     """
     reader = _Reader(text)
     for event in reader.events:
@@ -91,7 +92,7 @@ class _Reader:
         return node
 
     def _require_room(self, event: Any, size: int, depth: int) -> None:
-        """Refuse what is nested too deeply, or is too much in all."""
+        """Refuse documents that are nested too deeply or too large."""
         if depth > limits.CONFIG_DEPTH.value:
             why = "lists and maps are nested too deeply"
             raise _fault(
@@ -166,7 +167,7 @@ class _Reader:
     def _source(
         self, parent: Collection, key: Node | None, value: Node, lead: int
     ) -> YamlText | None:
-        """Return the place of an entry that has lines of its own."""
+        """Return the place of an entry that has separate lines."""
         if not parent.entries:
             lead = _matched(_ANCHORS, self.text, lead)
         start = _matched(_GAP, self.text, lead)
@@ -191,7 +192,7 @@ class _Reader:
         )
 
     def _line_end(self, tail: int) -> int:
-        """After the comment and the line break behind a value that has one line."""
+        """Return the position after the comment and line break of a one-line value."""
         if self.text[tail - 1 : tail] in ("\n", "\r"):
             return tail
         return _matched(_TO_LINE_END, self.text, tail)

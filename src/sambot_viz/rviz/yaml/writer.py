@@ -1,8 +1,8 @@
-"""Nodes → YAML text: what is unchanged stays as it is in the file.
+"""Nodes → YAML text: unchanged parts of the file are kept.
 
 Comments, the order of keys, quotes and blank lines survive, because only the changed
-pieces of the old text are replaced. What is new is written as RViz writes it:
-block style, indented by 2, dashes below their key.
+pieces of the old text are replaced. New parts are written as RViz writes them: block
+style, indented by 2, dashes below their key.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class Writer:
         return lead.lstrip(" \t\r\n") if first else lead
 
     def _comment(self, source: YamlText) -> str:
-        """Return the comment behind an old value that was on the line of its key."""
+        """Return the comment after an old value that was on the line of its key."""
         if any(c in self._text[source.head : source.tail] for c in "\r\n"):
             return ""
         return self._text[source.tail : source.end].rstrip("\r\n")

@@ -36,11 +36,11 @@ class ConfigFindings(Findings):
         """Add a warning at a node; copies are reported at their originals.
 
         Args:
-            code: of the problem.
-            node: where it is.
-            message: what is wrong.
-            hint: what to write.
-            right: the text to write for that of the node; empty for no edit.
+            code: code of the problem.
+            node: its place.
+            message: the fault.
+            hint: the remedy.
+            right: the replacement of the node's text; empty for no edit.
         """
         if node.span is not None:
             line, column = node.span.line, node.span.column
@@ -57,9 +57,9 @@ class ConfigFindings(Findings):
         """Add a warning at a key that was meant to be another.
 
         Args:
-            entry: with the key.
-            message: what is wrong.
-            right: the key that was meant.
+            entry: the entry with the key.
+            message: the fault.
+            right: the intended key.
         """
         value, key = entry.value, entry.key or ""
         if value.span is None:
@@ -165,7 +165,7 @@ class Document:
 
         Returns:
             The text that was read, with only the changes in it. If that does not read
-            back as what is meant, all of it is written again, as RViz does.
+            back as the present values, the whole document is written as RViz does.
         """
         if not self.root.changed and self.root.span is not None:
             return self._bom + self._text

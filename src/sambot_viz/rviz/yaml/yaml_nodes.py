@@ -72,9 +72,9 @@ class YamlText(NamedTuple):
         head: index after the key, or after the dash.
         value: index of the value.
         tail: index after the value.
-        end: index after the comment behind the value and its line break.
-        column: how far the entry was indented.
-        inline: it was behind a dash, without its own indentation.
+        end: index after the comment that follows the value, and its line break.
+        column: indentation of the entry.
+        inline: whether it followed a dash, without its own indentation.
     """
 
     lead: int
@@ -95,8 +95,8 @@ class Entry:
         key: the key, however it was quoted.
         value: the value it has now.
         given: the value it had in the file.
-        source: its place there; None for what is in braces, brackets or in a
-            way that cannot be edited in place.
+        source: its place there; None in braces or brackets, or if it cannot be edited
+            in place.
         quote: how the key was quoted.
     """
 

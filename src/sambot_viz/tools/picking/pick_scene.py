@@ -25,7 +25,7 @@ LETTER_WIDTH, LINE_HEIGHT = 0.55, 1.5
 AROUND = 4.0
 """Distance shown around a robot, in lengths of the robot."""
 BESIDE = 0.05
-"""What is this near to a box, by its diagonal, counts as in it."""
+"""Points this near to a box, in parts of its diagonal, count as inside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,17 +46,17 @@ class PickSnapshot:
     def first_hit(
         self, origin: Array, direction: Array, pixel: float, up: Array | None = None
     ) -> Hit:
-        """Return what one ray meets first.
+        """Return the first hit of a ray.
 
-        A point of a cloud is also met from some pixels, unless something selectable is
-        met. What can be seen through and selects nothing, such as the lines of a grid,
-        only counts where the ray meets nothing else.
+        A point of a cloud is also hit from some pixels away, unless the ray hits a
+        selectable object. Transparent objects that select nothing, such as the lines of
+        a grid, only count where the ray hits nothing else.
 
         Args:
             origin: (3,), in the fixed frame [m].
             direction: (3,), of length 1.
             pixel: size of a pixel at 1 m [m].
-            up: what is up in the picture, (3,).
+            up: the direction up in the picture, (3,).
         """
         ray = RayGrid.through(origin, direction, pixel, up)
         front = _front(self._drawn(ray))
@@ -82,11 +82,11 @@ class PickSnapshot:
         return Hit(origin + distance * direction, None)
 
     def items_met(self, pixels: RayGrid) -> Selection:
-        """Return what has at least one of some pixels.
+        """Return the items that have at least one of some pixels.
 
-        As in RViz that is what is in front. Here it is also what is seen through other
-        shapes and lies in the rectangle as a whole; of what is cut off, such as the
-        body behind a wheel, nobody can say that it was meant.
+        As in RViz these are the ones in front. Items that are visible through
+        transparent shapes count too if they are in the rectangle as a whole: a partly
+        enclosed one, such as the body beyond a wheel, may not be meant.
         """
         front = self._drawn(pixels).selection
         if not any(geometry.is_clear for geometry in self.geometries):
@@ -159,20 +159,20 @@ class PickScene:
         return any(display.has_handles for display in self._shown())
 
     def handle(self, item: Selectable) -> Handle | None:
-        """Return what a hand can move of what a ray has met; None for nothing."""
+        """Return the movable marker that a ray has hit; None without one."""
         known = (display.handle(item) for display in self._shown())
         return next((one for one in known if one is not None), None)
 
     def boxes_of(self, selection: Selection) -> dict[Selectable, Array]:
-        """Return the boxes around what is selected, as the lines of their edges.
+        """Return the boxes around a selection, as the lines of their edges.
 
-        They turn with shapes; those of points are along the axes of the fixed frame.
+        They turn with shapes; boxes of points are parallel to the fixed frame.
 
         Args:
-            selection: what; that which is not drawn now has no box.
+            selection: the selected items; those not drawn now have no box.
 
         Returns:
-            Item → (N, 2, 3), begin and end of each line in the fixed frame [m].
+            Item → (N, 2, 3), start and end of each line in the fixed frame [m].
         """
         wanted = {item for item, numbers in selection.items() if numbers is None}
         parts: dict[Selectable | None, list[Part]] = {}
@@ -185,7 +185,7 @@ class PickScene:
         return boxes
 
     def box_of(self, selection: Selection) -> Corners | None:
-        """Return the box around what is selected; None when nothing of it is drawn."""
+        """Return the box around a selection; None if nothing of it is drawn."""
         wanted = {item for item, numbers in selection.items() if numbers is None}
         box = self._box(lambda item: item in wanted)
         for _, cubes in self._cubes(selection):
@@ -205,10 +205,10 @@ class PickScene:
         return self._box(lambda item: item is not None and item.kind == "link")
 
     def first_box(self) -> Corners | None:
-        """Return the box around the robot and the data; None when nothing is drawn.
+        """Return the box around the robot and the data; None if nothing is drawn.
 
-        Without these it is the box around all that is drawn. What is far from a robot
-        is left out, so that the robot is seen.
+        Without these it is the box around the whole scene. Data far from a robot are
+        left out, so that the robot is large enough to see.
         """
         robot = box = self.link_box()
         for display in self._shown():
@@ -245,7 +245,7 @@ class PickScene:
         return found
 
     def data_of(self, item: Selectable) -> SelectedData | None:
-        """Return what a display knows of data; None when it is not drawn any more."""
+        """Return a display's details of data; None if they are no longer drawn."""
         known = (display.selected(item) for display in self._shown())
         return next((one for one in known if one is not None), None)
 

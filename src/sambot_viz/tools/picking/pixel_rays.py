@@ -61,7 +61,7 @@ class Picture:
 
     @property
     def up(self) -> Array:
-        """What is up in the picture, (3,), of length 1."""
+        """The direction up in the picture, (3,), of length 1."""
         return -self.axes[:, 1]
 
     @property

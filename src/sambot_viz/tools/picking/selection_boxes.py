@@ -1,4 +1,4 @@
-"""The cyan boxes that RViz draws around what is selected."""
+"""The cyan boxes that RViz draws around a selection."""
 
 from __future__ import annotations
 
