@@ -49,8 +49,8 @@ def find_wheel_pair(
 ) -> WheelPair:
     """Find the two continuous joints about one level axis, and their measures.
 
-    What is given counts; the rest is taken from the model, with all joints at their
-    start values. Among several pairs the one with the largest wheels is taken.
+    Given values are used; the others come from the model, with all joints at their
+    start values. Of several pairs the one with the largest wheels is chosen.
 
     Args:
         robot: the robot; z of its root link points up.

@@ -1,7 +1,7 @@
-"""Frames that messages bring: from /tf and /tf_static of a recording or a robot.
+"""Frames from messages: from /tf and /tf_static of a recording or a robot.
 
-The history of frames answers look-ups at any time. Here the tree is told where each
-frame is now, so that it can be drawn.
+The history of frames answers look-ups at any time. This module sets the present pose of
+each frame in the tree, so that it can be drawn.
 """
 
 from __future__ import annotations

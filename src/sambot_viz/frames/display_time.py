@@ -63,7 +63,7 @@ class DisplayTime:
         return self.mode is not SyncMode.OFF and name == self.source
 
     def told(self, name: str, stamp_ns: int) -> None:
-        """Take note of the stamp of what a display has drawn [ns]."""
+        """Record the stamp of the message that a display has drawn [ns]."""
         self._stamps[name] = stamp_ns
         if self.is_told_by(name):
             self._take(stamp_ns)

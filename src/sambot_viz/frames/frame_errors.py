@@ -51,7 +51,7 @@ class FrameCycleError(FrameError):
     Attributes:
         ring: the frames of the ring, first and last the same, each the parent of
             the next.
-        tf2_text: what tf2 says at the look-ups.
+        tf2_text: tf2's error of the look-ups.
     """
 
     tf2_text = "The tf tree is invalid because it contains a loop."

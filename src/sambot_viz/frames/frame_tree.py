@@ -1,8 +1,8 @@
-"""The tree of frames: where anything is seen from anywhere.
+"""The tree of frames: the pose of any frame in any other.
 
 The rules are tf2's: a look-up from a frame to itself always works, even without any
-data. What is set here is where a frame is now, and holds at all times; a history beside
-it has frames that were somewhere else before.
+data. A transform set here is the present one and holds at all times; a separate history
+has the earlier poses of moving frames.
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ class FrameTree(FrameHierarchy):
         self._arrived(edge)
 
     def set_ahead(self, parent: str, child: str, transform: Transform) -> None:
-        """Set where a frame will be first, to be drawn there until it is set.
+        """Set a preliminary pose of a frame, where it is drawn until it is set.
 
         Args:
             parent: the frame in which the pose is given.
@@ -254,7 +254,7 @@ class FrameTree(FrameHierarchy):
         return self.lookup(target, source)
 
     def root_of(self, frame: str) -> str:
-        """Return the root of the tree of a frame, without what is set ahead.
+        """Return the root of the tree of a frame, without preliminary transforms.
 
         Raises:
             LookupRefused: the frame does not exist.

@@ -92,9 +92,9 @@ class FrameHistory:
                 in its parent. Copied.
 
         Returns:
-            Row → tf2's name for the fault for which every listener ignores it, such
-            as TF_NAN_INPUT, or TF_OLD_DATA for one that is older than all that is
-            kept of its frame. The other rows are taken.
+            Row → tf2's name for the fault for which every listener ignores it, such as
+            TF_NAN_INPUT, or TF_OLD_DATA for one older than all kept transforms of its
+            frame. The other rows are added.
         """
         is_new = not self._samples.knows(edges)
         faults = self._samples.add(time_ns, edges, poses)

@@ -1,6 +1,6 @@
 """The frames of a robot: set as robot_state_publisher does, and explained in words.
 
-An explanation says where a frame is step by step, or why there is no answer.
+An explanation gives the pose of a frame step by step, or the reason why there is none.
 """
 
 from __future__ import annotations

@@ -116,7 +116,7 @@ def _problem_json(problem: Problem | None) -> dict[str, object] | None:
 
 
 def _id(name: str, *, is_node: bool) -> str:
-    """Return what tells a node from a topic with the same name."""
+    """Return a key that distinguishes a node from a topic with the same name."""
     return _quoted(f"{'node' if is_node else 'topic'} {name}")
 
 

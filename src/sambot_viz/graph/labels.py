@@ -1,4 +1,4 @@
-"""What is written in and said of the parts of a graph, and how they look."""
+"""The texts, tooltips and styles of the parts of a graph."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _started(node: GraphNode) -> str:
 def said_of(
     one: GraphNode | GraphTopic, graph: NodeGraph, unwritten: Collection[str]
 ) -> Iterator[str]:
-    """Yield the lines of what a part says when the pointer rests on it."""
+    """Yield the lines of the tooltip of a part."""
     yield text(one.name)
     yield from (
         _said_of_node(one) if isinstance(one, GraphNode) else map(text, one.types)

@@ -1,9 +1,9 @@
 """A layered layout from left to right: columns, few crossings, no overlaps.
 
-The steps are Sugiyama's: rings are opened by turning few edges round (Eades, Lin and
-Smyth), each vertex is in the column behind those before it, long edges pass columns at
-their own points, columns are sorted by the means of their neighbours, and heights
-are the nearest ones to these means that keep order and distance.
+The steps are Sugiyama's: rings are opened by reversing few edges (Eades, Lin and
+Smyth), each vertex is in a column after its predecessors, long edges cross columns at
+extra points, columns are sorted by the means of their neighbours, and heights are the
+nearest ones to these means that keep order and distance.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _SWEEPS = 12
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """What is placed.
+    """A vertex to place.
 
     Attributes:
-        width: of its box.
-        height: of its box.
+        width: width of its box.
+        height: height of its box.
         lane: vertices of one lane are in a stripe without others; 0 is the first.
     """
 
@@ -274,7 +274,7 @@ def _open_rings(count: int, arcs: Sequence[Arc]) -> list[int]:
 def _depths(
     count: int, rank: Sequence[int], forward: Sequence[tuple[int, int]]
 ) -> list[int]:
-    """Return the column of each vertex: behind all before it, and near those behind."""
+    """Return the column of each vertex: after its predecessors, near its successors."""
     depth, order = [0] * count, sorted(range(count), key=rank.__getitem__)
     before, after = [list[int]() for _ in rank], [list[int]() for _ in rank]
     for first, last in forward:

@@ -9,7 +9,7 @@ from typing import Literal
 from sambot_viz.errors import Problem
 
 Presence = Literal["expected", "running", "both"]
-"""Who says that a part is there: the launch files, the robot, or both of them."""
+"""Where a part is known from: the launch files, the robot, or both."""
 Direction = Literal["publishes", "subscribes"]
 _HIDDEN_TOPICS = ("/rosout", "/rosout_agg", "/parameter_events", "/statistics")
 _HIDDEN_NODES = ("_", "transform_listener_impl_", "launch_ros_")
@@ -23,14 +23,14 @@ class GraphNode:
     """A node.
 
     Attributes:
-        name: with its namespace, such as /front/scanner.
-        presence: who says that it is there.
-        package: that has its executable; "" where that is not known.
-        executable: that starts it, or the plugin that it is; "" as well.
-        file: of the launch file that starts it; "" where none is known.
-        line: in that file, from 1.
-        is_certain: it starts; False where that depends on what is not known.
-        problem: what is wrong with it, from check.
+        name: name with its namespace, such as /front/scanner.
+        presence: whether it is expected, running, or both.
+        package: the package of its executable; "" if unknown.
+        executable: the executable that starts it, or its plugin; "" if unknown.
+        file: the launch file that starts it; "" if unknown.
+        line: the line in that file, from 1.
+        is_certain: whether it certainly starts; False if a condition is unknown.
+        problem: the finding of check about it.
     """
 
     name: str
@@ -48,10 +48,10 @@ class GraphTopic:
     """A topic.
 
     Attributes:
-        name: with its namespace.
-        presence: who says that it is there.
-        types: of its messages; several where its ends differ.
-        problem: what is wrong with it, from check.
+        name: name with its namespace.
+        presence: whether it is expected, running, or both.
+        types: types of its messages; several if its ends differ.
+        problem: the finding of check about it.
     """
 
     name: str
@@ -68,7 +68,7 @@ class GraphEdge:
         node: name of the node.
         topic: name of the topic.
         direction: whether the node publishes it or subscribes to it.
-        presence: who says so.
+        presence: whether it is expected, running, or both.
         remapped_from: what the node itself calls the topic, where that differs.
     """
 
@@ -89,12 +89,12 @@ class NodeGraph:
     """Nodes and topics by name, and the edges between them.
 
     Attributes:
-        nodes: by name.
-        topics: by name.
-        edges: in the order in which they were found, each once.
-        is_compared: whether it says both what is expected and what runs.
-        is_whole: there is nothing but what it has.
-        notes: what is left out, or not known; sentences without a full stop.
+        nodes: name → node.
+        topics: name → topic.
+        edges: the edges in the order in which they were found, each once.
+        is_compared: whether it contains both expected and running nodes.
+        is_whole: whether it is complete.
+        notes: what is left out or unknown; sentences without a full stop.
     """
 
     nodes: Mapping[str, GraphNode] = field(default_factory=dict[str, GraphNode])

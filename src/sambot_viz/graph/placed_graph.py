@@ -34,18 +34,18 @@ class PlacedPart:
     """A node or a topic in the picture.
 
     Attributes:
-        kind: which of both.
-        name: of the node or the topic.
-        x: of the middle [px].
-        y: of the middle [px].
-        width: of the ellipse or the box [px].
-        height: of it [px].
-        lines: the name, and in small letters what else is to be read.
+        kind: node or topic.
+        name: name of the node or the topic.
+        x: x of the centre [px].
+        y: y of the centre [px].
+        width: width of the ellipse or the box [px].
+        height: height of it [px].
+        lines: the name, and further lines in small letters.
         look: classes of its style.
-        said: what it says when the pointer rests on it.
-        file: that starts it; "" for none.
-        line: in that file, from 1.
-        problem: what is wrong with it.
+        said: its tooltip.
+        file: the file that starts it; "" without one.
+        line: the line in that file, from 1.
+        problem: the finding about it.
     """
 
     kind: Kind

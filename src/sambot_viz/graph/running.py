@@ -29,7 +29,7 @@ _Nodes = dict[str, tuple[GraphEdge, ...]]
 
 
 class RunningNodes:
-    """What a source says of its nodes.
+    """The nodes that a source reports.
 
     Args:
         source: a recording, or a robot.
@@ -47,7 +47,7 @@ class RunningNodes:
 
     @property
     def is_known(self) -> bool:
-        """Whether somebody has said who reads topics, or has refused to."""
+        """Whether the readers of topics are known, or were refused."""
         return (
             (
                 "graph" not in self._source.capabilities
@@ -161,7 +161,7 @@ def _edges_of(topic: SourceTopic) -> Iterator[GraphEdge]:
 
 
 def _texts(values: Any, field: str) -> list[str]:
-    """Return a list of texts of an answer; what is something else is left out."""
+    """Return a list of texts of an answer, without elements that are no texts."""
     if not isinstance(values, dict):
         raise ValueError("not an object")
     found = cast("dict[str, object]", values).get(field)

@@ -37,7 +37,7 @@ def turn(
         The new positions of those joints. A joint with limits stops at its limit.
 
     Raises:
-        JointError: an unknown joint, one that cannot be set, no finite number.
+        JointError: a joint is unknown or cannot be set, or a number is not finite.
     """
     positions: dict[str, float] = {}
     for name, velocity in velocities.items():
@@ -60,7 +60,7 @@ def _stopped(now: float, following: float, lower: float, upper: float) -> float:
 
 
 def eased(part: float) -> float:
-    """Return how much of a way is behind after a part of its time, both from 0 to 1.
+    """Return the part of a way that is done after a part of its time, both 0 to 1.
 
     A motion begins and ends slowly.
     """
@@ -100,7 +100,7 @@ def sweep(state: JointState, period: float) -> Iterator[tuple[float, dict[str, f
 
 
 def _position(state: JointState, name: str, part: float) -> float:
-    """Return the position of a joint after a part of its own time, from 0 to 1."""
+    """Return the position of a joint after a part of its time, from 0 to 1."""
     start, joint = state.positions[name], state.joints[name]
     if not 0.0 < part < 1.0:
         return start

@@ -148,7 +148,7 @@ class StartPose:
         """Make the joint state of a robot in this pose.
 
         Raises:
-            JointError: `zeros` or `positions` name a joint that is not there or
+            JointError: `zeros` or `positions` name a joint that does not exist or
                 cannot be set.
         """
         state = JointState(robot, zeros=self.zeros)

@@ -24,7 +24,7 @@ AGREES = 1e-3
 
 
 class JointState:
-    """The free joints of a robot, their positions, and what follows from them.
+    """The free joints of a robot, their positions, and those of joints that follow.
 
     Positions are in radians (revolute, continuous) or metres (prismatic). Not
     thread-safe: the session that owns it holds the lock.
@@ -34,11 +34,11 @@ class JointState:
         zeros: joint → start value, also outside the limits (``--zeros``).
 
     Attributes:
-        kinematics: of the same robot.
+        kinematics: the kinematics of the robot.
         moves: the number of the last move.
 
     Raises:
-        JointError: `zeros` name a joint that is not there, or hold a number that is
+        JointError: `zeros` name a joint that does not exist, or hold a number that is
             not finite.
     """
 
@@ -145,7 +145,7 @@ class JointState:
         """
         free, most = self._free, limits.NUMBER.value
         numbers = {
-            # What is not in order is looked at again, for what to say of it.
+            # Invalid values are checked again one by one, for the message.
             name: v
             if type(v) is float and -most <= v <= most and name in free
             else self.checked(name, v)
@@ -224,13 +224,13 @@ class JointState:
         return tuple(sorted(self._over, key=self._order.__getitem__))
 
     def reload(self, robot: Robot) -> tuple[str, ...]:
-        """Take another robot, or the same after an edit.
+        """Switch to another robot, or to the same after an edit.
 
         A joint that still exists with the same type keeps its value; one that was at
         its start value goes to the new start value.
 
         Returns:
-            The names of all joints whose position is new or other than before.
+            The names of all joints whose position is new or has changed.
         """
         former, types = self.all_positions(), self._joints
         at_start = {n for n, v in self._positions.items() if v == self.start(n)}

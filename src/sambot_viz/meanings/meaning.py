@@ -6,10 +6,10 @@ from enum import Enum
 
 
 class Meaning(Enum):
-    """What a message tells; its value is how a message of that meaning looks.
+    """The meaning of a message; its value names the form of such a message.
 
-    The look is the ROS type of that name: fields, units and all. Messages of other
-    schemas are brought into it, so that whoever draws a meaning reads one look.
+    The form is the ROS type of that name, with its fields and units. Messages of other
+    schemas are converted to it, so that a display reads one form.
     """
 
     TRANSFORMS = "tf2_msgs/msg/TFMessage"
@@ -58,10 +58,10 @@ class Meaning(Enum):
 
     @property
     def display(self) -> str | None:
-        """The class of the display that usually draws it; None when there is none.
+        """The class of the display that usually draws it; None if there is none.
 
-        Displays declare what they draw; this is what is known of them without loading
-        any, and which one comes first where several draw it.
+        Displays declare what they draw; this table answers without loading any, and
+        decides which one comes first if several draw it.
         """
         name = _DISPLAYS.get(self)
         return name if name is None or "/" in name else f"rviz_default_plugins/{name}"

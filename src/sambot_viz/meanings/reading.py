@@ -16,16 +16,16 @@ Read = Callable[[Payload, "KeptElements | None"], Any]
 
 
 def reader_of(decoder: Decoder, types: MessageTypes) -> Read:
-    """Return what reads the messages of a decoder.
+    """Return a function that reads the messages of a decoder.
 
     Args:
-        decoder: of a channel, one that can read.
-        types: knows the looks.
+        decoder: the decoder of a channel, which can read it.
+        types: the types of all forms.
 
     Returns:
-        Takes the bytes of a message and the elements of the one before, as
-        `Decoder.decode`. Of a schema without a meaning the message is what the decoder
-        makes of it. It raises DecodeError.
+        A function of the bytes of a message and the elements of the last one, like
+        `Decoder.decode`. Without a meaning of the schema it returns the decoder's
+        result. It raises DecodeError.
     """
     row = row_of(decoder.type_name)
     if row is None or (row.look is None and decoder.is_typed):

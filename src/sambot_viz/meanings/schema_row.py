@@ -9,8 +9,8 @@ from typing import Any
 from sambot_viz.meanings.meaning import Meaning
 
 Fields = Mapping[str, Any]
-"""The fields of a message, whatever it is written in: numbers, texts, bytes, arrays of
-numbers, lists, and again fields. A field that is not there has its zero."""
+"""The fields of a message in any encoding: numbers, texts, bytes, arrays of numbers,
+lists, and nested fields. A missing field has its zero."""
 
 SENSOR_POSE = "sensor_pose"
 """A field that looks may have beside ROS's: where the sensor is in the message's frame,

@@ -1,4 +1,4 @@
-"""What a schema means, by its name: the tables of all families of schemas."""
+"""The meaning of a schema, by its name: the tables of all families of schemas."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def row_of(type_name: str) -> SchemaRow | None:
 
 
 def meaning_of(type_name: str) -> Meaning | None:
-    """Return what the messages of a schema mean; None for one that is not known."""
+    """Return the meaning of a schema; None if it is unknown."""
     row = row_of(type_name)
     return None if row is None else row.meaning
 

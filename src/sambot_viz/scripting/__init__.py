@@ -1,1 +1,1 @@
-"""What a program asks of the sessions: camera, displays, links, events."""
+"""The Python interface to the sessions: camera, displays, links, events."""

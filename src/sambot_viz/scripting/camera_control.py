@@ -31,9 +31,9 @@ Point = Sequence[float] | Vector | str
 class CameraControl:
     """Moves the camera of all open pages, and the first one of those to come.
 
-    What is not given stays as the page has it that was opened first. The Views panel
-    has the new numbers, and users may move their cameras afterwards. It is no edit:
-    users cannot undo it. Private copies keep the views that they have.
+    Values that are not given are taken from the page that was opened first. The Views
+    panel shows the new numbers, and users may move their cameras afterwards. Users
+    cannot undo these changes. Private copies keep their views.
 
     Every method raises ServerError while there is no session: with private sessions,
     before the first page is open.
@@ -48,14 +48,14 @@ class CameraControl:
         """Turn the camera to a point, or put it somewhere and turn it to the point.
 
         Args:
-            target: what is to be in the middle of the picture: a point of the fixed
-                frame (x, y, z) [m], or the name of a frame, where it is now.
-            position: where the camera is to be, as a point or a frame; by default it
-                stays where it is. A view from above then becomes an orbit.
+            target: the middle of the picture: a point of the fixed frame (x, y, z) [m],
+                or the name of a frame, at its present place.
+            position: the new place of the camera, as a point or a frame; by default the
+                present one. A view from above then becomes an orbit.
 
         Raises:
-            UsageError: no finite numbers, or both are the same point.
-            FrameError: a frame that does not exist, or has no place in the fixed one.
+            UsageError: a number is not finite, or both are the same point.
+            FrameError: a frame does not exist, or has no place in the fixed one.
         """
 
         def change(session: Session) -> None:

@@ -20,12 +20,11 @@ from sambot_viz.session import Session, walk
 class DisplayControl:
     """One display: ``viz.displays["TF"].set("Show Names", False)``.
 
-    It is found by its name whenever it is used, in the sessions of all browsers.
-    Reading answers for the session that came first. Private copies keep theirs.
+    It is looked up by its name at each use, in the sessions of all browsers. Reading
+    returns the value of the first session. Private copies are not changed.
 
-    Every method raises UsageError when no display has the name any more, and
-    ServerError while there is no session: with private sessions, before the first page
-    is open.
+    Every method raises UsageError if no display has the name, and ServerError while
+    there is no session: with private sessions, before the first page is open.
     """
 
     def __init__(self, sessions: Sessions, name: str, number: int = 0) -> None:
@@ -230,7 +229,7 @@ class Displays:
 
 
 def for_all(sessions: Sessions, change: Callable[[Session], object]) -> None:
-    """Change every session that is no private copy, each in one go.
+    """Change every session except private copies, each in one step.
 
     Raises:
         ServerError: there is none, or the server was stopped.

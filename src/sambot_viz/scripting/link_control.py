@@ -43,12 +43,12 @@ class LinkControl(FrameControl):
     """One link of the robot: ``viz.link("laser").color = (255, 0, 0)``.
 
     `visible` and `alpha` are the rows of the link in the Displays panel, and are saved
-    with the config; `color` and `highlight` are not. All act on the sessions of all
-    browsers, and stay when the model is loaded again; private copies that are opened
-    later have them too.
+    with the config; `color` and `highlight` are not. All apply to the sessions of all
+    browsers, and survive a reload of the model; private copies that are opened later
+    have them too.
 
-    Setting raises UsageError when the model has no such link any more, and no
-    RobotModel display shows it.
+    Setting raises UsageError if the model no longer has the link, and no RobotModel
+    display shows it.
     """
 
     def __init__(self, sessions: Sessions, name: str, node: str) -> None:

@@ -1,4 +1,4 @@
-"""What a program writes of a robot that is shown: a picture, a page in one file."""
+"""Files of a shown robot: a picture, or a page in one file."""
 
 from __future__ import annotations
 
@@ -67,11 +67,11 @@ def page_of(
     motion: Motion | None,
     look: str,
 ) -> bytes:
-    """Return what a session shows as one HTML file, as `Visualizer.export` says.
+    """Return the view of a session as one HTML file; see `Visualizer.export`.
 
     Args:
-        session: what is shown.
-        opened: the robot whose joints rows of a motion are in order.
+        session: the session.
+        opened: the robot whose joints give the order of the columns of a motion.
         sweep: whether each joint moves to its limits and back.
         motion: another motion in place of that.
         look: "rviz" or "studio".

@@ -15,9 +15,9 @@ from sambot_viz.session.data.player import FASTEST, SLOWEST, Player
 class PlayerControl:
     """Plays the recording in all open pages; times are from its first message [s].
 
-    With private sessions, what is asked is that of the browser that came first.
+    With private sessions, reading returns the values of the first browser.
 
-    Every method raises UsageError where there is no recording.
+    Every method raises UsageError without a recording.
     """
 
     def __init__(self, sessions: Sessions) -> None:
@@ -65,10 +65,10 @@ class PlayerControl:
         self._for_all(lambda player: player.pause())
 
     def jump(self, seconds: float) -> None:
-        """Show a time, or the nearest one that there is; it plays on if it has played.
+        """Jump to a time, or to the nearest end; a playing recording plays on.
 
         Raises:
-            UsageError: no number of seconds that a recording could have.
+            UsageError: the number of seconds is invalid.
         """
         if not abs(seconds) <= LATEST:
             raise UsageError(f"a time is a number of seconds, not {seconds!r}")

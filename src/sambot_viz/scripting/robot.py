@@ -34,7 +34,7 @@ _P = TypeVar("_P", bound=Callable[[SentMessage], object])
 
 
 class RobotControl:
-    """What a program does with the robot that a server shows; see `Visualizer`."""
+    """The methods of a program for the robot that a server shows; see `Visualizer`."""
 
     def __init__(self, server: Server) -> None:
         self._server = server
@@ -129,18 +129,19 @@ class RobotControl:
         It is not latched. With private sessions nothing can be sent.
 
         Args:
-            topic: where.
-            type_name: of the message, such as "geometry_msgs/msg/PoseStamped".
+            topic: the topic.
+            type_name: the type of the message, such as
+                "geometry_msgs/msg/PoseStamped".
             message: its fields by name; those that are left out are zero. A header
                 without a stamp gets the time of the robot.
 
         Returns:
-            Who takes it, in words.
+            The receivers, in words.
 
         Raises:
-            PublishError: it is not allowed, nobody would take it, a number is not
-                finite, a quaternion is not of length 1, or a field is not of the type.
-            SourceError: the robot takes no messages, or has left.
+            PublishError: it is not allowed, it has no receiver, a number is not finite,
+                a quaternion is not of length 1, or a field does not fit the type.
+            SourceError: the robot accepts no messages, or has left.
         """
         made = AnyMessage(type_name, dict(message))
         session = first(self._server.sessions)
@@ -170,7 +171,7 @@ class RobotControl:
     def on_published(self, callback: _P) -> _P:
         """Call back with each message that is sent to the robot, as `SentMessage`.
 
-        Of velocities each new one is told. Can be used as a decorator.
+        Repeated velocities are reported once. Can be used as a decorator.
         """
         first(self._server.sessions).publisher.listeners.append(callback)
         return callback
@@ -204,7 +205,7 @@ class RobotControl:
         return self._links.link(name)
 
     def frame(self, name: str) -> FrameControl:
-        """Return a frame, to hang nodes of viser below it: see `FrameControl.node`.
+        """Return a frame, for viser nodes that move with it: see `FrameControl.node`.
 
         Raises:
             FrameError: there is no such frame.
@@ -251,16 +252,17 @@ class RobotControl:
         """Show another robot beside the one that was opened, with its own joints.
 
         The page shows both as one: in the RobotModel display, and in the Joints panel
-        with a group for each. Its model is not followed on the disk. Vectors of
-        `set_joint_positions` go on to mean the robot that was opened.
+        with a group for each. Changes of its file are not followed. Vectors for
+        `set_joint_positions` still mean the opened robot.
 
         Args:
             model: a file, the XML text, or a Robot.
-            name: what its links, joints and frames begin with, such as "left" for
+            name: prefix of its links, joints and frames, such as "left" for
                 "left/base_link".
-            parent: the link that it hangs at; the root of the opened robot by default.
-            xyz: where its root link is in that [m]; or its whole pose, as a `Transform`
-                or a (4, 4) matrix.
+            parent: the link that it is attached to; by default the root of the opened
+                robot.
+            xyz: position of its root link there [m]; or its whole pose, as a
+                `Transform` or a (4, 4) matrix.
             rpy: its roll, pitch and yaw about fixed axes [rad], or a quaternion
                 (x, y, z, w).
 
@@ -268,7 +270,7 @@ class RobotControl:
             UsageError: another robot has the name, there is no such parent, or no
                 robot yet.
             RobotError: the model cannot be shown.
-            FrameError: what is not a pose.
+            FrameError: the pose is invalid.
             ServerError: the visualizer was stopped.
         """
         return self._robots.add(model, name, parent, xyz, rpy)
@@ -297,19 +299,19 @@ class RobotControl:
         xyz: Pose = (0.0, 0.0, 0.0),
         rpy: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> None:
-        """Hang a frame on another, as static_transform_publisher does.
+        """Attach a frame to another, as static_transform_publisher does.
 
         Args:
             parent: the frame in which the pose is given.
             child: the frame whose pose it is.
-            xyz: where the child is in the parent [m]; or its whole pose, as a
+            xyz: position of the child in the parent [m]; or its whole pose, as a
                 `Transform` or a (4, 4) matrix.
             rpy: its roll, pitch and yaw about fixed axes [rad], or a quaternion
                 (x, y, z, w).
 
         Raises:
-            FrameError: a ring, the same name twice, an empty name, NaN, or what is no
-                pose.
+            FrameError: the frames would form a ring, a name is empty or used twice, or
+                the pose is invalid.
             ServerError: the visualizer was stopped.
         """
         self._server.sessions.require_open()
@@ -318,21 +320,21 @@ class RobotControl:
             session.frames.add(parent, child, transform)
 
     def snapshot(self, path: Path | str, *, size: tuple[int, int] = (800, 600)) -> None:
-        """Write the 3D view as a PNG, without a page that is open.
+        """Write the 3D view as a PNG; no page needs to be open.
 
-        A Chromium or Chrome of this machine draws it, from where a page begins: see
-        `camera`. It takes some seconds, in which it is one of the viewers; the robot
-        has to be at rest. What a program has added to `viser` is in the picture.
+        A Chromium or Chrome of this machine draws it, with the camera of a new page:
+        see `camera`. It takes some seconds, during which it is one of the viewers; the
+        robot has to be at rest. Nodes that a program has added to `viser` are in it.
 
         Args:
             path: the file, which is written whole or not at all.
             size: width and height [pixels].
 
         Raises:
-            BrowserError: no Chromium was found (the message says how to get one, or
-                to name it), or it ended.
+            BrowserError: no Chromium was found (the message says how to install or
+                name one), or it ended.
             ServerError: it did not show everything in time.
-            UsageError: the size makes no sense, or the sessions are private.
+            UsageError: the size is invalid, or the sessions are private.
             OSError: the file cannot be written.
         """
         from sambot_viz.scripting.outputs import picture_of
@@ -342,9 +344,9 @@ class RobotControl:
     def export(
         self, path: Path | str, *, sweep: bool = True, motion: Motion | None = None
     ) -> None:
-        """Write what is shown as one HTML file that needs no server.
+        """Write the view as one HTML file that needs no server.
 
-        What a program has added to `viser` is not in it.
+        Nodes that a program has added to `viser` are not in it.
 
         Args:
             path: the file, which is written whole or not at all.
@@ -354,10 +356,10 @@ class RobotControl:
                 linear in between, and plays 30 steps a second.
 
         Raises:
-            JointError: a joint of the motion that does not exist or follows another
-                one, no finite numbers, or another number of them.
+            JointError: a joint of the motion does not exist or follows another one, or
+                its positions are not finite or of the wrong number.
             UsageError: the times of the motion do not grow, or are too many.
-            OSError: it cannot be written.
+            OSError: the file cannot be written.
         """
         sessions, look = self._server.sessions, self._server.options.look or "rviz"
         shown, opened = first(sessions), sessions.opened

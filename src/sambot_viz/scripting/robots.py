@@ -23,12 +23,12 @@ Move = Callable[[Mapping[str, float]], None]
 class AddedRobot:
     """A further robot: ``arm = viz.add_robot("arm.urdf", "arm")``.
 
-    Its links, joints and frames are those of its model behind its name and a slash:
-    "arm/elbow" in the Joints panel, for ``viz.link("arm/hand")`` and in ``viz.frames``.
-    The methods here take the names of its model.
+    Its links, joints and frames are those of its model, prefixed by its name and a
+    slash: "arm/elbow" in the Joints panel, for ``viz.link("arm/hand")`` and in
+    ``viz.frames``. The methods here take the names of its model.
 
     Attributes:
-        name: what it was added as.
+        name: the name that it was added with.
         robot: its model.
     """
 

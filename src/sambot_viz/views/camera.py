@@ -24,7 +24,7 @@ ORTHO_FIELD_OF_VIEW = math.radians(0.5)
 WIDEST_ORTHO = 2.0 * ORTHO_FIELD_OF_VIEW
 """A field of view below this is that of an orthographic view [rad]."""
 FILLED_HEIGHT, FILLED_WIDTH = 0.7, 0.9
-"""Parts of the picture that what is to be seen may fill."""
+"""Parts of the picture that the shown box may fill."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,7 +158,7 @@ class Camera:
         return replace(self._from_away(away, fov), scale=None)
 
     def _from_away(self, away: float, fov: float) -> Camera:
-        """Return a camera so far from `look_at`, which shows what is around it."""
+        """Return a camera at a distance from `look_at`, to show its surroundings."""
         return replace(
             self,
             position=self.look_at - self.forward * away,

@@ -40,7 +40,7 @@ STEEPEST = math.pi / 2 - 0.001
 DIGITS = 7
 """Decimals that are kept of numbers that are read from a camera [m, rad]."""
 SMALLEST_SIZE = 0.01
-"""What is smaller is shown as if it had this size [m]."""
+"""Smaller objects are shown as if they had this size [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -209,10 +209,10 @@ class View:
         Args:
             low: lowest corner of the box [m].
             high: highest corner of the box [m].
-            width: of the picture [pixels].
-            height: of the picture [pixels].
-            target: what the view follows.
-            names: what is to be seen whole too.
+            width: width of the picture [pixels].
+            height: height of the picture [pixels].
+            target: the frame that the view follows.
+            names: labels that must be whole in the picture too.
         """
         target = self._turned(target)
         middle, half = (low + high) / 2.0, np.maximum(high - low, SMALLEST_SIZE) / 2.0
@@ -232,7 +232,7 @@ class View:
 
         Args:
             points: of the target frame, which are in it, (N, 3) [m].
-            names: which are in it too.
+            names: labels that must be in it too.
             target: what the view follows.
         """
         camera = self.local_camera()

@@ -1,4 +1,4 @@
-"""The tree of frames as DOT and as JSON, and what is written at its edges.
+"""The tree of frames as DOT and as JSON, with the labels of its edges.
 
 The form of the graph is view_frames' as of ROS 2, with what that leaves
 out: joint name and type, xyz and rpy.
@@ -22,7 +22,7 @@ NO_DATA = "No tf data received"
 class EdgeJson(TypedDict):
     """One transform of the JSON drawing; metres, radians and Hz.
 
-    The rate is that of the messages; None for what is static or has less than two.
+    The rate is that of the messages; None if static, or with fewer than two.
     """
 
     parent: str
@@ -122,7 +122,7 @@ class _StampSpan:
     """The samples that are kept of a moving frame, at least two.
 
     Attributes:
-        count: so many.
+        count: number of the samples.
         oldest: stamp of the first one [s].
         newest: stamp of the last one [s].
         length: the time between these [s].
@@ -178,7 +178,7 @@ def _hops(tree: FrameTree) -> Iterator[Hop]:
 
 
 def _numbers(values: list[float] | tuple[float, ...]) -> str:
-    # Rounding first and adding 0 prints what is nearly zero as 0, never as -0.
+    # Rounding first and adding 0 prints values near zero as 0, never as -0.
     return " ".join(f"{round(value, 4) + 0.0:g}" for value in values)
 
 

@@ -31,10 +31,10 @@ def part(fields: Fields, name: str) -> Fields | None:
 
 
 def parts(fields: Fields, name: str) -> Sequence[Fields]:
-    """Return the elements of a list of fields; an empty one when it is not there.
+    """Return the elements of a list of fields; an empty list if it is missing.
 
     Raises:
-        DecodeError: it is no such list.
+        DecodeError: the value is no such list.
     """
     value = fields.get(name) or ()
     is_list = isinstance(value, list | tuple)

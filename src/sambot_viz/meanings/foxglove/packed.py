@@ -33,11 +33,11 @@ _COLORS = ("red", "green", "blue")
 
 @dataclass(frozen=True, slots=True)
 class _Packed:
-    """Elements that lie one behind the other.
+    """Contiguous elements.
 
     Attributes:
         rows: (N, stride) uint8, a view of the message.
-        places: name of a field → where it begins in a row, and numpy's type.
+        places: name of a field → its offset in a row, and numpy's type.
     """
 
     rows: Bytes

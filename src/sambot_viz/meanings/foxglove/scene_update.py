@@ -144,7 +144,7 @@ def _by_index(fields: Fields) -> tuple[Sequence[Fields], Sequence[Fields]]:
     """Return points and colours in the order in which they are used.
 
     Raises:
-        DecodeError: there is no point of an index.
+        DecodeError: an index is out of range.
     """
     points, colors = parts(fields, "points"), parts(fields, "colors")
     indices = fields.get("indices")
