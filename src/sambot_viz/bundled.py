@@ -96,7 +96,7 @@ def config_names() -> list[str]:
 
 
 def is_bundled(config: str | None) -> bool:
-    """Return whether a config file is one that comes with the program."""
+    """Return whether a config file comes with the program."""
     return config is not None and _is_bundled(Path(config).absolute())
 
 
@@ -141,14 +141,14 @@ class Found(NamedTuple):
 
 
 def find(model: Path | None, config: Path | None = None) -> Found:
-    """Return the model and config files that are meant.
+    """Return the model and config files to show.
 
     Args:
         model: a file, a package folder, or None for the bundled robot.
         config: a .rviz file, or None for the one that belongs to the model.
 
     Raises:
-        UsageError: nothing there, or several models and none the obvious one.
+        UsageError: there is none, or there are several models and no obvious one.
     """
     # os.path answers for names that no file system takes; Path raises OSError.
     if config is not None and not os.path.isfile(config):
@@ -173,12 +173,12 @@ def _model_in(folder: Path) -> Path:
 
 
 def no_model_chosen(folder: Path, models: Sequence[Path], walk: ModelWalk) -> str:
-    """Say why no model of a folder is the one that is meant.
+    """Return why no model of a folder is chosen.
 
     Args:
-        folder: was searched.
-        models: those in it.
-        walk: has searched it.
+        folder: the folder.
+        models: the models in it.
+        walk: the search that found them.
     """
     if not models:
         endings = ", ".join(f"*{ending}" for ending in MODEL_ENDINGS)

@@ -24,7 +24,7 @@ Stamp = tuple[int, int, int]
 
 
 def stamp(path: Path) -> Stamp | None:
-    """Return facts that differ after a save; None when there is no file.
+    """Return facts that differ after a save; None if there is no file.
 
     Links are followed.
     """
@@ -174,7 +174,7 @@ def is_lfs_pointer(data: bytes) -> bool:
 
 RECORDING_ENDINGS = (".mcap", ".db3", ".bag")
 _MAGIC = (b"\x89MCAP0\r\n", b"SQLite format 3\0", b"#ROSBAG V")
-"""What a recording of ROS begins with: MCAP, sqlite3, ROS 1."""
+"""The first bytes of recordings: MCAP, sqlite3, ROS 1."""
 _WEB = ("http://", "https://")
 LIVE_SOURCES = (
     "foxglove://HOST:8765, rosbridge://HOST:9090, zenoh://HOST:7447 or dds:?domain=0"

@@ -1,7 +1,7 @@
 """Declare options: fields of a dataclass that are flags of the command line too.
 
 `options.py` has the list; the command line, the documents and the checks of values
-follow from what is declared with each field.
+follow from the declaration of each field.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 Group = Literal[
     "model", "check", "source", "pose", "view", "compare", "server", "listen"
 ]
-"""Options that the same commands take: all with a MODEL, those that check it, those
-that read recordings and live robots, those that pose the robot, those that draw it,
-those that draw another one beside it, and the one that serves a page."""
+"""Groups of options for the same commands: all with a MODEL, those that check it, read
+recordings and live robots, pose the robot, draw it, or draw another one beside it, and
+the one that serves a page."""
 AGAIN = "; may be given several times"
 
 SHORTEST_TOKEN = 8
@@ -46,18 +46,18 @@ class Flag:
             keyword argument.
         names: its flags, such as ``("-d", "--display-config")``; none for an option
             of the Python interface only.
-        group: which commands take it.
+        group: the group of commands that take it.
         word: its name as an argument of display.launch.py, for ``NAME:=VALUE``.
         metavar: the placeholder for its value in the help.
         default: the command line's default where it is not the keyword argument's.
-        choices: the only values there are.
+        choices: all valid values.
         type: makes the value from one word; None keeps the text.
         read: makes the value from all words of an option that may be repeated, and
             the flag's name.
-        optional_value: how a value may follow a flag that may stand without one, and
-            is "" then: as the next word, or after "=" only.
-        variable: of the environment, with the value for a command line without the
-            flag; for what other users must not read in the list of processes.
+        optional_value: for a flag with an optional value ("" by default), the place of
+            the value: the next word, or only after "=".
+        variable: environment variable with the value for a command line without the
+            flag; for secrets, which other users could read in the list of processes.
         switch: a bool; "yes-no" has the flags ``--name`` and ``--no-name``, "off" has
             one that makes it False.
     """
@@ -87,11 +87,11 @@ def option(
     """Make the field of an option.
 
     Args:
-        default: of the keyword argument.
+        default: default of the keyword argument.
         help: what the option does, without its default.
         names: its flags.
-        factory: makes the default, for one that can be changed.
-        flag_default: of the command line, where it differs.
+        factory: makes a mutable default.
+        flag_default: default of the command line, where it differs.
         rest: further attributes of `Flag`.
     """
     flag = Flag(help, names, default=flag_default, **rest)
@@ -110,7 +110,7 @@ def named_words(words: Sequence[str], flag: str) -> dict[str, str]:
     """Read the NAME=WORD values of a flag that may be repeated.
 
     Raises:
-        UsageError: one that is otherwise.
+        UsageError: a value has another form.
     """
     pairs = [word.partition("=") for word in words]
     for word, (name, equals, value) in zip(words, pairs, strict=True):
@@ -220,12 +220,12 @@ def check_token(token: str, flag: str = "--token") -> str:
     """Return the token that a user has chosen.
 
     Args:
-        token: what stands behind the flag.
-        flag: for messages.
+        token: the value of the flag.
+        flag: the flag, for messages.
 
     Raises:
-        UsageError: it is too short, would not survive in an address, or is a file:
-            the model that was to follow.
+        UsageError: it is too short, would not survive in an address, or is a file: then
+            it was probably meant as the model.
     """
     if os.path.exists(token):
         raise UsageError(

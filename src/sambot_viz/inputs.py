@@ -71,8 +71,8 @@ def load_config(path: Path | str) -> RvizConfig:
         path: the file.
 
     Returns:
-        The document; what is doubtful in it is in `.problems`, what we do not show
-        is kept for saving.
+        The document; warnings about it are in `.problems`, and unsupported parts are
+        kept for saving.
 
     Raises:
         ConfigError: the file cannot be read, or is not a .rviz document.
@@ -94,16 +94,15 @@ def bundled_config() -> RvizConfig:
 class Inputs:
     """The model and the config that `Options` name, opened.
 
-    Each file is read once. What is plainly wrong with one (no such file, not XML, not
-    a .rviz document) is raised here, before a server is started; `begin` loads the
-    robot in a thread.
+    Each file is read once. Obvious errors (no such file, not XML, not a .rviz document)
+    are raised here, before a server is started; `begin` loads the robot in a thread.
 
     Args:
-        options: what the user asked for.
-        may_be_broken: whether a model or a config with a mistake in it is shown as
-            such, until it is fixed, rather than refused.
-        listen: takes what a live robot says within so long [s] as a recording; None
-            follows it for good.
+        options: the user's options.
+        may_be_broken: whether a model or a config with a mistake is shown with its
+            problems, until it is fixed, rather than refused.
+        listen: time for which a live robot is recorded, to use the result as a
+            recording [s]; None follows it for good.
 
     Attributes:
         opened: when the files were opened [ns], as `time.time_ns` counts.
@@ -116,8 +115,7 @@ class Inputs:
 
     Raises:
         UsageError: a file does not exist, or the model is an object of a wrong type.
-        SourceError: a recording cannot be opened, or a live robot that is listened to
-            says nothing.
+        SourceError: a recording cannot be opened, or no message of a live robot came.
         RobotError: the model is not XML, or ROS would refuse a `yourdfpy.URDF`.
         ConfigError: the config is not a .rviz document.
     """
@@ -218,7 +216,7 @@ class Inputs:
         return self._robot.result()
 
     def refusal(self) -> RobotError | None:
-        """Say why there is no robot to show yet; None when there is one.
+        """Return why there is no robot to show yet; None if there is one.
 
         Raises:
             RobotError: the model cannot be shown, and may not be broken.
@@ -233,7 +231,7 @@ class Inputs:
         return None
 
     def problems(self) -> tuple[Problem, ...]:
-        """List what is wrong with the model, and with the config once it is a document.
+        """List the problems of the model, and of the config once it is a document.
 
         Raises:
             RobotError: as `refusal`.
@@ -248,7 +246,7 @@ class Inputs:
         )
 
     def problems_of_recording(self) -> tuple[Problem, ...]:
-        """List what is wrong with the recording."""
+        """List the problems of the recording."""
         if self.moved_by is None:
             return ()
         found = self.moved_by.problems
@@ -355,7 +353,7 @@ class Inputs:
         )
 
     def load_described(self, model: OpenedModel, packages: Path) -> Robot:
-        """Load a model that a live robot has described, with packages of its own.
+        """Load a model that a live robot has described, with its packages.
 
         Raises:
             RobotError: the model cannot be shown.
@@ -368,7 +366,7 @@ class Inputs:
     def document(self) -> RvizConfig:
         """Return the config as a document; to be called once.
 
-        The bundled one takes the place of one that is broken.
+        The bundled one replaces a broken one.
 
         Raises:
             ConfigError: the bundled config cannot be read.
@@ -397,10 +395,10 @@ class Inputs:
         return self._presets
 
     def _listen(self, live: SourceRobot, seconds: float) -> None:
-        """Take what a live robot says for a recording.
+        """Record a live robot, and use the result as a recording.
 
         Raises:
-            SourceError: it says nothing.
+            SourceError: no message has come.
         """
         from sambot_viz.listened import Listened
         from sambot_viz.topics.reasons import nothing_came

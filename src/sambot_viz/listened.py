@@ -1,4 +1,4 @@
-"""What a robot on the network says within some seconds, for commands that look once."""
+"""Record a robot on the network for some seconds, for commands that look once."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from sambot_viz.topics.live_files import fetch_files
 from sambot_viz.topics.source_robot import SourceRobot
 
 CONNECTED_WITHIN = LONGEST_SILENCE + 2.0
-"""A robot that has told no topics after this time is not there; by then it is known
-whether what is there speaks another protocol [s]."""
+"""Time without topics after which a robot counts as absent; by then it is known whether
+the peer uses another protocol [s]."""
 
 QUIET = 1.0
 """A robot that does not answer for so long is waited for with a note [s]."""
 
 
 class Listened:
-    """Listens to all topics of a live robot: what came is a recording like any other.
+    """Records all topics of a live robot: the result is a recording like any other.
 
     Args:
         live: the robot, not connected yet; its connection is closed afterwards.
-        seconds: how long to listen, from when its topics are known [s].
+        seconds: duration, from the time when its topics are known [s].
         at: the time to look at [s from the first message]; None takes all.
 
     Attributes:
-        topics: those that the source knows, by name.
-        recorded: what came; None when that was nothing.
-        packages: a folder with the files of the robot that its source hands out.
-        missing: what is wrong with these files.
-        lost: that the robot left before the time was over.
+        topics: name → topic of the source.
+        recorded: the recording; None if no message came.
+        packages: a folder with the files of the robot that its source serves.
+        missing: the problems of these files.
+        lost: a sentence if the robot left before the time was over.
         seconds: as given.
 
     Raises:
-        SourceError: there is no robot, or this computer cannot keep what it says.
+        SourceError: there is no robot, or this computer cannot store its messages.
     """
 
     def __init__(self, live: SourceRobot, seconds: float, at: float | None) -> None:

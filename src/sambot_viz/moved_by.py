@@ -134,7 +134,7 @@ def _recordings(given: Sequence[GivenSource]) -> Source:
     for (name, prefix), parts in groups.items():
         called = parts[0].label if len(parts) == 1 else f"{len(parts)} recordings"
         recording = open_recording([part.path for part in parts])
-        # What is large and has no index is looked through now: a second or two a GB.
+        # Large files without an index are read through now: a second or two for a GB.
         while not recording.index_more():
             pass
         opened.append(Beside(recording, name or called, prefix, given[0].remaps))

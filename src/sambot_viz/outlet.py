@@ -45,7 +45,7 @@ class Painted(NamedTuple):
 
 
 Line: TypeAlias = "str | Sequence[str | Painted]"
-"""What stands in one line; a line break in it is written as a blank."""
+"""Text for a single line; a line break in it is written as a blank."""
 
 
 def write_err(*written: Line) -> None:
@@ -62,7 +62,7 @@ def write_out(*written: Line) -> None:
 
 
 def write_json(value: Any) -> None:
-    """Write a value as JSON to standard output; what is invisible is escaped."""
+    """Write a value as JSON to standard output; escape invisible characters."""
     _write_raw(sys.stdout, f"{json_text(value)}\n")
 
 
@@ -156,11 +156,12 @@ _FORMAT = _Format()
 
 
 class _Guard:
-    """Stands for a stream of the process; what is written to it is cleaned.
+    """Replaces a stream of the process; text written to it is cleaned.
 
     Args:
-        stream: Python has none when the program was started with it closed.
-        may_leave: whether what nothing reads is dropped, in place of BrokenPipeError.
+        stream: the stream; None if the program was started with it closed.
+        may_leave: whether output without a reader is dropped, in place of
+            BrokenPipeError.
     """
 
     def __init__(self, stream: TextIO | None, may_leave: bool = False) -> None:
@@ -189,7 +190,7 @@ class _Guard:
             self.write(each)
 
     def write_raw(self, words: str) -> None:
-        """Write what is clean, as well as the encoding of the stream can."""
+        """Write cleaned text, as far as the encoding of the stream allows."""
         try:
             _write_encoded(self.stream, words)
         except BrokenPipeError:
@@ -198,7 +199,7 @@ class _Guard:
             _write_to_nowhere(self.stream)
 
     def flush(self) -> None:
-        """Write out what is buffered."""
+        """Flush the buffer."""
         try:
             self.stream.flush()
         except BrokenPipeError:
@@ -208,7 +209,7 @@ class _Guard:
 
 
 class _Log(logging.Handler):
-    """Writes records to standard error: a line, and the traceback behind a margin."""
+    """Writes records to standard error: a line, and an indented traceback."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a record."""

@@ -99,7 +99,7 @@ class ProblemGroup:
 
     @property
     def first(self) -> Problem:
-        """The problem whose place stands for all."""
+        """The problem whose place is shown for all."""
         return self.problems[0]
 
     def as_json(self) -> dict[str, object]:
@@ -216,8 +216,8 @@ def problem_in_words(problem: Problem, message: str | None = None) -> list[Line]
     """Write a problem as lines: the sentence with the fix, the excerpt with a mark.
 
     Args:
-        problem: what is wrong, and where.
-        message: what to say instead of its own message.
+        problem: the problem.
+        message: a sentence in place of its message.
     """
     lines: list[Line] = [_sentence(problem, message or problem.message)]
     for margin, excerpt in _excerpt(problem):
@@ -252,7 +252,7 @@ def write_problems(
     """Write problems, errors first.
 
     Args:
-        problems: what to write.
+        problems: the problems.
         write: `outlet.write_err` or `outlet.write_out`.
         most: after so many causes only the number of the other problems is written,
             and the command that prints them. None writes all, and the lines of all.

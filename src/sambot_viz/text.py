@@ -1,9 +1,9 @@
 """Clean every string that comes from outside and that a person reads.
 
-A name in a file may hold what a terminal obeys, what turns letters round, or what is
-not seen, so that one name looks like another. viser checks nothing either: one lone
-surrogate in a label breaks every browser that comes later. What goes to a terminal or a
-log passes `outlet`, which uses the same functions.
+A name in a file may contain control sequences for a terminal, marks that reverse the
+direction of letters, or invisible characters that make it look like another name. viser
+checks nothing either: one lone surrogate in a label breaks every browser that connects
+later. Output to a terminal or a log passes `outlet`, which uses the same functions.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _UNSEEN = (
     "\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e007f]"  # tags
     "|(?:(?<=[\x00-\x7f])|^)[\u200c\u200d\ufe00-\ufe0f\U000e0100-\U000e01ef]"
 )
-"""Joiners (U+200C and U+200D) and selectors of a letter's form are left behind a letter
-that is not ASCII: several scripts cannot be written without."""
+"""Joiners (U+200C and U+200D) and variation selectors are kept after a letter that is
+not ASCII: several scripts cannot be written without them."""
 _INVISIBLE = re.compile(_UNSEEN)
 _INVISIBLE_OF_LINES = re.compile(f"(?!\n)(?:{_UNSEEN})")
 
@@ -37,8 +37,8 @@ def text(value: object, limit: int = 400) -> str:
     """Return a string that any browser can show.
 
     Args:
-        value: anything; `str()` is taken of what is not a string.
-        limit: longest length [characters]; what is longer ends with "…".
+        value: any value; others than strings are converted with `str()`.
+        limit: maximum length [characters]; longer texts end with "…".
 
     Returns:
         One line of valid UTF-8 without control characters, direction marks and
@@ -67,10 +67,10 @@ def lines(value: object) -> str:
 
 
 def json_text(value: Any, *, ascii_only: bool = True, indent: int | None = 2) -> str:
-    """Return a value as JSON; what is invisible is escaped.
+    """Return a value as JSON; invisible characters are escaped.
 
     Args:
-        value: what to write.
+        value: the value.
         ascii_only: whether other letters are escaped, too.
         indent: of each level; None writes one line.
     """

@@ -113,11 +113,11 @@ class Visualizer(RobotControl):
         """Show files that are opened already.
 
         Args:
-            inputs: the model and the config, with their options. What is broken in
-                them, if they may be, is shown by its problem, and drawn as soon as
-                it is fixed.
-            listening: a server that listens already, so that the options' host
-                and port do not count; it is stopped with the visualizer.
+            inputs: the model and the config, with their options. If they may be
+                broken, their problems are shown, and the robot as soon as they are
+                fixed.
+            listening: a server that listens already, which replaces the options' host
+                and port; it is stopped with the visualizer.
 
         Raises:
             SambotVizError: as the constructor.
@@ -154,31 +154,30 @@ class Visualizer(RobotControl):
         """The viser server, to add your own nodes and widgets.
 
         Every node of viser is shown, and widgets in a panel "Script" over the view.
-        What a browser sends back is checked, and only this reaches your callbacks: the
-        value of a visible and enabled widget, if it has the type of the value before
-        (texts up to 1000 characters), buttons that are pressed, cameras, clicks and
-        rectangles in the 3D view, and pictures from ``get_render``. Not let through are
-        clicks on nodes, drags, transform controls, buttons that are held, keys of
-        commands, forms and uploads: their callbacks are never called, and a warning is
-        logged.
+        The messages of browsers are checked, and only these reach your callbacks: the
+        value of a visible and enabled widget, if it has the type of the last value
+        (texts up to 1000 characters), pressed buttons, cameras, clicks and rectangles
+        in the 3D view, and pictures from ``get_render``. Clicks on nodes, drags,
+        transform controls, held buttons, keys of commands, forms and uploads are
+        blocked: their callbacks are never called, and a warning is logged.
 
-        With private sessions, what is added here is shown to all browsers.
+        With private sessions, nodes and widgets added here are shown to all browsers.
         """
         return self._server.viser
 
     def open_recording(self, path: Path | str, *, source: str | None = None) -> None:
-        """Show another recording in place of the one that is shown.
+        """Replace the shown recording by another.
 
-        It is as if the program had begun with it: topics, frames, displays and player
-        are those of the new one, and so is the robot, unless a model was given. A
-        config that was given stays. Copies that browsers have made stay as they are.
+        It is as if the program had started with it: topics, frames, displays and player
+        are those of the new one, and so is the robot, unless a model was given. A given
+        config stays. Private copies of browsers are not changed.
 
         Args:
             path: an MCAP file, rosbag2's sqlite3 file, a ROS 1 bag, or a folder.
-            source: which one it replaces, by its name, where several are shown.
+            source: name of the recording to replace, where several are shown.
 
         Raises:
-            SourceError: it cannot be opened; what is shown stays.
+            SourceError: it cannot be opened; the shown one stays.
             UsageError: no recording is shown, or several without a `source`.
             ServerError: the visualizer was stopped.
         """

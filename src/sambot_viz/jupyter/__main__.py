@@ -1,7 +1,7 @@
 """The viewer behind the tile: ``python -m sambot_viz.jupyter FOLDER FLAG...``.
 
-It shows the model that the variable SAMBOT_VIZ_MODEL names, or else the one that is
-found in the folder, or else the bundled robot, and ends with the Jupyter server.
+It shows the model of the variable SAMBOT_VIZ_MODEL, or else the one in the folder, or
+else the bundled robot, and ends with the Jupyter server.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def main(words: Sequence[str]) -> int:
 def model_of(folder: Path, named: str) -> tuple[Path | None, list[Problem]]:
     """The model file or package folder to show; None for the bundled robot.
 
-    A reason why it is not the one that a user would expect is written to standard
+    If it is not the model that a user would expect, the reason is written to standard
     error, which is the log of the Jupyter server.
 
     Args:
@@ -55,7 +55,7 @@ def model_of(folder: Path, named: str) -> tuple[Path | None, list[Problem]]:
         named: a file or folder, also relative to that folder; "" for none.
 
     Returns:
-        The model, and what the page says when the one that was named is missing.
+        The model, and a sentence for the page if the named one is missing.
     """
     model = folder / Path(named).expanduser() if named else folder
     try:

@@ -1,4 +1,4 @@
-"""A visualizer in a notebook: how the browser reaches its page, and when it is stopped.
+"""A visualizer in a notebook: its address for the browser, and its end.
 
 The browser that shows a notebook is often not on the machine of its kernel. Where the
 Jupyter server has jupyter-server-proxy, the page is shown through it, below the address
@@ -8,8 +8,8 @@ let in: so no token is in the cell, and none in a notebook that is saved. Withou
 proxy the frame shows the port of this machine, and without a token, unless the user
 gave one: browsers send no cookie to a frame of another site.
 
-What a cell shows is kept in the notebook: a picture of the robot, and in front of it a
-frame (`frame.html`) that shows the page as long as its program runs.
+The output of a cell is kept in the notebook: a picture of the robot, and in front of it
+a frame (`frame.html`) that shows the page as long as its program runs.
 
 What stays weak: jupyter-server-proxy sends the cookies of Jupyter to whatever listens
 on a port. Another user of the machine could listen there when a viewer has ended and
@@ -51,7 +51,7 @@ _WITHOUT_PROXY = (
 
 
 class Stoppable(Protocol):
-    """What a cell has made."""
+    """The viewer of a cell."""
 
     def stop(self) -> None:
         """End it; a second call does nothing."""
@@ -100,9 +100,9 @@ class Notebook:
 
         Args:
             url: the address of the page on this machine.
-            height: of the page [CSS pixels].
-            panels: whether there are panels round the view.
-            picture: a PNG file, to be seen when the page is not there any more.
+            height: height of the page [CSS pixels].
+            panels: whether there are panels around the view.
+            picture: a PNG file, shown when the page no longer exists.
         """
         if self.proxy is None and self.in_hub:
             return f"<p>{html.escape(_WITHOUT_PROXY)}</p>"
@@ -157,7 +157,7 @@ def stop_former(notebook: Notebook) -> None:
 
 
 def remember(notebook: Notebook, made: Stoppable) -> None:
-    """Keep what a cell has made, until it runs again."""
+    """Keep the viewer of a cell until the cell runs again."""
     if notebook.cell:
         _made.setdefault(notebook.cell, (notebook.run, []))[1].append(made)
 
@@ -187,10 +187,10 @@ def _frame() -> str:
 
 
 def _server_of(shell: Any) -> dict[str, Any] | None:
-    """What the Jupyter server that started this kernel has written about itself.
+    """Return the data that the Jupyter server of this kernel has written about itself.
 
-    It is beside the file by which the kernel is connected; None when it is not there,
-    as for a kernel on another machine, or one that no Jupyter server has started.
+    They are beside the connection file of the kernel; None if they are not there, as
+    for a kernel on another machine, or one that no Jupyter server has started.
     """
     connection = shell.config.get("IPKernelApp", {}).get("connection_file", "")
     number = os.environ.get("JPY_PARENT_PID", "")

@@ -66,7 +66,7 @@ class MeshCache:
         return None if entry is None else entry.content
 
     def read(self, asset: Asset) -> Content:
-        """Return what is in a file; it is read unless that is known."""
+        """Return the content of a file, from the cache or by reading it."""
         # Two threads that want the same file wait for one reading; other files
         # are read at the same time.
         with self._guard:

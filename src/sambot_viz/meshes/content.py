@@ -1,4 +1,4 @@
-"""Say what a file is that cannot be read as the mesh that its name announces."""
+"""Find out the real content of a file that cannot be read as a mesh by its ending."""
 
 from __future__ import annotations
 
@@ -62,14 +62,14 @@ _SAME = ({".glb", ".gltf"}, {".stl", ".stlb"})
 
 
 def other_content(path: Path, data: bytes) -> tuple[str, str] | None:
-    """Return what a file is instead of what its ending says, and what to do.
+    """Return the real format of a file with a wrong ending, and the remedy.
 
     Args:
         path: the file.
-        data: its bytes; its reader has refused them.
+        data: its bytes, which its reader has refused.
 
     Returns:
-        A sentence and a hint; None when it may be what its ending says, but broken.
+        A sentence and a hint; None if the ending may be right and the file broken.
     """
     ending = path.suffix.lower()
     kind = _kind(data)

@@ -118,7 +118,7 @@ def mesh_error(path: Path, code: str, message: str, hint: str = "") -> MeshError
 
 
 _FARTHEST = 1e30
-"""Corners are stored in 32 bits; what is farther away [m] would be infinite."""
+"""The largest coordinate [m]: corners are stored in 32 bits, where more is infinite."""
 
 
 _scaled: weakref.WeakKeyDictionary[MeshPart, dict[Vector3, MeshPart]] = (

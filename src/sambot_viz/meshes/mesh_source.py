@@ -15,10 +15,10 @@ from sambot_viz.meshes.textures import TextureError, TextureStore
 
 
 class MeshBudget:
-    """Counts what a file unfolds to: a few lines can name a shape a million times.
+    """Counts the expanded shapes of a file: a few lines can name one a million times.
 
     Attributes:
-        cut_short: there were more polygons to cut than is reasonable.
+        cut_short: whether the file had more polygons to cut than the limit.
     """
 
     def __init__(self, path: Path) -> None:
@@ -81,8 +81,8 @@ class MeshSource:
 
     Attributes:
         files: finds and reads the files it names.
-        budget: what may still be taken from it.
-        findings: what is doubtful in it.
+        budget: the rest of the allowed shapes.
+        findings: the warnings about it.
     """
 
     def __init__(

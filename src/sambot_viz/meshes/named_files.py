@@ -49,18 +49,18 @@ class NamedFiles:
     def find(self, name: str) -> Path:
         """Return the file that a name in the mesh file means.
 
-        Looked for relative to the mesh, with the letter case as it comes, and by its
-        last part beside the mesh, in `textures` and in `../materials/textures`:
-        exporters write paths of the machine they ran on. `model://` and `package://`
-        name a folder that is above the mesh, or beside one that is.
+        It is searched relative to the mesh, in any letter case, and by its last part
+        beside the mesh, in `textures` and in `../materials/textures`: exporters write
+        paths of the machine they ran on. `model://` and `package://` name a folder
+        above the mesh, or one beside such a folder.
 
         Args:
             name: as written in the mesh; may be a URI, percent-encoded, or a Windows
                 path.
 
         Raises:
-            NamedFileError: there is no such file, or it is outside the folders. What
-                is outside is not looked at, so the text is the same for every name.
+            NamedFileError: there is no such file, or it is outside the folders. Nothing
+                outside is read, so the text is the same for every name.
         """
         outside = False
         for path, meant in self._candidates(name):

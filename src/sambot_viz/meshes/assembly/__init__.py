@@ -1,1 +1,1 @@
-"""From what a mesh file says to triangles that can be drawn."""
+"""From the content of a mesh file to triangles that can be drawn."""

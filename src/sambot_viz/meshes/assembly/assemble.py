@@ -1,7 +1,7 @@
-"""From what a file says to what is drawn: cleaned, merged by look, vertices shared.
+"""Assemble a drawable mesh: clean it, merge parts by look, share vertices.
 
-Every reader ends in `assemble`. It is the one place that keeps nonsense away from
-the browser: values that are not finite, indices that point nowhere, empty meshes.
+Every reader ends in `assemble`. It is the one place that keeps invalid data away from
+the browser: values that are not finite, indices out of range, empty meshes.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def assemble(pieces: Iterable[Submesh], source: MeshSource) -> Mesh:
     """Return the mesh that the pieces make.
 
     Raises:
-        MeshError: there is no triangle in it that could be drawn.
+        MeshError: it has no triangle that could be drawn.
     """
     groups: dict[object, list[Submesh]] = {}
     for piece in pieces:

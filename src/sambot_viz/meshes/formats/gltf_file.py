@@ -1,8 +1,8 @@
 """A glTF file: its JSON, the bytes that it names, colours and textures as in RViz.
 
-Bytes are in its own chunk, in data URIs and in files beside it. The JSON is followed as
-it is; one that says something impossible raises whatever Python raises, which
-`read_gltf` puts into a sentence.
+Bytes are in its own chunk, in data URIs and in files beside it. The JSON is not
+checked; an invalid one raises any exception of Python, which `read_gltf` turns into a
+sentence.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class GltfFile:
         self._compare_sizes()
 
     def __getitem__(self, uri: str) -> bytes:
-        """Return the bytes behind a URI; trimesh asks for buffers so."""
+        """Return the bytes of a URI; trimesh requests its buffers this way."""
         if uri not in self._known:
             self._known[uri] = self._load(uri)
         return self._known[uri]

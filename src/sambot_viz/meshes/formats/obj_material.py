@@ -64,7 +64,7 @@ def _read_library(data: bytes, source: MeshSource) -> dict[str, MeshMaterial]:
 
 
 def _set_numbers(material: _Material, keyword: str, rest: str) -> None:
-    """Take one line of numbers; what is not made of numbers is ignored."""
+    """Read a line of numbers; ignore a line with other words."""
     try:
         numbers = [min(1.0, max(0.0, float(word))) for word in rest.split()]
     except ValueError:
@@ -84,7 +84,7 @@ def _set_numbers(material: _Material, keyword: str, rest: str) -> None:
 
 
 def _map_name(rest: str) -> str:
-    """Return the file name behind options such as "-s 1 1 1 -bm 0.5"."""
+    """Return the file name after options such as "-s 1 1 1 -bm 0.5"."""
     words = rest.split(" ")
     while len(words) > 1 and words[0].startswith("-"):
         option = words.pop(0)

@@ -18,17 +18,16 @@ class TrimeshError(ValueError):
 
 
 def call_trimesh(module: str, function: str, *args: Any, **kwargs: Any) -> Any:
-    """Return what a function of `trimesh.exchange` reads: arrays by name.
+    """Return the result of a function of `trimesh.exchange`: arrays by name.
 
     Args:
         module: the part of `trimesh.exchange`, such as "stl".
         function: its function.
-        *args: what the function is given.
+        *args: its arguments.
         **kwargs: its options.
 
     Raises:
-        TrimeshError: the function raised something; it may be anything that its
-            parsing meets.
+        TrimeshError: the function raised an exception, of whatever kind.
     """
     import trimesh
 
