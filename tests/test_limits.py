@@ -59,6 +59,7 @@ NO_LIMITS = {
         export/recorded_scene.py LONGEST_READ
         export/view_picture.py LONGEST_WAIT
         files.py _LONGEST_SAVE
+        options.py LONGEST_SLOT
         robot/fork_server.py _LONGEST_END
         joints/animation.py LONGEST
         publishing/dead_mans_switch.py LONGEST_STOP
@@ -89,6 +90,8 @@ NO_LIMITS = {
         displays/scene/lines.py MOST_PIECES
         frames/frame_tree.py _SEEN_LIMIT
         frames/samples.py MOST_GROUPS
+        checks/around/xacro_arguments.py _MOST
+        lab/robots.py _LONGEST
         messages/definition_text.py _LONGEST_WITHOUT_COMMENTS
         messages/flat_types.py _MOST_LEAVES
         messages/kept_elements.py MOST_BYTES _WIDEST
